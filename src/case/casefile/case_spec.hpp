@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "casefile/colour.hpp"
 #include "casefile/output_spec.hpp"
 #include "casefile/parts.hpp"
 #include "casefile/quantity.hpp"

@@ -9,10 +9,6 @@ namespace edmill::casefile {
 
 namespace {
 
-void require_least(Section& s, const Quantity& speed) {
-  s.require(!speed.negative(), "least_separation", "a speed of 0 or more");
-}
-
 /// What a section gives of a law, over what it inherits.
 void read_law(Section& s, LawTable& given) {
   LawTable::keys(given, KeyReader(s, KeyReader::Absent::kept));
@@ -169,7 +165,7 @@ void check(Section contact, const ContactSpec& law, const CaseSpec& spec) {
     contact.require(in_range(value, p.range), p.key, expected(p));
   });
   if (std::holds_alternative<model::PowderLoad<Quantity>>(law.law)) require_diameters(contact, spec);
-  require_least(contact, law.least_separation);
+  contact.require(!law.least_separation.negative(), "least_separation", "a speed of 0 or more");
 }
 
 void read_contact(Section& contact, CaseSpec& spec) {

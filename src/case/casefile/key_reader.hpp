@@ -58,10 +58,8 @@ struct Entries : std::vector<Section> {
 };
 
 /// A new entry of a list of tables.
-template <Keyed T>
-const T& entry_of(const Entries<T>& entries) {
-  return entries.like;
-}
+const auto& entry_of(const auto& list) requires requires { list.like; }
+{ return list.like; }
 template <Keyed T>
 T entry_of(const std::vector<T>&) {
   return {};
@@ -90,8 +88,7 @@ class KeyReader {
     value.emplace(section_.section(p.key));
   }
   void operator()(const Parameter& p, std::optional<std::vector<std::string>>& values) {
-    auto found = section_.settings(p.key);
-    if (section_.has(p.key)) values = std::move(found);
+    if (section_.has(p.key)) values = section_.settings(p.key);
   }
   void operator()(const Parameter& p, std::vector<std::string>& values) { values = section_.settings(p.key); }
   void operator()(const Parameter& p, Colour& value);

@@ -15,12 +15,6 @@ namespace {
 using model::impact_variables;
 using model::VariableKind;
 
-std::string names_of(const std::vector<Statistic>& list) {
-  std::vector<std::string> names;
-  for (const auto s : list) names.push_back(statistic_name(s));
-  return listed(names);
-}
-
 /// What the keys of every entry must be together.
 void check_common(Section& s, const CaseSpec& spec, const OutputSpec& output) {
   const auto& timer = output.timer;
@@ -57,15 +51,17 @@ std::optional<int> ball_variable_of(Section& s, const std::string& name) {
 
 std::vector<Statistic> statistics_of(Section& s, const ColumnTable& given,
                                      const std::vector<Statistic>& allowed) {
+  std::vector<std::string> names;
+  for (const auto a : allowed) names.push_back(statistic_name(a));
+  const auto expected = "an array of " + listed(names);
+  if (!given.wanted) s.problem("statistics", "nothing", expected);
   std::vector<Statistic> list;
-  if (!given.statistics) s.problem("statistics", "nothing", "an array of " + names_of(allowed));
-  for (const auto& name : given.statistics.value_or(std::vector<std::string>{})) {
-    const auto found = std::find_if(allowed.begin(), allowed.end(),
-                                    [&](Statistic known) { return statistic_name(known) == name; });
-    if (found != allowed.end())
-      list.push_back(*found);
+  for (const auto& name : given.wanted.value_or(std::vector<std::string>{})) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found != names.end())
+      list.push_back(allowed[static_cast<std::size_t>(found - names.begin())]);
     else
-      s.problem("statistics", "\"" + name + "\"", "an array of " + names_of(allowed));
+      s.problem("statistics", "\"" + name + "\"", expected);
   }
   return list;
 }
@@ -73,13 +69,10 @@ std::vector<Statistic> statistics_of(Section& s, const ColumnTable& given,
 }  // namespace
 
 Dimension dimension_of(std::string_view unit) {
-  if (unit == "s") return Dimension::time;
-  if (unit == "m") return Dimension::length;
-  if (unit == "m/s") return Dimension::speed;
-  if (unit == "rad") return Dimension::angle;
-  if (unit == "rad/s") return Dimension::angular_speed;
-  if (unit == "J") return Dimension::energy;
-  return Dimension::none;
+  using enum Dimension;
+  for (const auto dimension : {time, length, speed, angle, angular_speed, energy})
+    if (si_unit(dimension) == " " + std::string(unit)) return dimension;
+  return none;
 }
 
 std::optional<Restriction> Restriction::read(Section& only, const std::string& key) {
@@ -88,10 +81,10 @@ std::optional<Restriction> Restriction::read(Section& only, const std::string& k
     return Restriction{*found, only.flag(key) ? 1u : 0u};
   if (found && impact_variables[*found].kind == VariableKind::count)
     return Restriction{*found, only.count(key).value_or(0)};
-  std::string names;
+  std::vector<std::string> names;
   for (const auto& v : impact_variables)
-    if (v.kind != VariableKind::number) names += (names.empty() ? "" : ", ") + std::string(v.name);
-  only.problem(key, "a restriction on '" + key + "'", "one of " + names);
+    if (v.kind != VariableKind::number) names.emplace_back(v.name);
+  only.problem(key, "a restriction on '" + key + "'", "one of " + listed(names));
   return std::nullopt;
 }
 
@@ -124,16 +117,12 @@ void ColumnReader::read_from(Section& output, const char* key) {
     ColumnTable given = like;
     read_keys(entry, given);
     const auto variable =
-        rules.of_balls ? ball_variable_of(entry, given.variable) : variable_of(entry, given.variable, rules);
-    const bool flag = !rules.of_balls && ColumnTable::is_flag(given.variable);
+        rules.of_balls ? ball_variable_of(entry, given.name) : variable_of(entry, given.name, rules);
+    given.variable = variable.value_or(0);
+    const bool flag = !rules.of_balls && ColumnTable::is_flag(given.name);
     const auto& allowed = flag ? rules.of_flags : rules.of_numbers;
-    columns.push_back(
-        {.variable = variable.value_or(0),
-         .statistics = allowed.empty() ? std::vector<Statistic>{} : statistics_of(entry, given, allowed),
-         .label = given.label.value_or(""),
-         .true_text = given.true_text,
-         .false_text = given.false_text,
-         .with_ball = given.with_ball});
+    if (!allowed.empty()) given.statistics = statistics_of(entry, given, allowed);
+    columns.push_back(given);
     entry.reject_unknown_keys();
   }
   if (!output.has(key)) output.problem(key, "nothing", "an array of tables with `variable`");

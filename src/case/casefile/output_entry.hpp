@@ -9,30 +9,33 @@
 
 namespace edmill::casefile {
 
+/// The variables that a type of output has in its columns.
+struct ColumnRules {
+  bool of_balls = false, flags = false, counts = false, numbers = false;
+  std::vector<Statistic> of_flags{}, of_numbers{};  ///< none: the type shows single values
+};
+
 /// An entry of `columns`. Which keys it has depends on the type of output.
-struct ColumnTable {
-  bool has_statistics = true, has_texts = true, has_ball = true;
-  std::string variable;
-  std::optional<std::vector<std::string>> statistics;
-  std::optional<std::string> label;
-  std::string true_text, false_text;  ///< for flags
-  bool with_ball = false;
+struct ColumnTable : ColumnSpec {
+  ColumnRules rules;
+  std::string name;
+  std::optional<std::vector<std::string>> wanted;  ///< statistics
 
   static constexpr const char* what = "A list of tables, one for each column.";
   static void keys(auto& c, auto&& row) {
-    using enum Dimension;
+    const bool single = c.rules.of_numbers.empty();
     row(Parameter{"variable", "a variable; of `trends_balls` a quantity of a ball"}.as("name").usually(
             "required"),
-        c.variable);
-    if (c.has_statistics)
+        c.name);
+    if (!single)
       row(Parameter{"statistics",
                     "`sum`, `average`, `minimum`, `maximum`, `rate` (per second), `percentage` (of the "
                     "total's sum); of flags `sum`, `rate` and `percentage`. Not of `trends_instant`"}
               .as("list of names")
               .usually("required"),
-          c.statistics);
+          c.wanted);
     row(Parameter{"label", "in the table's header"}.usually("the variable's name"), c.label);
-    if (c.has_texts && (c.variable.empty() || is_flag(c.variable))) {
+    if (single && (c.name.empty() || is_flag(c.name))) {
       row(Parameter{"true_text", "for a flag that is true", Range::any, "1"}.usually("`\"1\"`").only_of(
               "trends_instant"),
           c.true_text);
@@ -40,7 +43,7 @@ struct ColumnTable {
               "trends_instant"),
           c.false_text);
     }
-    if (c.has_ball)
+    if (c.rules.of_balls)
       row(Parameter{"with_ball", "also which ball has the minimum or maximum", Range::any, "false"}.only_of(
               "trends_balls"),
           c.with_ball);
@@ -48,17 +51,11 @@ struct ColumnTable {
   static bool is_flag(const std::string& variable);
 };
 
-/// The variables that a type of output has in its columns.
-struct ColumnRules {
-  bool of_balls = false, flags = false, counts = false, numbers = false;
-  std::vector<Statistic> of_flags{}, of_numbers{};  ///< none: the type shows single values
-};
-
 /// `columns`, as a type of output has them.
 struct ColumnReader {
   ColumnRules rules;
   std::vector<ColumnSpec>& columns;
-  ColumnTable like{!rules.of_numbers.empty(), rules.of_numbers.empty(), rules.of_balls, {}, {}, {}, {}, {}};
+  ColumnTable like{{}, rules, {}, {}};
 
   void read_from(Section& output, const char* key);
 };

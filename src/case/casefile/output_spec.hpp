@@ -9,7 +9,6 @@
 #include <string_view>
 #include <vector>
 
-#include "casefile/colour.hpp"
 #include "casefile/quantity.hpp"
 #include "model/parts/parameter.hpp"
 
@@ -17,6 +16,9 @@ namespace edmill::casefile {
 
 using model::Parameter;
 using model::Range;
+
+/// Of what pictures show: red, green and blue from 0 to 1. (thesis D.3.3)
+using Colour = std::array<double, 3>;
 
 /// When an output records. (thesis D.3.2) Of two starts the first counts, and of two ends.
 struct TimerSpec {

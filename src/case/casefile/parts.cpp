@@ -340,13 +340,14 @@ Variant read_part(Section& given, const char* key) {
 
 std::string described(const auto& part) {
   std::string text;
-  for_each_parameter(part, [&](const model::Parameter& p, const std::vector<Quantity>& values) {
+  const auto add = [&](const Parameter& p, const auto& value) {
     if (!p.key) return;
     const bool drive = p.range == Range::drive;
     text += fmt::format("{}{}", text.empty() ? ": " : ", ", drive ? "period" : p.key);
-    for (const auto& value : values) text += fmt::format(" {:g}", value.to<double>());
+    model::for_each_number(value, [&](const Quantity& q) { text += fmt::format(" {:g}", q.to<double>()); });
     text += drive ? " s" : si_unit(p.dimension);
-  });
+  };
+  std::visit([&](const auto& p) { p.parameters(p, add); }, part);
   return name_of(part) + text;
 }
 

@@ -47,24 +47,15 @@ inline const Quantity& period_of(const MotionSpec& motion) {
       motion);
 }
 
-/// Calls visit(parameter, values) for each, with one value or three.
-template <class... Part>
-void for_each_parameter(const std::variant<Part...>& part, const auto& visit) {
-  const auto call = [&](const model::Parameter& p, const auto& value) {
-    std::vector<Quantity> values;
-    model::for_each_number(value, [&](const Quantity& number) { values.push_back(number); });
-    visit(p, values);
-  };
-  std::visit([&](const auto& p) { p.parameters(p, call); }, part);
-}
-
 /// Type and parameters, exact: "cylinder 19/500 57/1000".
 template <class... Part>
 std::string text_of(const std::variant<Part...>& part) {
   std::string text = name_of(part);
-  for_each_parameter(part, [&](const model::Parameter&, const std::vector<Quantity>& values) {
-    for (const auto& value : values) text += " " + value.text();
-  });
+  const auto add = [&](const Quantity& number) { text += " " + number.text(); };
+  const auto add_all = [&](const model::Parameter&, const auto& value) {
+    model::for_each_number(value, add);
+  };
+  std::visit([&](const auto& p) { p.parameters(p, add_all); }, part);
   return text;
 }
 

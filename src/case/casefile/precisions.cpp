@@ -1,5 +1,7 @@
 #include "casefile/precisions.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "base/scalar.hpp"
@@ -19,10 +21,8 @@ const std::vector<std::string>& precisions() {
 }
 
 std::string choices_of_precision() {
-  std::string list = "one of ";
-  for (const auto& name : precisions()) list += "\"" + name + "\", ";
-  return list + "\"mpfr:DIGITS\" with " + std::to_string(fewest_digits) + " to " +
-         std::to_string(most_digits) + " digits";
+  return fmt::format("one of \"{}\", \"mpfr:DIGITS\" with {} to {} digits", fmt::join(precisions(), "\", \""),
+                     fewest_digits, most_digits);
 }
 
 bool is_precision(const std::string& name) {

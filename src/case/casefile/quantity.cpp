@@ -1,5 +1,7 @@
 #include "casefile/quantity.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -19,6 +21,10 @@ struct Unit {
   Dimension dimension;
   std::vector<std::string_view> spellings;
   Quantity factor;
+
+  bool has(std::string_view spelling) const {
+    return std::find(spellings.begin(), spellings.end(), spelling) != spellings.end();
+  }
 };
 
 Quantity pi_by(int divisor) { return quantity_of({1, divisor}, 1); }
@@ -93,9 +99,7 @@ std::string plain_unit(std::string_view text) {
 
 const Unit* find_unit(std::string_view spelling, Dimension dimension) {
   for (const auto& unit : units())
-    if (unit.dimension == dimension)
-      for (const auto& s : unit.spellings)
-        if (s == spelling) return &unit;
+    if (unit.dimension == dimension && unit.has(spelling)) return &unit;
   return nullptr;
 }
 
@@ -127,31 +131,30 @@ cpp_int pi_in_bits(int bits) {
   return bits <= most ? cpp_int(common >> (most + spare - bits)) : cpp_int(computed(bits) >> spare);
 }
 
+bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
 /// Length of the decimal number that `text` begins with; an exponent needs digits ("1e3 m", but not "1 eV").
 std::size_t number_length(std::string_view text) {
-  std::size_t at = 0;
-  const auto digits = [&] {
-    const auto begin = at;
-    while (at < text.size() && std::isdigit(static_cast<unsigned char>(text[at]))) ++at;
-    return at - begin;
+  const auto is_one_of = [&](std::string_view any, std::size_t at) {
+    return at < text.size() && any.find(text[at]) != any.npos;
   };
-  if (at < text.size() && (text[at] == '+' || text[at] == '-')) ++at;
-  std::size_t found = digits();
-  if (at < text.size() && text[at] == '.') {
-    ++at;
-    found += digits();
+  const auto after_sign = [&](std::size_t at) { return is_one_of("+-", at) ? at + 1 : at; };
+  const auto after_digits = [&](std::size_t at) {
+    return std::min(text.find_first_not_of("0123456789", at), text.size());
+  };
+  const auto begin = after_sign(0), whole = after_digits(begin);
+  auto end = whole, digits = whole - begin;
+  if (is_one_of(".", end)) {
+    end = after_digits(whole + 1);
+    digits = end - begin - 1;
   }
-  if (found == 0) return 0;
-  const auto mantissa_end = at;
-  if (at < text.size() && (text[at] == 'e' || text[at] == 'E')) {
-    ++at;
-    if (at < text.size() && (text[at] == '+' || text[at] == '-')) ++at;
-    if (digits() == 0) at = mantissa_end;
+  if (digits == 0) return 0;
+  if (is_one_of("eE", end)) {
+    const auto exponent = after_sign(end + 1), last = after_digits(exponent);
+    if (last > exponent) end = last;
   }
-  return at;
+  return end;
 }
-
-bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
 bool of_physical_size(const Quantity& quantity, SizeLimit limit) {
   if (limit == SizeLimit::none) return true;
@@ -160,42 +163,15 @@ bool of_physical_size(const Quantity& quantity, SizeLimit limit) {
   return size == 0 || (size <= largest && size * largest >= 1);
 }
 
-QuantityResult parse(std::string_view text, Dimension dimension, bool unit_needed, SizeLimit limit) {
-  const std::string quoted = "\"" + std::string(text) + "\"";
-  const std::string beyond = " (its size is beyond 1e-30 to 1e30 in SI units)";
-  const std::string_view body = trimmed(text);
-  if (has_comma(body))
-    return QuantityProblem{quoted +
-                           " (a comma in a number: a decimal point is expected, and no mark of thousands)"};
-  const auto length = number_length(body);
-  const auto number = parse_decimal(body.substr(0, length));
-  if (length == 0 || !number) return QuantityProblem{quoted + " (not a finite decimal number)"};
-  const std::string unit = plain_unit(trimmed(body.substr(length)));
-  if (unit.empty()) {
-    if (unit_needed && dimension != Dimension::none) return QuantityProblem{quoted + " (no unit)"};
-    if (!of_physical_size(*number, limit)) return QuantityProblem{quoted + beyond};
-    return *number;
-  }
-  if (const Unit* known = find_unit(unit, dimension)) {
-    const Quantity quantity = *number * known->factor;
-    if (!of_physical_size(quantity, limit)) return QuantityProblem{quoted + beyond};
-    return quantity;
-  }
-  for (const auto& other : units())
-    for (const auto& spelling : other.spellings)
-      if (spelling == unit) return QuantityProblem{quoted + " (" + name(other.dimension) + ")"};
-  return QuantityProblem{quoted + " (unknown unit '" + std::string(trimmed(body.substr(length))) + "')"};
-}
-
 }  // namespace
 
 std::string describe(Dimension dimension) {
   std::string text = name(dimension);
   if (dimension == Dimension::none) return text;
-  std::string list;
+  std::vector<std::string_view> list;
   for (const auto& unit : units())
-    if (unit.dimension == dimension) list += (list.empty() ? "" : ", ") + std::string(unit.spellings.front());
-  return text + " (" + list + ")";
+    if (unit.dimension == dimension) list.push_back(unit.spellings.front());
+  return fmt::format("{} ({})", text, fmt::join(list, ", "));
 }
 
 std::string noun(Dimension dimension) {
@@ -259,26 +235,15 @@ bool has_comma(std::string_view text) {
 
 std::optional<Quantity> parse_decimal(std::string_view text) {
   if (text.empty() || number_length(text) != text.size()) return std::nullopt;
-  bool negative = false;
+  const auto end = std::min(text.find_first_of("eE"), text.size());
+  const std::string last(text.substr(std::min(end + 1, text.size())));
+  if (last.size() > 6) return std::nullopt;
+  long exponent = last.empty() ? 0 : std::stol(last);
+  const auto mantissa_text = text.substr(0, end);
+  if (const auto point = mantissa_text.find('.'); point != mantissa_text.npos)
+    exponent -= static_cast<long>(end - point - 1);
   std::string digits;
-  long exponent = 0;
-  bool after_point = false;
-  for (std::size_t at = 0; at < text.size(); ++at) {
-    const char c = text[at];
-    if (c == '-')
-      negative = true;
-    else if (c == '.')
-      after_point = true;
-    else if (c == 'e' || c == 'E') {
-      const std::string_view rest = text.substr(at + 1);
-      if (rest.size() > 6) return std::nullopt;
-      exponent += std::stol(std::string(rest));
-      break;
-    } else if (c != '+') {
-      digits += c;
-      if (after_point) --exponent;
-    }
-  }
+  std::copy_if(mantissa_text.begin(), mantissa_text.end(), std::back_inserter(digits), is_digit);
   // Beyond any physical size, and a guard against numbers that would fill the memory.
   if (digits.size() > 400 || exponent > 400 || exponent < -800) return std::nullopt;
   const auto first = digits.find_first_not_of('0');
@@ -286,7 +251,7 @@ std::optional<Quantity> parse_decimal(std::string_view text) {
   const cpp_int power =
       boost::multiprecision::pow(cpp_int(10), static_cast<unsigned>(exponent < 0 ? -exponent : exponent));
   const Quantity value = quantity_of(exponent < 0 ? Rational(mantissa, power) : Rational(mantissa * power));
-  return negative ? -value : value;
+  return text.front() == '-' ? -value : value;
 }
 
 std::optional<std::pair<double, std::string>> split_number(const std::string& text) {
@@ -296,12 +261,28 @@ std::optional<std::pair<double, std::string>> split_number(const std::string& te
   return std::pair{number->to<double>(), text.substr(end)};
 }
 
-QuantityResult parse_quantity(std::string_view text, Dimension dimension, SizeLimit limit) {
-  return parse(text, dimension, true, limit);
-}
-
-QuantityResult parse_quantity_or_si(std::string_view text, Dimension dimension, SizeLimit limit) {
-  return parse(text, dimension, false, limit);
+QuantityResult parse_quantity(std::string_view text, Dimension dimension, SizeLimit limit, Plain plain) {
+  const auto problem = [&](const std::string& what) {
+    return QuantityProblem{fmt::format("\"{}\" ({})", text, what)};
+  };
+  const std::string_view body = trimmed(text);
+  if (has_comma(body))
+    return problem("a comma in a number: a decimal point is expected, and no mark of thousands");
+  const auto length = number_length(body);
+  const auto number = parse_decimal(body.substr(0, length));
+  if (!number) return problem("not a finite decimal number");
+  const auto given = trimmed(body.substr(length));
+  const std::string unit = plain_unit(given);
+  const Unit* known = find_unit(unit, dimension);
+  if (!known && !unit.empty()) {
+    for (const auto& other : units())
+      if (other.has(unit)) return problem(name(other.dimension));
+    return problem(fmt::format("unknown unit '{}'", given));
+  }
+  if (!known && plain == Plain::refused && dimension != Dimension::none) return problem("no unit");
+  const Quantity quantity = known ? *number * known->factor : *number;
+  if (!of_physical_size(quantity, limit)) return problem("its size is beyond 1e-30 to 1e30 in SI units");
+  return quantity;
 }
 
 }  // namespace edmill::casefile

@@ -80,14 +80,12 @@ using QuantityResult = std::variant<Quantity, QuantityProblem>;
 /// in double.
 enum class SizeLimit { physical, none };
 
-/// Number and unit, e.g. "1054 rpm", "8 g/cm^3", "-9.8 m/s²". A unit is needed unless the dimension is
-/// `none`.
-QuantityResult parse_quantity(std::string_view text, Dimension dimension,
-                              SizeLimit limit = SizeLimit::physical);
+/// What a number without a unit is, where the dimension has one.
+enum class Plain { refused, is_si };
 
-/// Reads a quantity where a plain number is taken as SI.
-QuantityResult parse_quantity_or_si(std::string_view text, Dimension dimension,
-                                    SizeLimit limit = SizeLimit::physical);
+/// Number and unit, e.g. "1054 rpm", "8 g/cm^3", "-9.8 m/s²".
+QuantityResult parse_quantity(std::string_view text, Dimension dimension,
+                              SizeLimit limit = SizeLimit::physical, Plain plain = Plain::refused);
 
 /// Whether a text begins with a number that has a comma between its digits, where a point is expected.
 bool has_comma(std::string_view text);

@@ -17,6 +17,12 @@ namespace edmill::casefile {
 
 namespace {
 
+constexpr std::pair<std::string_view, Colour> named_colours[]{
+    {"black", {0, 0, 0}},      {"blue", {0, 0, 1}},     {"cyan", {0, 1, 1}},      {"fuchsia", {1, 0, 1}},
+    {"grey", {0.5, 0.5, 0.5}}, {"green", {0, 0.5, 0}},  {"lime", {0, 1, 0}},      {"magenta", {1, 0, 1}},
+    {"maroon", {0.5, 0, 0}},   {"navy", {0, 0, 0.5}},   {"olive", {0.5, 0.5, 0}}, {"purple", {0.5, 0, 0.5}},
+    {"red", {1, 0, 0}},        {"teal", {0, 0.5, 0.5}}, {"white", {1, 1, 1}},     {"yellow", {1, 1, 0}}};
+
 /// Byte position of a column that counts characters.
 std::size_t byte_of_column(const std::string& line, std::size_t column) {
   std::size_t at = 0;
@@ -216,7 +222,7 @@ std::vector<std::string> Document::problems_by_line() const {
 const toml::node* Section::find(const std::string& key) {
   EDMILL_REQUIRE(is_key(path_, key), "the table of keys has " + full(key));
   known_.insert(key);
-  return table_ ? table_->get(key) : nullptr;
+  return node_of(key);
 }
 
 Section Section::section(const std::string& key) {
@@ -242,9 +248,9 @@ std::vector<Section> Section::sections(const std::string& key, bool may_be_empty
 }
 
 std::optional<Quantity> Section::quantity_in(const toml::node& node, const std::string& path,
-                                             Dimension dimension, ParseQuantity* parse) {
+                                             Dimension dimension, Plain plain) {
   if (!node.is_string() && !node.is_number()) return refuse(node, path, kind_of(node), describe(dimension));
-  const auto result = parse(document_->raw(node, path), dimension, document_->sizes);
+  const auto result = parse_quantity(document_->raw(node, path), dimension, document_->sizes, plain);
   if (const auto* problem = std::get_if<QuantityProblem>(&result))
     return refuse(node, path, problem->found, describe(dimension));
   return std::get<Quantity>(result);
@@ -252,12 +258,12 @@ std::optional<Quantity> Section::quantity_in(const toml::node& node, const std::
 
 std::optional<Quantity> Section::quantity(const std::string& key, Dimension dimension) {
   const auto* node = find(key);
-  return node ? quantity_in(*node, full(key), dimension, parse_quantity) : std::nullopt;
+  return node ? quantity_in(*node, full(key), dimension, Plain::refused) : std::nullopt;
 }
 
 std::optional<Quantity> Section::item(const toml::array& array, const std::string& path, std::size_t k,
                                       Dimension dimension) {
-  return quantity_in(*array.get(k), path + "." + std::to_string(k), dimension, parse_quantity_or_si);
+  return quantity_in(*array.get(k), path + "." + std::to_string(k), dimension, Plain::is_si);
 }
 
 std::optional<QuantityVector> Section::vector(const std::string& key, Dimension dimension) {
@@ -326,8 +332,8 @@ Colour Section::colour(const std::string& key, const Colour& fallback) {
   const auto* node = find(key);
   if (!node) return fallback;
   if (const auto* name = node->as_string())
-    for (const auto& known : named_colours)
-      if (known.name == name->get()) return known.colour;
+    for (const auto& [known, colour] : named_colours)
+      if (known == name->get()) return colour;
   const auto* array = node->as_array();
   if (array && array->size() == 3 && array->is_homogeneous() && array->get(0)->is_number()) {
     const double full = array->get(0)->is_integer() ? 255 : 1;
@@ -339,10 +345,11 @@ Colour Section::colour(const std::string& key, const Colour& fallback) {
     }
     if (good) return colour;
   }
-  std::string names;
-  for (const auto& known : named_colours) names += (names.empty() ? "" : ", ") + std::string(known.name);
+  std::vector<std::string_view> names;
+  for (const auto& [known, colour] : named_colours) names.push_back(known);
   problem(key, node->is_string() ? "\"" + node->as_string()->get() + "\"" : kind_of(*node),
-          "three integers from 0 to 255, three decimals from 0 to 1, or one of " + names);
+          fmt::format("three integers from 0 to 255, three decimals from 0 to 1, or one of {}",
+                      fmt::join(names, ", ")));
   return fallback;
 }
 
@@ -440,20 +447,18 @@ std::vector<std::string> Section::settings(const std::string& key, Twice twice) 
 }
 
 void Section::problem(const std::string& key, const std::string& found, const std::string& expected) {
-  const auto* node = table_ ? table_->get(key) : nullptr;
+  const auto* node = node_of(key);
   document_->report(node ? node : place_, full(key), found, expected);
 }
 
 void Section::require(bool good, const std::string& key, const std::string& expected) {
   if (good) return;
-  const auto* node = table_ ? table_->get(key) : nullptr;
+  const auto* node = node_of(key);
   problem(key, node ? "\"" + document_->raw(*node, full(key)) + "\"" : "nothing", expected);
 }
 
 void Section::replaced(const std::string& key, const std::string& expected) {
-  // Not by find(), which would list the key among the known ones.
-  if (const auto* node = table_ ? table_->get(key) : nullptr)
-    document_->report(node, full(key), "a key that is no longer known", expected);
+  if (has(key)) problem(key, "a key that is no longer known", expected);
 }
 
 void Section::reject_unknown_keys() {

@@ -104,8 +104,8 @@ class Section {
   /// An array of such values; empty when it is not one, which is reported.
   std::vector<std::string> settings(const std::string& key, Twice twice = Twice::refused);
 
-  bool has(const std::string& key) const { return table_ && table_->contains(key); }
-  bool is_array(const std::string& key) const { return has(key) && table_->get(key)->is_array(); }
+  bool has(const std::string& key) const { return node_of(key) != nullptr; }
+  bool is_array(const std::string& key) const { return has(key) && node_of(key)->is_array(); }
   void problem(const std::string& key, const std::string& found, const std::string& expected);
   /// Reports a found value unless `good`.
   void require(bool good, const std::string& key, const std::string& expected);
@@ -116,17 +116,18 @@ class Section {
 
  private:
   std::string full(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
+  /// Makes the key known.
   const toml::node* find(const std::string& key);
+  const toml::node* node_of(const std::string& key) const { return table_ ? table_->get(key) : nullptr; }
   /// Reports a value, in place of what it was to give.
   std::nullopt_t refuse(const toml::node& node, const std::string& path, const std::string& found,
                         const std::string& expected) {
     document_->report(&node, path, found, expected);
     return std::nullopt;
   }
-  using ParseQuantity = QuantityResult(std::string_view text, Dimension dimension, SizeLimit limit);
   /// Nothing when the value is no quantity, which is reported.
   std::optional<Quantity> quantity_in(const toml::node& node, const std::string& path, Dimension dimension,
-                                      ParseQuantity* parse);
+                                      Plain plain);
   /// An entry of an array.
   std::optional<Quantity> item(const toml::array& array, const std::string& path, std::size_t k,
                                Dimension dimension);

@@ -8,7 +8,7 @@
 
 #include "base/archive.hpp"
 #include "base/vector.hpp"
-#include "casefile/colour.hpp"
+#include "casefile/output_spec.hpp"
 #include "model/motion.hpp"
 #include "model/parts/surface.hpp"
 

@@ -191,7 +191,9 @@ TEST(Quantity, SizesThatDoubleCannotCubeAreRejected) {
 
 TEST(Quantity, PlainNumbersAreSiOnlyWhereAllowed) {
   EXPECT_EQ(problem("9.8", D::acceleration), "\"9.8\" (no unit)");
-  EXPECT_EQ(rational(std::get<Quantity>(parse_quantity_or_si("9.8", D::acceleration))), ratio(98, 10));
+  EXPECT_EQ(
+      rational(std::get<Quantity>(parse_quantity("9.8", D::acceleration, SizeLimit::physical, Plain::is_si))),
+      ratio(98, 10));
   EXPECT_EQ(rational(parsed("0.4", D::none)), ratio(2, 5));
 }
 
