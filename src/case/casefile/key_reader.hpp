@@ -58,8 +58,7 @@ struct Entries : std::vector<Section> {
 };
 
 /// A new entry of a list of tables.
-const auto& entry_of(const auto& list) requires requires { list.like; }
-{ return list.like; }
+auto entry_of(const auto& list) -> decltype((list.like)) { return list.like; }
 template <Keyed T>
 T entry_of(const std::vector<T>&) {
   return {};
