@@ -406,7 +406,7 @@ std::string text_with_settings(const CaseSpec& spec) {
 
 CaseSpec read_case_of_run(const std::string& path, const std::vector<std::string>& settings,
                           const std::string& digest) {
-  auto spec = parse(read_file(path, "the case of the run"), path, settings, true);
+  auto spec = parse(io::read_whole(path, "the case of the run (TOML)"), path, settings, true);
   if (!spec.digest.empty() && spec.digest != digest)
     throw InputError(path + ": found a case with digest " + spec.digest + ", expected that of the run, " +
                      digest);
@@ -434,7 +434,7 @@ model::Partners partners_of(const CaseSpec& spec) {
 }
 
 CaseSpec read_case(const std::string& path, const std::vector<std::string>& overrides) {
-  return parse_case(read_file(path, "a case file"), path, overrides);
+  return parse_case(io::read_whole(path, "a case file (TOML)"), path, overrides);
 }
 
 }  // namespace edmill::casefile

@@ -1,15 +1,243 @@
-// Every key that a case, a sweep or an optimisation file can contain, from the lists of the structs that
-// these files give. A look-up of any other key is an error of the program, and the reference (`edmill
-// reference`) is made from this table.
+// Structs that list their keys, by `keys(self, row)` with row(parameter, member) for each: how they are read,
+// checked, described, written to the digest and listed for the reference (`edmill reference`).
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
-#include "casefile/key_reader.hpp"
+#include "base/errors.hpp"
+#include "casefile/section.hpp"
+#include "model/parts/parameter.hpp"
 
 namespace edmill::casefile {
+
+using model::Parameter;
+
+bool in_range(const Quantity& q, const model::Range& range);
+
+/// "a positive length", "a number from 0 to 1", for messages.
+std::string expected(const Parameter& p);
+
+/// @pre the parameter has a fallback of its dimension
+Quantity fallback_of(const Parameter& p);
+
+/// A struct that lists its keys. A member of one can be such a struct itself: a table inside the table, whose
+/// keys all have values without it.
+template <class T>
+concept Keyed = requires(T& t) {
+  T::keys(t, [](const Parameter&, const auto&) {});
+};
+/// A value with a form of its own in a file: `read_from(section, key)` reads it where the key is present.
+template <class T>
+concept Formed = requires(T& t, Section& section, const char* key) {
+  t.read_from(section, key);
+};
+/// A value under a name that the user chooses: `read(section, name)`.
+template <class T>
+concept NamedEntry = requires(Section& section, const std::string& name) {
+  T::read(section, name)->~T();
+};
+/// `choices_of(value)` are the names of its values in a file, in the order of the enumerators.
+template <class T>
+concept Choice = std::is_enum_v<T>;
+
+/// A table with the keys of a T, which is read where more than the table is known.
+template <Keyed T>
+struct Inner {
+  std::optional<Section> section;
+};
+/// Entries [[key]] of such tables.
+template <Keyed T>
+struct Entries : std::vector<Section> {
+  T like{};                  ///< a new entry
+  bool may_be_none = false;  ///< `key = []` is allowed
+};
+
+/// A new entry of a list of tables.
+auto entry_of(const auto& list) -> decltype((list.like)) { return list.like; }
+template <Keyed T>
+T entry_of(const std::vector<T>&) {
+  return {};
+}
+
+/// Reads members from a section; what is wrong is reported. A key that is absent gives the fallback; without
+/// one the member keeps its value where it is optional or the row says what is true `otherwise`, else the key
+/// is missing.
+class KeyReader {
+ public:
+  enum class Absent { fallback, kept };
+  /// @param absent  whether the members of absent keys keep their values whatever the row says
+  explicit KeyReader(Section& section, Absent absent = Absent::fallback)
+      : section_(section), kept_(absent == Absent::kept) {}
+
+  void operator()(const Parameter& p, Quantity& value);
+  void operator()(const Parameter& p, std::optional<Quantity>& value);
+  void operator()(const Parameter& p, std::array<Quantity, 3>& values);
+  void operator()(const Parameter& p, std::uint64_t& value);
+  void operator()(const Parameter& p, int& value);
+  void operator()(const Parameter& p, std::optional<std::uint64_t>& value);
+  void operator()(const Parameter& p, bool& value);
+  void operator()(const Parameter& p, std::string& value);
+  void operator()(const Parameter& p, std::optional<std::string>& value) { value = section_.text(p.key); }
+  void operator()(const Parameter& p, std::optional<Section>& value) {
+    value.emplace(section_.section(p.key));
+  }
+  void operator()(const Parameter& p, std::optional<std::vector<std::string>>& values) {
+    if (section_.has(p.key)) values = section_.settings(p.key);
+  }
+  void operator()(const Parameter& p, std::vector<std::string>& values) { values = section_.settings(p.key); }
+  void operator()(const Parameter& p, Colour& value);
+  void operator()(const Parameter& p, MotionSpec& motion) { motion = read_motion(section_, p.key); }
+  void operator()(const Parameter& p, VesselSpec& vessel) { vessel = read_vessel(section_, p.key); }
+  void operator()(const Parameter& p, Choice auto& value) {
+    const auto& names = choices_of(value);
+    const auto name = section_.choice(p.key, {names.begin(), names.end()});
+    value = static_cast<std::decay_t<decltype(value)>>(std::find(names.begin(), names.end(), name) -
+                                                       names.begin());
+  }
+  template <Formed T>
+  void operator()(const Parameter& p, T&& value) {
+    value.read_from(section_, p.key);
+  }
+  template <NamedEntry T>
+  void operator()(const Parameter&, std::vector<T>& values) {
+    for (const auto& name : section_.keys())
+      if (auto value = T::read(section_, name)) values.push_back(*value);
+  }
+  template <Keyed T>
+  void operator()(const Parameter& p, std::optional<T>& value) {
+    if (section_.section(p.key).present()) (*this)(p, value.emplace());
+  }
+  template <Keyed T>
+  void operator()(const Parameter& p, T& value) {
+    Section own = section_.section(p.key);
+    T::keys(value, KeyReader(own));
+    own.reject_unknown_keys();
+  }
+  /// Entries [[key]]. `T::check(entry, list)`, if T has it, judges each as the last of the list.
+  template <Keyed T>
+  void operator()(const Parameter& p, std::vector<T>& list) {
+    for (Section& entry : section_.sections(p.key)) {
+      read_keys(entry, list.emplace_back());
+      if constexpr (requires { T::check(entry, list); }) T::check(entry, list);
+      entry.reject_unknown_keys();
+    }
+  }
+  template <Keyed T>
+  void operator()(const Parameter& p, Inner<T>& table) {
+    table.section.emplace(section_.section(p.key));
+  }
+  template <Keyed T>
+  void operator()(const Parameter& p, Entries<T>& entries) {
+    static_cast<std::vector<Section>&>(entries) = section_.sections(p.key, entries.may_be_none);
+  }
+
+  /// No quantity is missing or cannot be read.
+  bool complete() const { return complete_; }
+
+ private:
+  /// Reports an absent key that nothing stands in for.
+  void require_presence(const Parameter& p, const std::string& expected);
+
+  Section& section_;
+  bool kept_, complete_ = true;
+};
+
+void read_keys(Section& section, Keyed auto& keyed) { keyed.keys(keyed, KeyReader(section)); }
+
+/// Reads each entry, hands it to `use(entry, value)`, and reports its other keys.
+template <Keyed T>
+void read_entries(Entries<T>& entries, const auto& use) {
+  for (Section& entry : entries) {
+    T value = entries.like;
+    read_keys(entry, value);
+    use(entry, value);
+    entry.reject_unknown_keys();
+  }
+}
+
+/// Reports values out of range that were not read from a file.
+struct KeyChecker {
+  Section& section;
+
+  void operator()(const Parameter& p, const Quantity& value) const {
+    if (p.key) section.require(in_range(value, p.range), p.key, expected(p));
+  }
+  void operator()(const Parameter& p, const std::optional<Quantity>& value) const {
+    if (value) (*this)(p, *value);
+  }
+  void operator()(const Parameter& p, const std::array<Quantity, 3>& values) const {
+    for (const auto& value : values) (*this)(p, value);
+  }
+  void operator()(const Parameter&, const auto&) const {}
+};
+
+/// What a member takes, for readers: "count", "three lengths", "true or false".
+template <class Value>
+std::string kind_of(const Parameter& p) {
+  if (p.kind) return p.kind;
+  if constexpr (std::is_same_v<Value, Quantity>) {
+    return p.range == Range::count ? "count" : noun(p.dimension);
+  } else if constexpr (std::is_same_v<Value, std::array<Quantity, 3>>) {
+    return "three " + noun(p.dimension) + "s";
+  } else if constexpr (std::is_same_v<Value, Colour>) {
+    return "colour";
+  } else if constexpr (std::is_same_v<Value, std::string>) {
+    return "text";
+  } else if constexpr (std::is_integral_v<Value>) {
+    return std::is_same_v<Value, bool> ? "true or false" : "count";
+  } else if constexpr (Keyed<Value> || requires { Value::section; }) {
+    return "table";
+  } else if constexpr (requires(const Value& value) { entry_of(value); }) {
+    return "tables";
+  } else if constexpr (requires(Value value) { value.has_value(); }) {
+    return kind_of<typename Value::value_type>(p);
+  } else {
+    throw ContractError(std::string("a row that says what the key ") + p.key + " takes");
+  }
+}
+
+/// What is true without the key, for readers. @param optional  nothing need be
+std::string default_of(const Parameter& p, bool optional);
+
+/// "119/25000", "0,1/10,0", "-" for nothing, in the digest.
+std::string digest_of(const Quantity& value);
+std::string digest_of(const std::array<Quantity, 3>& value);
+std::string digest_of(const Colour& value);
+std::string digest_of(const std::string& value);
+std::string digest_of(std::uint64_t value);
+template <class Value>
+std::string digest_of(const std::optional<Value>& value) {
+  return value ? digest_of(*value) : "-";
+}
+
+struct DigestValue {
+  std::string key, value;
+  bool named;  ///< of a key that 1.0 did not have
+};
+
+/// What a run depends on, in the order of the list.
+template <class T>
+std::vector<DigestValue> digest_values(const T& keyed) {
+  T plain{};
+  std::vector<std::string> defaults;
+  T::keys(plain, [&](const Parameter&, const auto& value) { defaults.push_back(digest_of(value)); });
+  std::vector<DigestValue> values;
+  auto usual = defaults.begin();
+  T::keys(keyed, [&](const Parameter& p, const auto& value) {
+    const bool named = p.digest == Parameter::Digest::named;
+    auto own = digest_of(value);
+    if (p.digest == Parameter::Digest::value || (named && own != *usual))
+      values.push_back({p.key, own, named});
+    ++usual;
+  });
+  return values;
+}
 
 struct Key {
   std::string section;  ///< "run", "mill.joint"
@@ -25,7 +253,8 @@ struct KeySection {
   std::vector<Key> keys;
 };
 
-/// In the order in which a reader wants them.
+/// Every key that a case, a sweep or an optimisation file can contain, in the order in which a reader wants
+/// them. A look-up of any other key is an error of the program.
 std::span<const KeySection> key_sections();
 /// @param path  of a section as messages name it, "output.0.columns.1"
 bool is_key(const std::string& path, const std::string& name);

@@ -139,7 +139,6 @@ struct OutputSpec {
   static constexpr const char* what = "Tables and pictures that the run writes.";
   /// Of every type.
   static void keys(auto& o, auto&& row) {
-    using enum Dimension;
     row(Parameter{"type", "which table or picture: see the types of outputs above"}.as("name").usually(
             "required"),
         o.type);

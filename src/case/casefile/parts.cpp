@@ -90,14 +90,14 @@ Joint<Quantity> joint_of(Section& section, JointTable& table) {
   joint.swings = read_swings(table.swings);
   const bool moves = !joint.speed.zero() || !joint.swings.empty();
   if (joint.rotates) {
-    joint.axis = table.rotate.direction;
+    joint.axis = table.axis.direction;
     joint.angle = in_turns(table.angle);
     if (joint.angle.zero() && !moves)
       section.problem(first_of(section, {"speed", "angle", "rotate"}), "a joint that does not turn",
                       "one with angle, speed or swing");
     return joint;
   }
-  const auto& shift = table.translate.shift;
+  const auto& shift = table.axis.shift;
   const bool named = !section.is_array("translate");
   if (!named && section.has("distance"))
     section.problem(
@@ -111,7 +111,7 @@ Joint<Quantity> joint_of(Section& section, JointTable& table) {
       section.problem("translate", "a joint that shifts nothing", "a length other than zero");
     return joint;
   }
-  joint.axis = table.translate.direction;
+  joint.axis = table.axis.direction;
   if (!named) return joint;
   for (std::size_t k = 0; k < 3; ++k) joint.shift[k] = joint.axis[k] * table.distance;
   if (table.distance.zero() && !moves)
@@ -395,7 +395,12 @@ void require_room(Section& entry, const PolyhedronVessel& polyhedron, const std:
 
 void Axis::read_from(Section& joint, const char* key) {
   if (!joint.has(key)) return;
-  if (joint.is_array(key)) {
+  const bool numbers = joint.is_array(key);
+  if (numbers && key == std::string("translate") && !joint.has("swing") && !joint.has("speed")) {
+    shift = joint.vector(key, Dimension::length).value_or(QuantityVector{Quantity{1}});
+    return;
+  }
+  if (numbers) {
     direction = joint.vector(key, Dimension::none).value_or(QuantityVector{Quantity{1}});
     joint.require(!is_zero(direction), key, "an axis other than zero");
     return;
@@ -404,13 +409,6 @@ void Axis::read_from(Section& joint, const char* key) {
   joint.require(axis != axes.end(), key, "\"x\", \"y\", \"z\" or an array of three numbers");
   direction = {};
   if (axis != axes.end()) direction[static_cast<std::size_t>(axis - axes.begin())] = Quantity{1};
-}
-
-void Translation::read_from(Section& joint, const char* key) {
-  if (joint.is_array(key) && !joint.has("swing") && !joint.has("speed"))
-    shift = joint.vector(key, Dimension::length).value_or(QuantityVector{Quantity{1}});
-  else
-    Axis::read_from(joint, key);
 }
 
 std::string equation_of(const std::vector<Swing<Quantity>>& swings, bool rotate) {

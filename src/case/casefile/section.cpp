@@ -11,7 +11,6 @@
 #include "base/errors.hpp"
 #include "casefile/keys.hpp"
 #include "casefile/nearest.hpp"
-#include "io/input_file.hpp"
 
 namespace edmill::casefile {
 
@@ -123,10 +122,6 @@ std::string kind_of(const toml::node& node) {
 
 std::string one_of(const std::vector<std::string>& names) {
   return fmt::format("one of \"{}\"", fmt::join(names, "\", \""));
-}
-
-std::string read_file(const std::string& path, const std::string& kind) {
-  return io::read_whole(path, kind + " (TOML)");
 }
 
 std::vector<std::string> parts_of(const std::string& path) {

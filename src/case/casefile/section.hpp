@@ -43,11 +43,6 @@ struct Document {
   std::string line(const std::string& path, std::size_t number) const;
 };
 
-/// The text of a file.
-/// @param kind  "a case file", for messages
-/// @throws InputError when there is no such file
-std::string read_file(const std::string& path, const std::string& kind);
-
 /// Parses the text of the file `document.name` and keeps its lines.
 /// @param settings  over it, "section.key=value"; what is wrong with one is a problem of the document
 /// @throws InputError when the text is no TOML

@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "base/errors.hpp"
-#include "casefile/key_reader.hpp"
+#include "casefile/keys.hpp"
 #include "casefile/precisions.hpp"
 #include "io/input_file.hpp"
 
@@ -99,7 +99,7 @@ Spec read_study_file(const std::string& path, const std::string& section, const 
   const std::string kind = section == "sweep" ? "a sweep file" : "an optimisation file";
   Document document;
   document.name = path;
-  const toml::table root = parse_toml(read_file(path, kind), kind, document);
+  const toml::table root = parse_toml(io::read_whole(path, kind + " (TOML)"), kind, document);
   Spec spec;
   spec.file = path;
   Section top(document, &root, "");

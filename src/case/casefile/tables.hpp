@@ -4,7 +4,7 @@
 #include <map>
 
 #include "casefile/case_spec.hpp"
-#include "casefile/key_reader.hpp"
+#include "casefile/keys.hpp"
 
 namespace edmill::casefile {
 
@@ -25,22 +25,16 @@ struct SwingTable {
   }
 };
 
-/// An axis: "x", "y", "z", or three numbers.
+/// An axis: "x", "y", "z", or three numbers; three lengths to translate by are a constant shift.
 struct Axis {
   QuantityVector direction{Quantity{1}};
-  void read_from(Section& joint, const char* key);
-};
-
-/// An axis to translate along, or a constant shift.
-struct Translation : Axis {
   std::optional<QuantityVector> shift;
   void read_from(Section& joint, const char* key);
 };
 
 struct JointTable {
   std::optional<bool> rotates;  ///< none for the reference, which has the keys of both
-  Axis rotate;
-  Translation translate;
+  Axis axis;
   Quantity angle, speed, distance;
   Entries<SwingTable> swings;
 
@@ -53,14 +47,14 @@ struct JointTable {
                     "`\"x\"`, `\"y\"`, `\"z\"` or three numbers: the axis in the frame of the joint before"}
               .as("axis")
               .usually("this or `translate`"),
-          j.rotate);
+          j.axis);
     if (translates)
       row(Parameter{"translate",
                     "along an axis: `\"x\"`, `\"y\"`, `\"z\"`, or three numbers with `speed` or `swing`; "
                     "without them, three lengths are a constant shift"}
               .as("axis or three lengths")
               .usually("this or `rotate`"),
-          j.translate);
+          j.axis);
     if (rotates)
       row({"angle", Dimension::angle, "constant part of a rotation", Range::any, "0 deg"}, j.angle);
     row(Parameter{"speed", translates ? Dimension::speed : angular_speed,
@@ -172,7 +166,6 @@ struct VesselTable {
 
   static constexpr const char* what = "Shape, walls and materials of the vessel, inside.";
   static void keys(auto& v, auto&& row) {
-    using enum Dimension;
     row(Parameter{"type", "shape of the inside; its y axis is the axis of round vessels"}.as("name").usually(
             "`\"cylinder\"`"),
         v.shape);
@@ -262,7 +255,6 @@ struct ContactTable {
       "The contact law. `[contact.ball_ball]`, `[contact.ball_wall]` and `[[contact.pair]]` take the same "
       "keys except the last three.";
   static void keys(auto& c, auto&& row) {
-    using enum Dimension;
     LawTable::keys(c.shared, row);
     row(Parameter{"ball_ball", "keys that override those of `[contact]` between balls"}.as("table"),
         c.ball_ball);
@@ -306,7 +298,6 @@ struct CaseFile {
   Inner<AuditSpec> audit;
 
   static void keys(auto& f, auto&& row) {
-    using enum Dimension;
     row({"run", ""}, f.run);
     row({"mill", ""}, f.mill);
     row({"vessel", ""}, f.vessel);
