@@ -214,8 +214,7 @@ std::string canonical_text(const CaseSpec& c) {
 /// @param finished  a run of it is over: the file that it began from is not looked for
 CaseSpec parse(const std::string& text, const std::string& name, const std::vector<std::string>& overrides,
                bool finished, SizeLimit sizes = SizeLimit::physical) {
-  Document document;
-  document.name = name;
+  Document document(name);
   document.sizes = sizes;
   toml::table root = parse_toml(text, "a case file", document, overrides);
 
@@ -243,8 +242,7 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
   vessel.reject_unknown_keys();
   if (Section& section = *file.powder.section; section.present()) {
     PowderTable powder;
-    read_keys(section, powder);
-    section.reject_unknown_keys();
+    read_all_keys(section, powder);
     spec.powder_mass = powder.mass;
     spec.target = powder.target;
     spec.target.counted.normal_only = powder.counts == CountedPart::normal;
@@ -252,8 +250,7 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
   read_balls(file, spec);
   read_contact(*file.contact.section, spec);
   for (auto& entry : file.outputs) read_output(entry, spec);
-  read_keys(*file.audit.section, spec.audit);
-  file.audit.section->reject_unknown_keys();
+  read_all_keys(*file.audit.section, spec.audit);
   if (!top.has("ball") && !top.has("balls"))
     top.problem("balls", "no balls", "entries [[balls]] or [[ball]]");
   else if (document.problems.empty() && spec.ball_count() == 0)
@@ -339,8 +336,7 @@ double CaseSpec::largest_diameter() const {
 }
 
 std::vector<std::string> problems_of(const CaseSpec& spec) {
-  Document document;
-  document.name = spec.file;
+  Document document(spec.file);
   Section top(document, nullptr, "");
   const Section vessel = top.section("vessel"), contact = top.section("contact");
   check(top.section("mill"), spec.mill);
@@ -372,8 +368,7 @@ std::string WrittenNumber::plus(int sign, unsigned digits) const {
 }
 
 WrittenNumber value_of_key(const CaseSpec& spec, const std::string& key) {
-  Document document;
-  document.name = spec.file;
+  Document document(spec.file);
   const auto table = parse_toml(spec.text, "a case file", document, spec.settings);
   const auto* node = node_at(table, key);
   const std::string text = node && (node->is_string() || node->is_number()) ? document.raw(*node, key) : "";
@@ -414,8 +409,7 @@ CaseSpec read_case_of_run(const std::string& path, const std::vector<std::string
 }
 
 void add_outputs(const std::string& text, const std::string& name, CaseSpec& spec) {
-  Document document;
-  document.name = name;
+  Document document(name);
   const toml::table root = parse_toml(text, "entries [[output]]", document);
   Section top(document, &root, "");
   for (auto& entry : top.sections("output", true)) read_output(entry, spec);

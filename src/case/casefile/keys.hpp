@@ -116,8 +116,7 @@ class KeyReader {
   template <Keyed T>
   void operator()(const Parameter& p, T& value) {
     Section own = section_.section(p.key);
-    T::keys(value, KeyReader(own));
-    own.reject_unknown_keys();
+    read_all_keys(own, value);
   }
   /// Entries [[key]]. `T::check(entry, list)`, if T has it, judges each as the last of the list.
   template <Keyed T>
@@ -149,6 +148,12 @@ class KeyReader {
 };
 
 void read_keys(Section& section, Keyed auto& keyed) { keyed.keys(keyed, KeyReader(section)); }
+
+/// Reads a section that has no other keys.
+void read_all_keys(Section& section, Keyed auto& keyed) {
+  read_keys(section, keyed);
+  section.reject_unknown_keys();
+}
 
 /// Reads each entry, hands it to `use(entry, value)`, and reports its other keys.
 template <Keyed T>

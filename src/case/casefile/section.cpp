@@ -59,15 +59,6 @@ Node* child_of(Node& parent, const std::string& key) {
   return entry ? array->get(*entry) : nullptr;
 }
 
-/// The value of a setting: TOML, or else a text.
-void put(toml::node& parent, const std::string& key, auto&& value) {
-  if (auto* table = parent.as_table())
-    table->insert_or_assign(key, std::forward<decltype(value)>(value));
-  else
-    parent.as_array()->replace(parent.as_array()->cbegin() + static_cast<std::ptrdiff_t>(std::stoul(key)),
-                               std::forward<decltype(value)>(value));
-}
-
 void apply(toml::table& root, Document& document, const std::string& text) {
   const auto equals = text.find('=');
   const auto complain = [&](const std::string& found) {
@@ -97,15 +88,17 @@ void apply(toml::table& root, Document& document, const std::string& text) {
     parsed = toml::parse("value = " + value);
   } catch (const toml::parse_error&) {
   }
-  const auto* read = parsed.size() == 1 ? parsed.get("value") : nullptr;
-  if (parent->is_array() && child_of(*parent, keys.back())->is_table() && !(read && read->is_table()))
+  if (parsed.size() != 1) parsed = toml::table{{"value", value}};  // what is no TOML is a text
+  auto& read = *parsed.get("value");
+  const auto& last = keys.back();
+  if (parent->is_array() && child_of(*parent, last)->is_table() && !read.is_table())
     return complain("a value for '" + path + "', which is a section");
   std::erase_if(document.overrides, [&](const auto& o) { return o.first.starts_with(path + "."); });
   document.overrides[path] = value;
-  if (read)
-    put(*parent, keys.back(), std::move(*parsed.get("value")));
-  else
-    put(*parent, keys.back(), value);
+  if (auto* table = parent->as_table())
+    table->insert_or_assign(last, std::move(read));
+  else if (auto* list = parent->as_array())
+    list->replace(list->cbegin() + static_cast<std::ptrdiff_t>(std::stoul(last)), std::move(read));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #define TOML_ENABLE_FORMATTERS 0
@@ -19,6 +20,8 @@ namespace edmill::casefile {
 
 /// The document with what messages need: its name, its lines, and which keys the command line set.
 struct Document {
+  explicit Document(std::string file = {}) : name(std::move(file)) {}
+
   std::string name;
   std::vector<std::string> lines;
   std::map<std::string, std::string> overrides;  ///< path -> text as given

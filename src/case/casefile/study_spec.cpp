@@ -97,8 +97,7 @@ void read_range(Section& s, OptimizeVariable& variable) {
 template <class Spec>
 Spec read_study_file(const std::string& path, const std::string& section, const auto& check) {
   const std::string kind = section == "sweep" ? "a sweep file" : "an optimisation file";
-  Document document;
-  document.name = path;
+  Document document(path);
   const toml::table root = parse_toml(io::read_whole(path, kind + " (TOML)"), kind, document);
   Spec spec;
   spec.file = path;
