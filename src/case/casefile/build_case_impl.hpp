@@ -302,28 +302,26 @@ class Filling {
   void fill() {
     for (const auto& ball : spec_.balls)
       add_checked(
-          to_ball<Real>(ball, ball.diameter.to<Real>()),
-          {to_vector<Real>(ball.position), to_vector<Real>(ball.velocity), to_vector<Real>(ball.spin)},
-          ball.where);
+          ball, {to_vector<Real>(ball.position), to_vector<Real>(ball.velocity), to_vector<Real>(ball.spin)});
     add_batches();
     require_good();
   }
 
   /// A ball whose state is given: it must be inside and touch no other, up to rounding.
-  void add_checked(const model::BallProperties<Real>& ball, const model::BallState<Real>& state,
-                   const std::string& where) {
+  void add_checked(const BallSpec& spec, const model::BallState<Real>& state) {
+    const auto ball = to_ball<Real>(spec, spec.diameter.to<Real>());
     const auto local = mill_.motion.to_vessel_frame(pose_, state.position, state.velocity).position;
     const std::string own = std::to_string(result_.states.size());
     const Real tolerance = ball.radius / 1000000000;
     if (mill_.vessel.inset(ball.radius).is_empty())
-      problems_.push_back(where + ": found ball " + own +
+      problems_.push_back(spec.where + ": found ball " + own +
                           " as large as the vessel, expected one that has room to move");
     else if (!inside(local, ball.radius - tolerance))
-      problems_.push_back(where + ": found ball " + own + " outside the vessel, expected it inside");
+      problems_.push_back(spec.where + ": found ball " + own + " outside the vessel, expected it inside");
     const int other = placed_.conflict(
         local, [&](int k) { return ball.radius + result_.the_case.balls[k].radius - tolerance; });
     if (other >= 0)
-      problems_.push_back(where + ": found ball " + own + " overlapping ball " + std::to_string(other) +
+      problems_.push_back(spec.where + ": found ball " + own + " overlapping ball " + std::to_string(other) +
                           ", expected balls that do not overlap");
     add(ball, local, state);
   }
@@ -410,15 +408,15 @@ class Filling {
   }
 
   bool fit_alone() {
-    bool all = true;
+    const std::size_t before = problems_.size();
     for (const auto& batch : spec_.batches) {
       const Real largest = (batch.diameter.to<Real>() + batch.diameter_spread.to<Real>()) / 2;
-      if (!mill_.vessel.inset(largest).is_empty()) continue;
-      all = false;
-      problems_.push_back(
-          batch.where + ": found balls too large for the vessel, expected a diameter that leaves them room");
+      if (mill_.vessel.inset(largest).is_empty())
+        problems_.push_back(
+            batch.where +
+            ": found balls too large for the vessel, expected a diameter that leaves them room");
     }
-    return all;
+    return problems_.size() == before;
   }
 
   double volume_of_balls() const {
@@ -615,8 +613,7 @@ void fill_from_file(const CaseSpec& spec, InitialCase<Real>& result) {
     if (b.diameter_spread.positive())
       throw InputError(b.where +
                        ": found diameter_spread with an initial state, expected balls of one diameter");
-    for (int n = 0; n < b.count; ++n)
-      filling.add_checked(to_ball<Real>(b, b.diameter.template to<Real>()), saved.states[k++], b.where);
+    for (int n = 0; n < b.count; ++n) filling.add_checked(b, saved.states[k++]);
   });
   filling.require_good();
 }

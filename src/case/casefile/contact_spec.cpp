@@ -14,7 +14,9 @@ void read_law(Section& s, LawTable& given) {
   LawTable::keys(given, KeyReader(s, KeyReader::Absent::kept));
   if (s.has("restitution") && s.has("restitution_normal"))
     s.problem("restitution_normal", "both 'restitution' and 'restitution_normal'", "one of them");
-  s.replaced("collapse_time", "'least_separation', the least speed at which bodies leave an impact");
+  if (s.has("collapse_time"))
+    s.problem("collapse_time", "a key that is no longer known",
+              "'least_separation', the least speed at which bodies leave an impact");
 }
 
 /// Mass of the balls over that of the powder, where the case has powder.

@@ -445,10 +445,6 @@ void Section::require(bool good, const std::string& key, const std::string& expe
   problem(key, node ? "\"" + document_->raw(*node, full(key)) + "\"" : "nothing", expected);
 }
 
-void Section::replaced(const std::string& key, const std::string& expected) {
-  if (has(key)) problem(key, "a key that is no longer known", expected);
-}
-
 void Section::reject_unknown_keys() {
   if (!table_ || of_unknown_kind_) return;
   for (const auto& [key, node] : *table_) {

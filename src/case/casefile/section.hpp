@@ -107,8 +107,6 @@ class Section {
   void problem(const std::string& key, const std::string& found, const std::string& expected);
   /// Reports a found value unless `good`.
   void require(bool good, const std::string& key, const std::string& expected);
-  /// Reports a key of earlier versions. @param expected  what stands in its place
-  void replaced(const std::string& key, const std::string& expected);
   /// Reports every key that no look-up asked for.
   void reject_unknown_keys();
 

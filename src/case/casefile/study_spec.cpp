@@ -51,13 +51,17 @@ void check_key(Section& s, const std::string& key) {
     s.problem(key, "a key that cannot be varied", expected);
 }
 
-/// A key is in the grid or in a point.
-void check_points(Section& s, const SweepSpec& spec) {
+/// Each key is one that can be varied, in the grid or in points.
+void check_keys(Section& s, const SweepSpec& spec) {
+  Section grid = s.section("grid");
+  for (const auto& axis : spec.grid) check_key(grid, axis.key);
   for (Section& entry : s.sections("point")) {
     Section set = entry.section("set");
-    for (const auto& key : set.keys())
+    for (const auto& key : set.keys()) {
+      check_key(set, key);
       for (const auto& axis : spec.grid)
         if (axis.key == key) set.problem(key, "a key of [sweep.grid]", "a key in one of the two");
+    }
   }
 }
 
@@ -119,14 +123,11 @@ void AnyValue::read_from(Section& section, const char* key) { text = section.set
 
 std::optional<Setting> Setting::read(Section& section, const std::string& key) {
   const auto value = section.setting(key);
-  check_key(section, key);
   return value ? std::optional(Setting(key, *value)) : std::nullopt;
 }
 
 std::optional<GridAxis> GridAxis::read(Section& grid, const std::string& key) {
-  GridAxis axis{key, grid.settings(key)};
-  check_key(grid, key);
-  return axis;
+  return GridAxis{key, grid.settings(key)};
 }
 
 void SweepPoint::check(Section& entry, std::vector<SweepPoint>& points) {
@@ -151,7 +152,7 @@ void OptimizeVariable::check(Section& s, std::vector<OptimizeVariable>& variable
 
 SweepSpec read_sweep(const std::string& path) {
   return read_study_file<SweepSpec>(path, "sweep", [](Section& s, const SweepSpec& spec) {
-    check_points(s, spec);
+    check_keys(s, spec);
     check_size(s, spec);
   });
 }
