@@ -58,6 +58,12 @@ struct Named : std::vector<T> {
   static void keys(auto& names, auto&& row) { row(T::entry, static_cast<std::vector<T>&>(names)); }
 };
 
+/// A value as `--set` would take it.
+struct AnyValue {
+  std::optional<std::string> text;
+  void read_from(Section& section, const char* key);
+};
+
 /// Only impacts for which a flag or a count has this value.
 struct Restriction {
   int variable;  ///< place in model::impact_variables

@@ -455,4 +455,6 @@ void Section::reject_unknown_keys() {
   }
 }
 
+void AnyValue::read_from(Section& section, const char* key) { text = section.setting(key); }
+
 }  // namespace edmill::casefile

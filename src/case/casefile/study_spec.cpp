@@ -119,8 +119,6 @@ Spec read_study_file(const std::string& path, const std::string& section, const 
 
 }  // namespace
 
-void AnyValue::read_from(Section& section, const char* key) { text = section.setting(key); }
-
 std::optional<Setting> Setting::read(Section& section, const std::string& key) {
   const auto value = section.setting(key);
   return value ? std::optional(Setting(key, *value)) : std::nullopt;

@@ -24,12 +24,6 @@ struct Setting : std::pair<std::string, std::string> {
   static std::optional<Setting> read(Section& section, const std::string& key);
 };
 
-/// A value as `--set` would take it.
-struct AnyValue {
-  std::optional<std::string> text;
-  void read_from(Section& section, const char* key);
-};
-
 /// A key that is no key of the case: it sets balls.0.count from the masses of powder and ball.
 inline constexpr const char* charge_ratio_key = "charge_ratio";
 
