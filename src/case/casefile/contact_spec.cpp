@@ -163,9 +163,7 @@ void LawTable::PointsOf<Law>::read_from(Section& s, const char* key) {
 }
 
 void check(Section contact, const ContactSpec& law, const CaseSpec& spec) {
-  law.parameters([&](const Parameter& p, const Quantity& value) {
-    contact.require(in_range(value, p.range), p.key, expected(p));
-  });
+  law.parameters(KeyChecker{contact});
   if (std::holds_alternative<model::PowderLoad<Quantity>>(law.law)) require_diameters(contact, spec);
   contact.require(!law.least_separation.negative(), "least_separation", "a speed of 0 or more");
 }

@@ -192,11 +192,6 @@ Joints<Quantity> read_joints(Section& mill) {
   return joints;
 }
 
-void check_swings(Section& section, const std::vector<Swing<Quantity>>& swings) {
-  for (const auto& swing : swings)
-    require_speed(section, quantity_of(2 * rational(swing.frequency), 1 + swing.frequency.pi_power));
-}
-
 std::vector<Joint<Quantity>> spex_joints(const auto& spex) {
   const Quantity frequency = Quantity{1} / spex.period;
   Joint<Quantity> swing, arm, turn;
@@ -474,19 +469,16 @@ std::string describe(const VesselSpec& vessel) {
 }
 
 void check(Section mill, const MotionSpec& motion) {
-  std::visit(
-      [&](const auto& m) {
-        if constexpr (requires { m.given; })
-          for (const auto& joint : m.given.list) check_swings(mill, joint.swings);
-        else
-          m.parameters(m, KeyChecker{mill});
-      },
-      motion);
+  std::visit([&](const auto& m) { m.parameters(m, KeyChecker{mill}); }, motion);
+  if (const auto* chain = std::get_if<model::Chain<Quantity>>(&motion))
+    for (const auto& joint : chain->given.list)
+      for (const auto& swing : joint.swings)
+        require_speed(mill, quantity_of(2 * rational(swing.frequency), 1 + swing.frequency.pi_power));
 }
 void check(Section vessel, const VesselSpec& shape) {
   std::visit(
       [&](const auto& v) {
-        if constexpr (!requires { v.faces; }) v.parameters(v, KeyChecker{vessel});
+        v.parameters(v, KeyChecker{vessel});
         require_shape(vessel, v);
       },
       shape);
@@ -519,7 +511,6 @@ void read_pistons(Section& vessel, Entries<PistonTable>& entries, CaseSpec& spec
 }
 
 void require_travel(std::vector<Section>& entries, const CaseSpec& spec) {
-  if (std::any_of(spec.pistons.begin(), spec.pistons.end(), [](const auto& p) { return p.wall < 0; })) return;
   if (entries.empty()) return;
   const auto vessel = build_mill<double>(spec).vessel;
   const double from = spec.initial_time.to<double>();

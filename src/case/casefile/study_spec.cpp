@@ -76,22 +76,17 @@ void check_size(Section& s, const SweepSpec& spec) {
 }
 
 void read_range(Section& s, OptimizeVariable& variable) {
-  std::string high_unit;
-  const std::tuple<const char*, const AnyValue&, double*, std::string*> ends[] = {
-      {"low", variable.least, &variable.low, &variable.unit},
-      {"high", variable.most, &variable.high, &high_unit}};
-  bool good = true;
-  for (const auto& [key, given, number, unit] : ends) {
-    const auto& text = given.text;
+  const auto bound = [&](const char* key, const std::optional<std::string>& text) {
     const auto value = text && !has_comma(*text) ? split_number(*text) : std::nullopt;
-    if (value)
-      std::tie(*number, *unit) = *value;
-    else
+    if (!value)
       s.problem(key, text ? "\"" + *text + "\"" : "nothing", "a number with a decimal point, and its unit");
-    good = good && value;
-  }
-  if (!good) return;
-  s.require(variable.unit == high_unit, "high", "the same unit as 'low'");
+    return value;
+  };
+  const auto low = bound("low", variable.least.text), high = bound("high", variable.most.text);
+  if (!low || !high) return;
+  std::tie(variable.low, variable.unit) = *low;
+  variable.high = high->first;
+  s.require(variable.unit == high->second, "high", "the same unit as 'low'");
   s.require(variable.low < variable.high, "high", "a value above 'low'");
   const bool whole = variable.low == std::floor(variable.low) && variable.high == std::floor(variable.high);
   s.require(!variable.integer || whole, "integer", "whole numbers for 'low' and 'high'");
@@ -138,9 +133,8 @@ void SweepPoint::check(Section& entry, std::vector<SweepPoint>& points) {
 
 void OptimizeVariable::check(Section& s, std::vector<OptimizeVariable>& variables) {
   auto& own = variables.back();
-  if (!s.has("key")) s.problem("key", "nothing", "a key of the case");
-  if (const auto expected = problem_of_key(own.key); s.has("key") && !expected.empty())
-    s.require(false, "key", expected);
+  const auto expected = s.has("key") ? problem_of_key(own.key) : "a key of the case";
+  s.require(expected.empty(), "key", expected);
   for (const auto& other : variables)
     s.require(other.key != own.key || &other == &own, "key", "a key that no other variable has");
   if (!s.has("values")) return read_range(s, own);
