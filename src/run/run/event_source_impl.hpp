@@ -9,7 +9,7 @@
 #include "engine/simulation.hpp"
 #include "output/collision_log.hpp"
 #include "run/event_source.hpp"
-#include "run/stop_rules.hpp"
+#include "run/every_run.hpp"
 
 namespace edmill::run {
 
