@@ -51,4 +51,8 @@ template <class Real>
 Result<Real> simulate(const casefile::CaseSpec& spec, const casefile::InitialCase<Real>& built,
                       const Guests<Real>& guests);
 
+/// What of a run is not to be trusted, and why.
+/// @param wanted_precision  of the dose rate, relative
+std::vector<io::Warning> warnings_of(const io::Facts& summary, const std::optional<double>& wanted_precision);
+
 }  // namespace edmill::run

@@ -7,7 +7,6 @@
 #include "run/every_run.hpp"
 #include "run/run_statistics.hpp"
 #include "run/simulate.hpp"
-#include "run/warnings.hpp"
 #include "run/watches.hpp"
 
 namespace edmill::run {

@@ -1,11 +1,11 @@
-#include "run/warnings.hpp"
-
+// What of a run is not to be trusted.
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "base/clean_text.hpp"
 #include "base/statistics.hpp"
+#include "run/simulate.hpp"
 
 namespace edmill::run {
 

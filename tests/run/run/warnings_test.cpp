@@ -1,10 +1,9 @@
-#include "run/warnings.hpp"
-
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "base/clean_text.hpp"
+#include "run/simulate.hpp"
 
 namespace {
 
