@@ -163,7 +163,7 @@ class Pulse : public run::Watcher {
     last_ = now;
     const Locked python;
     const auto tell = [&] {
-      if (!progress_.is_none()) call(progress_, impact.time(), impact.index() + 1);
+      if (!progress_.is_none()) call(progress_, impact.time, impact.index + 1);
     };
     interrupted_ = control_c_came() || !is_done(tell);
     if (interrupted_) run.stop(model::EndReason::interrupted);

@@ -41,13 +41,11 @@ struct RunSetup {
 class AnyRun;
 
 /// An impact as watchers see it.
-class SeenImpact {
- public:
-  virtual ~SeenImpact() = default;
-  virtual std::uint64_t index() const = 0;
-  virtual double time() const = 0;                   ///< [s]
-  virtual Impact<double> in_double() const = 0;      ///< rounded to double
-  virtual Impact<std::string> in_texts() const = 0;  ///< in all digits of the scalar
+struct SeenImpact {
+  std::uint64_t index;
+  double time;                                    ///< [s]
+  std::function<Impact<double>()> in_double;      ///< rounded to double
+  std::function<Impact<std::string>()> in_texts;  ///< in all digits of the scalar
 };
 
 class Watcher {

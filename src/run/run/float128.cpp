@@ -1,3 +1,3 @@
-#include "run/public_run_impl.hpp"
+#include "run/run_of.hpp"
 
 EDMILL_RUN(edmill::float128)

@@ -5,24 +5,14 @@
 
 namespace edmill::run {
 
-namespace {
-
-/// For a scope: in files and texts only the digits that the case asks for and a few more. Nothing for scalars
-/// of a fixed number of digits, and cases that name a precision.
-template <class Real>
-auto only_right_digits(const casefile::CaseSpec& spec) {
-  auto digits = ChosenDigits<Real>();
-  if constexpr (requires { digits.shown; })
-    if (spec.digits) digits.shown = static_cast<unsigned>(*spec.digits) + 3;
-  return digits.use();
-}
-
-}  // namespace
-
 std::unique_ptr<AnyRun> make_run(const std::string& precision, const casefile::CaseSpec& spec,
                                  const RunSetup& setup) {
   return with_scalar(precision, [&]<class Real>() {
-    const auto shown = only_right_digits<Real>(spec);
+    // In files and texts only the digits that the case asks for and a few more.
+    auto digits = ChosenDigits<Real>();
+    if constexpr (requires { digits.shown; })
+      if (spec.digits) digits.shown = static_cast<unsigned>(*spec.digits) + 3;
+    const auto scope = digits.use();
     return make_run_in<Real>(spec, setup);
   });
 }

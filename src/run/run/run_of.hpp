@@ -1,4 +1,4 @@
-// A run in one scalar; included by the instantiation files only.
+// A run in one scalar, by its handle and as the public Run; included by the instantiation files only.
 #pragma once
 
 #include <algorithm>
@@ -9,12 +9,14 @@
 
 #include "base/errors.hpp"
 #include "base/standard_arithmetic.hpp"
+#include "base/wide_trigonometry.hpp"
 #include "casefile/parts.hpp"
 #include "edmill/run.hpp"
 #include "io/final_state.hpp"
 #include "io/summary.hpp"
 #include "output/outputs.hpp"
 #include "run/any_run.hpp"
+#include "run/event_source_impl.hpp"
 #include "run/run_folder.hpp"
 #include "run/simulate_impl.hpp"
 
@@ -113,24 +115,6 @@ casefile::InitialCase<Real> build(const casefile::CaseSpec& spec, const OwnParts
   return casefile::build_case_in<Real>(mill, spec);
 }
 
-template <class Real>
-class SeenIn : public SeenImpact {
- public:
-  SeenIn(const engine::Impact<Real>& impact, const Real& time) : impact_(impact), time_(time) {}
-  std::uint64_t index() const override { return impact_.index; }
-  double time() const override { return static_cast<double>(time_); }
-  Impact<double> in_double() const override {
-    return to_public<double>(impact_, time_, [](const Real& x) { return static_cast<double>(x); });
-  }
-  Impact<std::string> in_texts() const override {
-    return to_public<std::string>(impact_, time_, to_text<Real>);
-  }
-
- private:
-  const engine::Impact<Real>& impact_;
-  Real time_;
-};
-
 /// A law in texts as a law in numbers.
 template <class Real>
 class LawOfTexts : public CustomLaw<Real> {
@@ -202,8 +186,8 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
     }
   }
   void attach(Watcher& watcher) override { watchers_.push_back(&watcher); }
-  /// Called for each impact after the outputs, by the public Run.
-  void attach(std::function<void(const Impact<Real>&)> call) { call_ = std::move(call); }
+  /// Called for each impact after the outputs, for the public Run.
+  void attach(std::function<void(const Impact<Real>&)> call) { calls_.push_back(std::move(call)); }
 
   void begin() override {
     const auto scope = use();
@@ -285,16 +269,23 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
 
  private:
   void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override {
-    if (own_laws_ || !spec_->outputs.empty() || call_ || !watchers_.empty()) show(impact, simulation);
+    if (own_laws_ || !spec_->outputs.empty() || !calls_.empty() || !watchers_.empty())
+      show(impact, simulation);
   }
   /// Apart, so that an impact that nobody looks at costs a few instructions.
   [[gnu::noinline]] void show(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) {
     if (own_laws_) require_no_gain(impact);
     if (outputs_ && !spec_->outputs.empty()) outputs_->on_impact(impact, simulation);
-    if (watchers_.empty() && !call_) return;
+    if (watchers_.empty() && calls_.empty()) return;
     const Real time = simulation.seconds();
-    if (call_) call_(to_public<Real>(impact, time, [](const Real& x) -> const Real& { return x; }));
-    const SeenIn<Real> seen(impact, time);
+    if (!calls_.empty()) {
+      const auto seen = to_public<Real>(impact, time, [](const Real& x) -> const Real& { return x; });
+      for (const auto& call : calls_) call(seen);
+    }
+    const auto rounded = [](const Real& x) { return static_cast<double>(x); };
+    const SeenImpact seen{impact.index, rounded(time),
+                          [&] { return to_public<double>(impact, time, rounded); },
+                          [&] { return to_public<std::string>(impact, time, to_text<Real>); }};
     for (auto* watcher : watchers_) watcher->on_impact(seen, *this);
   }
   void archive(Archive& a) override {
@@ -336,7 +327,7 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
   std::optional<RunFolder> folder_;
   std::optional<output::Outputs<Real>> outputs_;
   std::vector<Watcher*> watchers_;
-  std::function<void(const Impact<Real>&)> call_;
+  std::vector<std::function<void(const Impact<Real>&)>> calls_;
   std::optional<RunDriver<Real>> driver_;
   bool advanced_ = false;
   std::pair<Instant<Real>, Real> asked_{Instant<Real>::long_ago(), Real(0)};  ///< of the last advance [s]
@@ -356,3 +347,107 @@ std::unique_ptr<AnyRun> make_run_in(const casefile::CaseSpec& spec, const RunSet
 }
 
 }  // namespace edmill::run
+
+namespace edmill {
+
+template <class Real>
+class Run<Real>::Implementation : public run::RunOf<Real> {
+ public:
+  using run::RunOf<Real>::RunOf;
+};
+
+template <class Real>
+Run<Real>::Run(const Case& the_case, const Laws<Real>& laws, const Planes<Real>& vessel)
+    : Run(the_case, OwnParts<Real>{vessel, {}, {}, laws}) {}
+template <class Real>
+Run<Real>::Run(const Case& the_case, const OwnParts<Real>& own)
+    : implementation_([&] {
+        const StandardArithmetic scope;
+        auto made = std::make_unique<Implementation>(the_case.spec_, own);
+        made->begin();
+        return made;
+      }()) {}
+template <class Real>
+Run<Real>::~Run() = default;
+
+template <class Real>
+void Run<Real>::attach(Observer<Real>& observer) {
+  implementation_->attach(
+      [this, &observer](const Impact<Real>& impact) { observer.on_impact(impact, *this); });
+}
+template <class Real>
+void Run<Real>::write_to(const std::string& folder) {
+  implementation_->write_to(folder, std::nullopt, {});
+}
+template <class Real>
+void Run<Real>::commit() {
+  implementation_->commit([] { return std::string(); });
+}
+template <class Real>
+bool Run<Real>::advance_to(const Real& time) {
+  return implementation_->advance(time);
+}
+template <class Real>
+void Run<Real>::finish() {
+  implementation_->finish();
+}
+template <class Real>
+void Run<Real>::stop() {
+  implementation_->stop(model::EndReason::stopped);
+}
+template <class Real>
+void Run<Real>::interrupt() {
+  implementation_->stop(model::EndReason::interrupted);
+}
+template <class Real>
+Real Run<Real>::time() const {
+  const auto scope = implementation_->use();
+  return implementation_->now();
+}
+template <class Real>
+int Run<Real>::ball_count() const {
+  return implementation_->ball_count();
+}
+template <class Real>
+BallState<Real> Run<Real>::ball(int i) const {
+  const auto scope = implementation_->use();
+  return run::to_public<Real>(implementation_->state_of(i), [](const Real& x) { return x; });
+}
+template <class Real>
+Summary<Real> Run<Real>::summary() const {
+  const auto scope = implementation_->use();
+  const auto s = implementation_->result();
+  Summary<Real> out;
+  out.start_time = s.start_time;
+  out.end_time = s.end_time;
+  for (int k = 0; k < s.partners.count(); ++k) out.partners.push_back(s.partners[k].key);
+  out.collisions = s.collisions;
+  out.dose_by_partner = s.dose_by_partner;
+  out.milling_dose = s.milling_dose;
+  out.wall_work = s.wall_work;
+  out.supplied_energy = s.supplied_energy;
+  out.energy_closure = s.energy_closure;
+  out.simultaneous_contacts = s.simultaneous_contacts;
+  out.cpu_seconds = s.cpu_seconds;
+  out.end_reason = model::name(s.end_reason);
+  out.warnings.reserve(s.warnings.size());
+  for (const auto& warning : s.warnings) out.warnings.push_back(warning.text);
+  if (s.intervals.any()) out.milling_dose_rate_half_width = s.intervals.dose_rate.half_width;
+  out.milling_time = s.milling_time();
+  out.json = io::summary_json(s);
+  return out;
+}
+
+}  // namespace edmill
+
+#define EDMILL_RUN(Real)                                                                                \
+  namespace edmill {                                                                                    \
+  template run::Result<Real> run::simulate<Real>(const casefile::CaseSpec&,                             \
+                                                 const casefile::InitialCase<Real>&,                    \
+                                                 const run::Guests<Real>&);                             \
+  template std::unique_ptr<run::EventSource> run::make_source_in<Real>(const casefile::CaseSpec&, bool, \
+                                                                       const std::atomic<bool>*);       \
+  template std::unique_ptr<run::AnyRun> run::make_run_in<Real>(const casefile::CaseSpec&,               \
+                                                               const run::RunSetup&);                   \
+  template class Run<Real>;                                                                             \
+  }
