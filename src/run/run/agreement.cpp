@@ -1,7 +1,6 @@
 #include "run/agreement.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace edmill::run {
 
@@ -11,14 +10,8 @@ bool Agreement::take(const Event& one, const Event& two) {
     const Number difference = abs(one[k] - two[k]), size = abs(two[k]);
     largest_difference_[k] = std::max(largest_difference_[k], difference);
     largest_size_[k] = std::max(largest_size_[k], size);
-    if (k == model::time && difference > 0) {
-      const double x = static_cast<double>(events_), y = static_cast<double>(log10(difference));
-      ++n_;
-      x_ += x;
-      y_ += y;
-      xx_ += x * x;
-      xy_ += x * y;
-    }
+    if (k == model::time && difference > 0)
+      growth_.add(static_cast<double>(events_), static_cast<double>(log10(difference)));
   }
   ++events_;
   bodies_ += one.with_wall ? 1 : 2;
@@ -42,9 +35,7 @@ double Agreement::least_digits() const {
 }
 
 std::optional<double> Agreement::digits_lost_per_event() const {
-  const double spread = n_ * xx_ - x_ * x_;
-  if (n_ < 10 || !(spread > 0)) return std::nullopt;
-  return (n_ * xy_ - x_ * y_) / spread;
+  return growth_.points() < 10 ? std::nullopt : std::optional(growth_.slope());
 }
 
 }  // namespace edmill::run

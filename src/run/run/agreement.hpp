@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "base/statistics.hpp"
 #include "run/event_source.hpp"
 
 namespace edmill::run {
@@ -35,7 +36,7 @@ class Agreement {
  private:
   std::size_t events_ = 0, bodies_ = 0;
   std::array<Number, model::logged_count> largest_difference_{}, largest_size_{};
-  double n_ = 0, x_ = 0, y_ = 0, xx_ = 0, xy_ = 0;  // of the line through log10 of the differences in time
+  numerics::Line growth_;  ///< log10 of the differences in time
 };
 
 }  // namespace edmill::run
