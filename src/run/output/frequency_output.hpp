@@ -1,6 +1,8 @@
 // How often a variable falls into each of equal intervals [lower, upper). (thesis D.4.4)
 #pragma once
 
+#include <algorithm>
+#include <numeric>
 #include <vector>
 
 #include "casefile/output_entry.hpp"
@@ -51,19 +53,18 @@ class FrequencyOutput : public TableOutput<Real> {
  public:
   FrequencyOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
       : TableOutput<Real>(spec, run),
-        partners_(run.partners.count()),
-        parts_(groups_of(run.partners, spec.frequency.wall_details)),
-        formula_(variable_formula<Real>(spec.frequency.variable.variable)),
-        low_(spec.frequency.low.to<Real>()),
-        high_(spec.frequency.high.to<Real>()),
-        rows_(spec.frequency.intervals + 2),
-        counts_(rows_ * partners_) {}
+        parts_(groups_of(run.partners, asked().wall_details)),
+        formula_(variable_formula<Real>(asked().variable.variable)),
+        high_(asked().high.template to<Real>()),
+        counts_(asked().intervals + 2, std::vector<std::uint64_t>(run.partners.count())) {
+    const Real low = asked().low.template to<Real>();
+    for (std::size_t k = 0; k <= asked().intervals; ++k)
+      bounds_.push_back(low + (high_ - low) * Real(k) / Real(asked().intervals));
+  }
 
  protected:
   void archive_record(Archive& a) override { a(counts_); }
-  void record(const ImpactFacts<Real>& f) override {
-    ++count(row_of(formula_(f)), f.impact.with_wall ? f.impact.partner : partners_ - 1);
-  }
+  void record(const ImpactFacts<Real>& f) override { ++of_partner(f, counts_[row_of(formula_(f))]); }
 
   void end_of_record(const engine::Simulation<Real>&, const Real&) override {
     const auto& variable = model::impact_variables[asked().variable.variable];
@@ -80,54 +81,39 @@ class FrequencyOutput : public TableOutput<Real> {
     comments.push_back(name_of(asked().variable, variable.name) + " [" + std::string(variable.unit) +
                        "]: impacts with lower <= value < upper");
     this->begin(std::move(columns), std::move(comments));
-    if (asked().out_of_range) write_row("below", 0);
-    for (std::size_t k = 1; k + 1 < rows_; ++k) write_row(std::to_string(k), k);
-    if (asked().out_of_range) write_row("above", rows_ - 1);
+    const std::size_t first = asked().out_of_range ? 0 : 1, end = counts_.size() - first;
+    std::vector<std::uint64_t> wholes(parts_.size());  // of the impacts in this table
+    for (std::size_t k = 0; k < parts_.size(); ++k)
+      for (std::size_t row = first; row < end; ++row) wholes[k] += sum(row, parts_[k]);
+    for (std::size_t row = first; row < end; ++row) {
+      this->put_bin(bounds_, row);
+      this->put(io::value_if(row > 0 && row < bounds_.size(),
+                             [&] { return Real((bounds_[row - 1] + bounds_[row]) / 2); }));
+      for (const auto& part : parts_) this->put(sum(row, part));
+      for (std::size_t k = 0; asked().percentages && k < parts_.size(); ++k)
+        this->put(io::value_if(
+            wholes[k] > 0, [&] { return Real(Real(100) * Real(sum(row, parts_[k])) / Real(wholes[k])); }));
+    }
   }
 
  private:
   const casefile::FrequencySpec& asked() const { return this->spec.frequency; }
-  std::uint64_t& count(std::size_t row, int partner) { return counts_[row * partners_ + partner]; }
 
-  Real bound(std::size_t k) const { return low_ + (high_ - low_) * Real(k) / Real(asked().intervals); }
-
-  /// 0 below the range, then the intervals, then one above the range. The bounds decide, not a quotient.
+  /// 0 below the range, then the intervals, then one above the range, which begins at exactly its end.
   std::size_t row_of(const Real& value) const {
-    if (value < low_) return 0;
-    if (!(value < high_)) return rows_ - 1;
-    auto k = static_cast<std::size_t>((value - low_) / (high_ - low_) * Real(asked().intervals));
-    while (k > 0 && value < bound(k)) --k;
-    while (k + 1 < asked().intervals && value >= bound(k + 1)) ++k;
-    return k + 1;
+    const std::size_t last = asked().intervals;
+    return value < high_ ? std::min(bin_of<Real>(bounds_, value), last) : last + 1;
+  }
+  std::uint64_t sum(std::size_t row, const PartnerGroup& part) const {
+    const auto counts = counts_[row].begin();
+    return std::accumulate(counts + part.first, counts + part.last + 1, std::uint64_t{0});
   }
 
-  void write_row(const std::string& name, std::size_t k) {
-    const bool has_lower = k > 0, has_upper = k + 1 < rows_, inside = has_lower && has_upper;
-    this->put(name, io::value_if(has_lower, [&] { return bound(k - 1); }),
-              io::value_if(has_upper, [&] { return bound(k); }),
-              io::value_if(inside, [&] { return Real((bound(k - 1) + bound(k)) / 2); }));
-    const auto sum = [&](std::size_t row, const PartnerGroup& part) {
-      std::uint64_t all = 0;
-      for (int p = part.first; p <= part.last; ++p) all += count(row, p);
-      return all;
-    };
-    for (const auto& part : parts_) this->put(sum(k, part));
-    if (asked().percentages)
-      for (const auto& part : parts_) {
-        std::uint64_t whole = 0;  // of the impacts in this table
-        for (std::size_t row = 0; row < rows_; ++row)
-          if (asked().out_of_range || (row > 0 && row + 1 < rows_)) whole += sum(row, part);
-        this->put(
-            io::value_if(whole > 0, [&] { return Real(Real(100) * Real(sum(k, part)) / Real(whole)); }));
-      }
-  }
-
-  int partners_;                     ///< how many there are
   std::vector<PartnerGroup> parts_;  ///< in the order of the columns
   VariableFormula<Real> formula_;
-  Real low_, high_;
-  std::size_t rows_;
-  std::vector<std::uint64_t> counts_;  ///< row by row, of each partner
+  Real high_;
+  std::vector<Real> bounds_;                        ///< of the intervals
+  std::vector<std::vector<std::uint64_t>> counts_;  ///< of each row, by partner
 };
 
 }  // namespace edmill::output

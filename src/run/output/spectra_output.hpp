@@ -12,12 +12,6 @@
 
 namespace edmill::output {
 
-/// 0 below the first edge, k from edge k - 1 up to below edge k, edges.size() from the last edge on.
-template <class Real>
-std::size_t bin_of(const std::vector<Real>& edges, const Real& value) {
-  return static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), value) - edges.begin());
-}
-
 enum class BinnedBy { energy, speed };
 inline constexpr std::array<std::string_view, 2> choices_of(BinnedBy) { return {"energy", "speed"}; }
 
@@ -114,10 +108,8 @@ class SpectraOutput : public TableOutput<Real> {
                                                : std::vector<std::string>{"normal", "tangential", "total"};
     for (std::size_t s = 0; s < spectra_.size(); ++s)
       for (std::size_t bin = 0; bin < spectra_[s].size(); ++bin) {
-        const bool below = bin == 0, above = bin == edges_.size();
-        this->put(names[s], below ? "below" : above ? "above" : std::to_string(bin));
-        this->put(io::value_if(!below, [&] { return edges_[bin - 1]; }),
-                  io::value_if(!above, [&] { return edges_[bin]; }));
+        this->put(names[s]);
+        this->put_bin(edges_, bin);
         const auto put = [&](const auto& value) { this->put(value); };
         const auto& tallies = spectra_[s][bin];
         put_partners(tallies, put, [](const Tally<Real>& t) { return t.impacts; });

@@ -66,15 +66,17 @@ class TableOutput : public OneFileOutput<Real, io::AtomicFile> {
     table_ = io::Table<Real>(std::move(columns), std::move(comments));
     if (!this->spec.hdf5()) file_.stream() << table_.csv_head();
   }
-  /// The next cells of the row, from left to right.
-  void put(const auto&... cells) {
-    table_.put(cells...);
-    if (!table_.at_row_end() || this->spec.hdf5()) return;
-    file_.stream() << table_.csv_rows();
-    table_.clear_rows();
-  }
-  void put(const Vec3<Real>& vector) {
-    for (int axis = 0; axis < 3; ++axis) put(Real(vector[axis]));
+  /// The next cells of the row, from left to right; a vector is three of them.
+  void put(const auto&... cells) { (put_one(cells), ...); }
+  /// The number of a bin from 1, or below or above all, and its edges.
+  /// @param bin  as `bin_of` has it
+  void put_bin(const std::vector<Real>& edges, std::size_t bin) {
+    const bool below = bin == 0, above = bin == edges.size();
+    put(below   ? "below"
+        : above ? "above"
+                : std::to_string(bin),
+        io::value_if(!below, [&] { return edges[bin - 1]; }),
+        io::value_if(!above, [&] { return edges[bin]; }));
   }
   void put_variable(int variable, const Real& value) {
     if (type_of(model::impact_variables[variable]) == integer)
@@ -91,6 +93,16 @@ class TableOutput : public OneFileOutput<Real, io::AtomicFile> {
 
  private:
   using OneFileOutput<Real, io::AtomicFile>::file_;
+
+  void put_one(const auto& cell) {
+    table_.put(cell);
+    if (!table_.at_row_end() || this->spec.hdf5()) return;
+    file_.stream() << table_.csv_rows();
+    table_.clear_rows();
+  }
+  void put_one(const Vec3<Real>& vector) {
+    for (int axis = 0; axis < 3; ++axis) put_one(Real(vector[axis]));
+  }
 
   io::Table<Real> table_;
 };

@@ -2,6 +2,7 @@
 // balls, and their total.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -104,6 +105,12 @@ inline void add_partner_columns(std::vector<io::Column>& columns, const model::P
     columns.push_back({partner.key + " " + of_each.name, of_each.type, of_each.unit,
                        of_each.description + ", " + partner.meaning});
   }
+}
+
+/// 0 below the first edge, k from edge k - 1 up to below edge k, edges.size() from the last edge on.
+template <class Real>
+std::size_t bin_of(const std::vector<Real>& edges, const Real& value) {
+  return static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), value) - edges.begin());
 }
 
 /// Impacts with one partner and an energy of them [J].

@@ -36,18 +36,13 @@ class TraceOutput : public IntervalOutput<Real> {
   void record(const ImpactFacts<Real>& f) override {
     if (!this->spec.timer.interval &&
         (f.impact.ball == ball_ || (!f.impact.with_wall && f.impact.partner == ball_)))
-      put_place(f.time, f.simulation.flight(ball_).position);
+      this->put(f.time, f.simulation.flight(ball_).position);
   }
   void write_row(const Real&, const Moment<Real>& end) override {
-    put_place(end.time, end.state_of(ball_).position);
+    this->put(end.time, end.state_of(ball_).position);
   }
 
  private:
-  void put_place(const Real& time, const Vec3<Real>& position) {
-    this->put(time);
-    this->put(position);
-  }
-
   int ball_;
 };
 

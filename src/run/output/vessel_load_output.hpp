@@ -52,8 +52,7 @@ class VesselLoadOutput : public IntervalOutput<Real> {
 
   void write_row(const Real& begin, const Moment<Real>& end) override {
     const Real duration = end.time - begin;
-    this->put(end.time, duration);
-    this->put(impulse_);
+    this->put(end.time, duration, impulse_);
     for (const auto* sum : {&impulse_, &moment_, &vessel_impulse_, &vessel_moment_})
       this->put(Vec3<Real>(*sum / duration));
     this->put(work_, Real(work_ / duration));
