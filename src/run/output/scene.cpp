@@ -58,6 +58,12 @@ std::string text_of(const pugi::xml_document& document) {
 
 std::string numbers(std::initializer_list<double> list) { return fmt::format("{}", fmt::join(list, " ")); }
 std::string triple(const Vec3<double>& v) { return numbers({v[0], v[1], v[2]}); }
+/// The texts of all items, each with a space behind it.
+std::string list_of(const auto& items, auto&& text_of) {
+  std::string list;
+  for (const auto& item : items) list += text_of(item) + " ";
+  return list;
+}
 
 void add_look(pugi::xml_node shape, const casefile::Colour& c, double transparency = 0) {
   auto material = add(add(shape, "Appearance"), "Material", {{"diffuseColor", numbers({c[0], c[1], c[2]})}});
@@ -83,16 +89,12 @@ std::string rotation(const Frame<double>& frame) {
 void add_wall(pugi::xml_node parent, const model::Mesh& wall, const casefile::Colour& colour) {
   auto shape = add(parent, "Shape");
   add_look(shape, colour, 0.7);
-  std::string corners, points;
-  for (const auto& face : wall.faces) {
-    for (const int corner : face) corners += fmt::format("{} ", corner);
-    corners += "-1 ";
-  }
-  for (const auto& point : wall.points) points += triple(point) + " ";
+  const auto corners =
+      list_of(wall.faces, [](const auto& face) { return fmt::format("{} -1", fmt::join(face, " ")); });
   // Faces of one curved wall meet at less than the crease angle and look smooth.
   auto faces =
       add(shape, "IndexedFaceSet", {{"solid", "false"}, {"creaseAngle", "0.5"}, {"coordIndex", corners}});
-  add(faces, "Coordinate", {{"point", points}});
+  add(faces, "Coordinate", {{"point", list_of(wall.points, triple)}});
 }
 
 std::string name_of_wall(std::size_t wall) { return fmt::format("wall_{}", wall); }
@@ -111,11 +113,13 @@ void add_vessel(pugi::xml_node parent, const SceneVessel& vessel, const SceneMot
   }
 }
 
-/// `keys` and `values` of an interpolator that drives one field of the node `target`.
+/// Drives one field of the node `target` by texts of the values at keys.
 void add_interpolator(pugi::xml_node scene, const char* type, const std::string& name,
-                      const std::string& target, const char* field, const std::string& keys,
-                      const std::string& values) {
-  add(scene, type, {{"DEF", name}, {"key", keys}, {"keyValue", values}});
+                      const std::string& target, const char* field, const auto& values, auto&& text_of) {
+  add(scene, type,
+      {{"DEF", name},
+       {"key", list_of(values, [](const auto& at) { return numbers({at.first}); })},
+       {"keyValue", list_of(values, [&](const auto& at) { return text_of(at.second); })}});
   add(scene, "ROUTE",
       {{"fromNode", "clock"},
        {"fromField", "fraction_changed"},
@@ -125,31 +129,20 @@ void add_interpolator(pugi::xml_node scene, const char* type, const std::string&
       {{"fromNode", name}, {"fromField", "value_changed"}, {"toNode", target}, {"toField", field}});
 }
 
-void add_path(pugi::xml_node scene, const SceneMotion::Path& path, const std::string& target) {
-  std::string keys, places;
-  for (const auto& [key, place] : path) {
-    keys += fmt::format("{} ", key);
-    places += triple(place) + " ";
-  }
-  add_interpolator(scene, "PositionInterpolator", target + "_path", target, "set_translation", keys, places);
-}
-
 void add_motion(pugi::xml_node scene, const SceneMotion& motion) {
   add(scene, "TimeSensor",
       {{"DEF", "clock"}, {"cycleInterval", numbers({motion.duration})}, {"loop", "true"}});
-  SceneMotion::Path places;
-  std::string keys, turns;
-  for (const auto& [key, frame] : motion.vessel) {
-    places.emplace_back(key, frame.origin);
-    keys += fmt::format("{} ", key);
-    turns += rotation(frame) + " ";
-  }
-  add_path(scene, places, "vessel");
-  add_interpolator(scene, "OrientationInterpolator", "vessel_turn", "vessel", "set_rotation", keys, turns);
-  for (const auto& [wall, path] : motion.pistons) add_path(scene, path, name_of_wall(wall));
+  const auto add_path = [&](const std::string& target, const auto& path, auto&& text_of) {
+    add_interpolator(scene, "PositionInterpolator", target + "_path", target, "set_translation", path,
+                     text_of);
+  };
+  add_path("vessel", motion.vessel, [](const Frame<double>& frame) { return triple(frame.origin); });
+  add_interpolator(scene, "OrientationInterpolator", "vessel_turn", "vessel", "set_rotation", motion.vessel,
+                   rotation);
+  for (const auto& [wall, path] : motion.pistons) add_path(name_of_wall(wall), path, triple);
   for (std::size_t i = 0; i < motion.balls.size(); ++i)
-    add_path(scene, motion.balls[i], fmt::format("ball_{}", i));
-  if (!motion.contact.empty()) add_path(scene, motion.contact, "contact_point");
+    add_path(fmt::format("ball_{}", i), motion.balls[i], triple);
+  if (!motion.contact.empty()) add_path("contact_point", motion.contact, triple);
 }
 
 }  // namespace
@@ -204,14 +197,12 @@ void add_array(pugi::xml_node parent, const std::string& name, const char* type,
 
 /// Cells by their points, one after the other.
 void add_cells(pugi::xml_node piece, const char* name, const std::vector<std::vector<int>>& cells) {
-  std::string connectivity, offsets;
+  std::string offsets;
   std::size_t end = 0;
-  for (const auto& cell : cells) {
-    for (const int point : cell) connectivity += fmt::format("{} ", point);
-    offsets += fmt::format("{} ", end += cell.size());
-  }
+  for (const auto& cell : cells) offsets += fmt::format("{} ", end += cell.size());
   auto node = piece.append_child(name);
-  add_array(node, "connectivity", "Int32", 1, connectivity);
+  add_array(node, "connectivity", "Int32", 1,
+            list_of(cells, [](const auto& cell) { return fmt::format("{}", fmt::join(cell, " ")); }));
   add_array(node, "offsets", "Int32", 1, offsets);
 }
 
@@ -233,25 +224,19 @@ pugi::xml_node add_piece(VtkFile& file, double time, std::size_t points, std::si
 std::string vtp_balls(const Scene& s) {
   VtkFile file("PolyData");
   auto piece = add_piece(file, s.time, s.balls.size(), s.balls.size(), 0);
-  std::string diameters, velocities, spins, doses, ids, places;
   std::vector<std::vector<int>> cells;
-  for (std::size_t i = 0; i < s.balls.size(); ++i) {
-    const auto& ball = s.balls[i];
-    diameters += fmt::format("{} ", 2 * ball.radius);
-    velocities += triple(ball.velocity) + " ";
-    spins += triple(ball.spin) + " ";
-    doses += fmt::format("{} ", ball.milling_dose);
-    ids += fmt::format("{} ", i);
-    places += triple(ball.position) + " ";
-    cells.push_back({static_cast<int>(i)});
-  }
+  for (int i = 0; i < static_cast<int>(s.balls.size()); ++i) cells.push_back({i});
+  const auto of_each = [&](auto&& text_of) { return list_of(s.balls, text_of); };
   auto data = piece.append_child("PointData");
-  add_array(data, "diameter [m]", "Float64", 1, diameters);
-  add_array(data, "velocity [m/s]", "Float64", 3, velocities);
-  add_array(data, "spin [rad/s]", "Float64", 3, spins);
-  add_array(data, "milling_dose [J]", "Float64", 1, doses);
-  add_array(data, "ball", "Int32", 1, ids);
-  add_array(piece.append_child("Points"), "", "Float64", 3, places);
+  add_array(data, "diameter [m]", "Float64", 1,
+            of_each([](auto& ball) { return numbers({2 * ball.radius}); }));
+  add_array(data, "velocity [m/s]", "Float64", 3, of_each([](auto& ball) { return triple(ball.velocity); }));
+  add_array(data, "spin [rad/s]", "Float64", 3, of_each([](auto& ball) { return triple(ball.spin); }));
+  add_array(data, "milling_dose [J]", "Float64", 1,
+            of_each([](auto& ball) { return numbers({ball.milling_dose}); }));
+  add_array(data, "ball", "Int32", 1, list_of(cells, [](auto& cell) { return std::to_string(cell[0]); }));
+  add_array(piece.append_child("Points"), "", "Float64", 3,
+            of_each([](auto& ball) { return triple(ball.position); }));
   add_cells(piece, "Verts", cells);
   return text_of(file.document);
 }
