@@ -1,4 +1,4 @@
 #include "base/wide_trigonometry.hpp"
-#include "output/outputs_impl.hpp"
+#include "output/registry.hpp"
 
 template class edmill::output::Outputs<double>;
