@@ -130,11 +130,10 @@ class LyapunovOutput : public TableOutput<Real> {
       const double growth = total(k);
       const auto batches = batches_.amounts(k);
       const bool known = !is_lost(k) && batches.size() >= io::Intervals::fewest;
-      this->put(
-          ++place, std::optional<Real>(Real(growth / duration)),
-          io::value_if(known, [&] { return Real(io::Intervals::of(batches, length).half_width); }),
-          std::optional<Real>(Real(growth / (share * per_ball))),
-          std::optional<Real>(Real(growth / (share * static_cast<double>(collisions_)) / 2.302585092994046)));
+      this->put(++place, Real(growth / duration),
+                io::value_if(known, [&] { return Real(io::Intervals::of(batches, length).half_width); }),
+                Real(growth / (share * per_ball)),
+                Real(growth / (share * static_cast<double>(collisions_)) / 2.302585092994046));
     }
   }
 
@@ -163,33 +162,29 @@ class LyapunovOutput : public TableOutput<Real> {
     begun_ = true;
   }
   void end_intervals(const engine::Simulation<Real>& simulation, const Real& time) {
-    if (this->spec.timer.interval)
-      intervals_.pass(this->timer(), time, row_of(simulation));
-    else
-      end_period(in_double(simulation.instant_of(time)));
-  }
-  void end_record(const engine::Simulation<Real>& simulation, const Real& until) {
-    end_intervals(simulation, until);
-    if (this->spec.timer.interval) intervals_.finish(this->timer().from(), until, row_of(simulation));
-    ended_ = true;
-  }
-  void end_period(const Instant<double>& now) {
+    if (this->spec.timer.interval) return intervals_.pass(this->timer(), time, row_of(simulation));
+    const auto now = in_double(simulation.instant_of(time));
     if (now < batches_.next_period()) return;
     spectrum_->orthonormalise(now);
     auto growth = spectrum_->growth();
     for (std::size_t k = 0; k < growth.size(); ++k) growth[k] = is_lost(k) ? 0 : growth[k] - before_[k];
     batches_.pass(now, growth);
   }
-  auto row_of(const engine::Simulation<Real>& simulation) {
-    return [this, &simulation](const Real& begin, const Real& end) { put_interval(simulation, begin, end); };
+  void end_record(const engine::Simulation<Real>& simulation, const Real& until) {
+    end_intervals(simulation, until);
+    if (this->spec.timer.interval) intervals_.finish(this->timer().from(), until, row_of(simulation));
+    ended_ = true;
   }
-  void put_interval(const engine::Simulation<Real>& simulation, const Real& begin, const Real& end) {
-    spectrum_->orthonormalise(in_double(simulation.instant_of(end)));
-    const auto& growth = spectrum_->growth();
-    this->put(end);
-    for (std::size_t k = 0; k < growth.size(); ++k)
-      this->put(Real(is_lost(k) ? none : (growth[k] - before_[k]) / static_cast<double>(end - begin)));
-    before_ = growth;
+  /// Writes the row of an interval.
+  auto row_of(const engine::Simulation<Real>& simulation) {
+    return [this, &simulation](const Real& begin, const Real& end) {
+      spectrum_->orthonormalise(in_double(simulation.instant_of(end)));
+      const auto& growth = spectrum_->growth();
+      this->put(end);
+      for (std::size_t k = 0; k < growth.size(); ++k)
+        this->put(Real(is_lost(k) ? none : (growth[k] - before_[k]) / static_cast<double>(end - begin)));
+      before_ = growth;
+    };
   }
 
   /// Whether impacts at the least separation speed have taken it away.
