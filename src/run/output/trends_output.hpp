@@ -1,4 +1,5 @@
-// Variables in the course of time: those of impacts in each interval, of single impacts, and of balls.
+// What a run does in the course of time: variables of impacts in each interval, of single impacts and of
+// balls, and the place of one ball.
 #pragma once
 
 #include "base/trigonometry.hpp"
@@ -172,6 +173,73 @@ class TrendsBallsOutput : public IntervalOutput<Real> {
  private:
   static bool shows_ball(const casefile::ColumnSpec& c, Statistic s) {
     return c.with_ball && (s == Statistic::minimum || s == Statistic::maximum);
+  }
+};
+
+struct TraceKeys {
+  std::uint64_t ball = 0;
+
+  static void keys(auto& output, auto&& row) {
+    row(casefile::interval_key(nullptr).usually("each impact"), output.timer.interval);
+    row(casefile::max_rows_key(), output.timer.max_rows);
+    row({"ball", "its id", casefile::Range::any, "0"}, output.template make_own<TraceKeys>().ball);
+  }
+  static void check(casefile::Section& s, const casefile::CaseSpec& spec, casefile::OutputSpec& output) {
+    if (spec.ball_count() > 0)
+      s.require(output.own_keys<TraceKeys>().ball < spec.ball_count(), "ball",
+                "a ball of the case; they count from 0");
+  }
+};
+
+/// Where one ball is: at each of its impacts, or at the end of each interval. (thesis D.4.8)
+template <class Real>
+class TraceOutput : public IntervalOutput<Real> {
+ public:
+  TraceOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+      : IntervalOutput<Real>(spec, run), ball_(static_cast<int>(spec.own_keys<TraceKeys>().ball)) {
+    std::vector<Column> columns{{"time", number, "s", meaning_of("time")}};
+    for (const auto* axis : {"x", "y", "z"})
+      columns.push_back({axis, number, "m", "place of ball " + std::to_string(ball_) + ", inertial frame"});
+    this->begin(std::move(columns));
+  }
+
+ protected:
+  void record(const ImpactFacts<Real>& f) override {
+    if (!this->spec.timer.interval &&
+        (f.impact.ball == ball_ || (!f.impact.with_wall && f.impact.partner == ball_)))
+      this->put(f.time, f.simulation.flight(ball_).position);
+  }
+  void write_row(const Real&, const Moment<Real>& end) override {
+    this->put(end.time, end.state_of(ball_).position);
+  }
+
+ private:
+  int ball_;
+};
+
+/// All variables of each impact. (thesis D.4.9)
+template <class Real>
+class IterationsOutput : public TableOutput<Real> {
+ public:
+  IterationsOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+      : TableOutput<Real>(spec, run) {
+    const auto& partners = run.partners;
+    std::vector<Column> columns;
+    for (const auto& v : model::impact_variables) {
+      std::string meaning(v.meaning);
+      // Files of all versions describe these two like the columns of that name in other tables.
+      for (const auto& column : {walls_column, partners[partners.ball_ball()]})
+        if (v.name == column.key) meaning = column.meaning;
+      columns.push_back({std::string(v.name), type_of(v), std::string(v.unit), meaning});
+    }
+    this->begin(std::move(columns));
+  }
+
+ protected:
+  void archive_record(Archive&) override {}
+  void record(const ImpactFacts<Real>& f) override {
+    for (int k = 0; k < static_cast<int>(model::impact_variables.size()); ++k)
+      this->put_variable(k, variable_formula<Real>(k)(f));
   }
 };
 
