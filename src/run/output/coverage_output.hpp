@@ -1,4 +1,4 @@
-// Dose by its place on the vessel. docs/outputs.md, "coverage"
+// Dose by its place. docs/outputs.md, "bodies", "coverage"
 #pragma once
 
 #include <algorithm>
@@ -7,8 +7,59 @@
 
 #include "casefile/output_entry.hpp"
 #include "output/table_output.hpp"
+#include "output/tallies.hpp"
 
 namespace edmill::output {
+
+/// Of the surface of a ball [m2].
+template <class Real>
+Real ball_area(const engine::Simulation<Real>& simulation, int ball) {
+  const Real& radius = simulation.properties(ball).radius;
+  return 4 * numerics::pi<Real>() * radius * radius;
+}
+
+/// On each ball and on each wall: half of the dose of an impact is on either body. docs/outputs.md, "bodies"
+template <class Real>
+class BodiesOutput : public TableOutput<Real> {
+ public:
+  BodiesOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+      : TableOutput<Real>(spec, run),
+        on_balls_(run.ball_colours.size()),
+        on_walls_(run.surfaces(spec).size()) {}
+
+ protected:
+  void archive_record(Archive& a) override { a(on_balls_, on_walls_); }
+
+  void record(const ImpactFacts<Real>& f) override {
+    const Real half = f.outcome.milling_dose / 2;
+    const auto partner = static_cast<std::size_t>(f.impact.partner);
+    on_balls_[static_cast<std::size_t>(f.impact.ball)].add(half);
+    (f.impact.with_wall ? on_walls_[partner] : on_balls_[partner]).add(half);
+  }
+
+  void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
+    this->begin({{"kind", text, "", "ball or wall"},
+                 {"body", integer, "", "its number"},
+                 {"impacts", integer, "1", "of the body"},
+                 {"dose", number, "J", "half of that of its impacts"},
+                 {"dose_rate", number, "W", "the same per second of the record"},
+                 {"area", number, "m2", "of its surface"}},
+                {this->window(until)});
+    const Real time = until - this->timer().from();
+    const auto put = [&](const char* kind, std::size_t body, const Tally<Real>& share, const Real& area) {
+      const Real dose = share.energy.value();
+      this->put(kind, static_cast<std::uint64_t>(body), share.impacts, dose,
+                io::value_if(time > 0, [&] { return Real(dose / time); }), area);
+    };
+    for (std::size_t k = 0; k < on_balls_.size(); ++k)
+      put("ball", k, on_balls_[k], ball_area(simulation, static_cast<int>(k)));
+    for (std::size_t k = 0; k < on_walls_.size(); ++k)
+      put("wall", k, on_walls_[k], this->run.walls[k].area());
+  }
+
+ private:
+  std::vector<Tally<Real>> on_balls_, on_walls_;
+};
 
 /// Into how many equal parts the coordinates on walls are divided.
 struct CoverageKeys {
@@ -73,6 +124,7 @@ class WallCells {
   std::size_t count_ = 0;
 };
 
+/// On cells of the vessel's walls.
 template <class Real>
 class CoverageOutput : public TableOutput<Real> {
  public:

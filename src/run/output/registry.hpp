@@ -10,7 +10,6 @@
 #include "base/version.hpp"
 #include "casefile/output_entry.hpp"
 #include "output/animation_output.hpp"
-#include "output/bodies_output.hpp"
 #include "output/coverage_output.hpp"
 #include "output/events_output.hpp"
 #include "output/frequency_output.hpp"

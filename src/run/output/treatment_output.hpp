@@ -73,13 +73,12 @@ class TreatmentOutput : public TableOutput<Real> {
     std::vector<Real> mixed(most_ + 1), in_place(most_ + 1);
     add_poisson(share_ * Real(impacts_), Real(1), mixed);
     Real whole(0);
-    const auto patches = patches_of(simulation);
-    for (const auto& patch : patches) whole += patch.area;
-    for (const auto& patch : patches) {
+    for_each_patch(simulation, [&](const Real& area, std::uint64_t) { whole += area; });
+    for_each_patch(simulation, [&](const Real& area, std::uint64_t impacts) {
       // Half of what an impact works lies on either body.
-      const Real layer = patch.area / whole;
-      if (layer > 0) add_poisson(share_ / 2 * Real(patch.impacts) / layer, layer, in_place);
-    }
+      const Real layer = area / whole;
+      if (layer > 0) add_poisson(share_ / 2 * Real(impacts) / layer, layer, in_place);
+    });
     Real more_mixed(1), more_in_place(1);
     for (std::uint64_t hits = 0; hits <= most_; ++hits) {
       this->put(std::to_string(hits), mixed[hits], in_place[hits]);
@@ -90,21 +89,13 @@ class TreatmentOutput : public TableOutput<Real> {
   }
 
  private:
-  struct Patch {
-    Real area;  ///< [m2]
-    std::uint64_t impacts;
-  };
-
-  std::vector<Patch> patches_of(const engine::Simulation<Real>& simulation) const {
-    std::vector<Patch> patches;
+  /// Calls f(area [m2], impacts) for each cell of the walls and each ball.
+  void for_each_patch(const engine::Simulation<Real>& simulation, auto&& f) const {
     for (const auto& wall : walls_.walls())
       for (std::size_t cell = wall.first; cell < wall.first + wall.columns * wall.rows; ++cell)
-        patches.push_back({wall.area_of_cell(), on_walls_[cell]});
-    for (std::size_t k = 0; k < on_balls_.size(); ++k) {
-      const Real radius = simulation.properties(static_cast<int>(k)).radius;
-      patches.push_back({4 * numerics::pi<Real>() * radius * radius, on_balls_[k]});
-    }
-    return patches;
+        f(wall.area_of_cell(), on_walls_[cell]);
+    for (std::size_t k = 0; k < on_balls_.size(); ++k)
+      f(ball_area(simulation, static_cast<int>(k)), on_balls_[k]);
   }
 
   /// Adds `weight` times Poisson's distribution of this mean.
