@@ -119,9 +119,9 @@ class Output {
   const OutputTimer<Real>& timer() const { return timer_; }
 
   /// What it has gathered and not yet written; what follows from the case is not part of it.
-  virtual void archive_record(Archive& a) = 0;
+  virtual void archive_record(Archive&) {}
   /// An impact of the record.
-  virtual void record(const ImpactFacts<Real>& f) = 0;
+  virtual void record(const ImpactFacts<Real>&) {}
   /// Any impact of the run, in the record or not.
   virtual void every(const ImpactFacts<Real>&) {}
   /// Any impact, before it is recorded: for rows that are due since the one before.
@@ -149,10 +149,12 @@ class OneFileOutput : public Base {
   void complete() override { file_.complete(); }
   void commit() override { file_.commit(); }
   std::vector<std::filesystem::path> places() const override { return file_.places(); }
+  void archive(Archive& a) override {
+    Base::archive(a);
+    a(file_);
+  }
 
  protected:
-  void archive_record(Archive& a) override { a(file_); }
-
   File file_;
 };
 

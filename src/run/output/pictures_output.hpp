@@ -140,7 +140,7 @@ class FramesOutput : public OneFileOutput<Real, io::AtomicFile, SceneOutput<Real
     if (!begun_) frame(from);
     if (!complete_) clock_.finish(from, until, [&](const Real&, const Real& end) { frame(end); });
   }
-  void archive_record(Archive& a) override { a(this->file_, clock_, begun_, complete_); }
+  void archive_record(Archive& a) override { a(clock_, begun_, complete_); }
 
  private:
   IntervalClock<Real> clock_;

@@ -55,12 +55,11 @@ class TableOutput : public OneFileOutput<Real, io::AtomicFile> {
     file_.complete();
   }
   void archive(Archive& a) override {
-    Output<Real>::archive(a);
-    a(file_, table_);
+    OneFileOutput<Real, io::AtomicFile>::archive(a);
+    a(table_);
   }
 
  protected:
-  void archive_record(Archive& a) override = 0;
   /// To be called once: in the constructor when rows come during the run, else before the first row.
   void begin(std::vector<io::Column> columns, std::vector<std::string> comments = {}) {
     table_ = io::Table<Real>(std::move(columns), std::move(comments));
@@ -121,8 +120,6 @@ class IntervalOutput : public TableOutput<Real> {
  protected:
   virtual void write_row(const Real& begin, const Moment<Real>& end) = 0;
 
-  void archive_record(Archive&) override {}
-  void record(const ImpactFacts<Real>&) override {}
   void before(const ImpactFacts<Real>& f) override {
     if (!this->spec.timer.interval) return;
     clock_.pass(this->timer(), f.time, [&](const Real& begin, const Real& end) {

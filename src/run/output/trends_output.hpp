@@ -236,7 +236,6 @@ class IterationsOutput : public TableOutput<Real> {
   }
 
  protected:
-  void archive_record(Archive&) override {}
   void record(const ImpactFacts<Real>& f) override {
     for (int k = 0; k < static_cast<int>(model::impact_variables.size()); ++k)
       this->put_variable(k, variable_formula<Real>(k)(f));
