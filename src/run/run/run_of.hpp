@@ -51,34 +51,25 @@ BallState<To> to_public(const model::BallState<Real>& s, const Of& of) {
 /// Numbers of turns are exact until the scalar is chosen.
 template <class Real>
 model::AnyMotion<Real> to_motion(const Joints<Real>& given, const Real& period) {
-  using casefile::Quantity;
-  const auto exactly = [](const TurnsPerPeriod& t) {
+  const auto per_period = [](const TurnsPerPeriod& t) {
+    using casefile::Quantity;
     if (t.of < 1)
       throw InputError("joint: found turns per " + std::to_string(t.of) + " periods, expected 1 or more");
-    return Quantity{t.turns, t.of};
+    const std::vector<model::Swing<Quantity>> turning{{Quantity{1}, Quantity{t.turns, t.of}, Quantity{0}}};
+    return casefile::with_phases(turning, Quantity{1}).front().per_period;
   };
-  model::Joints<Quantity> phases{{}, Quantity{1}};
   model::Joints<Real> joints{{}, period};
   for (const auto& j : given) {
-    model::Joint<Quantity> phase;
-    phase.rotates = j.rotates;
-    phase.speed = exactly(j.speed);
-    model::Joint<Real> joint{j.rotates, j.axis, j.shift, j.angle, Real(0)};
-    for (const auto& h : j.harmonics) {
-      phase.swings.push_back({Quantity{1}, exactly(h.frequency), Quantity{0}});
-      joint.swings.push_back({h.amplitude, Real(0), h.phase});
-    }
+    const auto turns = per_period(j.speed);
+    model::Joint<Real> joint{j.rotates, j.axis,  j.shift,
+                             j.angle,   Real(0), j.rotates ? turns : TurnFraction{}};
+    for (const auto& h : j.harmonics)
+      joint.swings.push_back({h.amplitude, Real(0), h.phase, per_period(h.frequency)});
     if (!j.rotates && j.speed.turns != 0)
       throw InputError("joint: found a translation with turns per period, expected harmonics");
     if ((j.rotates || !joint.swings.empty()) && j.axis == std::array<Real, 3>{})
       throw InputError("joint: found an axis of no length");
-    phases.list.push_back(std::move(phase)), joints.list.push_back(std::move(joint));
-  }
-  phases = casefile::with_phases(std::move(phases));
-  for (std::size_t k = 0; k < joints.list.size(); ++k) {
-    joints.list[k].per_period = phases.list[k].per_period;
-    for (std::size_t s = 0; s < joints.list[k].swings.size(); ++s)
-      joints.list[k].swings[s].per_period = phases.list[k].swings[s].per_period;
+    joints.list.push_back(std::move(joint));
   }
   return model::ChainMotion<Real>(joints);
 }
