@@ -75,8 +75,10 @@ class Linearised : public engine::Observer<mpfr> {
  public:
   /// @param base    the mill in these digits, and balls without `initial`
   /// @param digits  of the evaluation
-  Linearised(Perturbation base, std::vector<Perturbation> others, unsigned digits)
-      : base_(std::move(base)), others_(std::move(others)), digits_(digits) {
+  /// @param found   to which each impact adds its derivatives, by perturbation
+  Linearised(Perturbation base, std::vector<Perturbation> others, unsigned digits,
+             std::vector<std::vector<EventDerivative>>& found)
+      : base_(std::move(base)), others_(std::move(others)), digits_(digits), found_(found) {
     for (const auto& other : others_) tangents_.push_back(other.initial);
   }
 
@@ -86,13 +88,10 @@ class Linearised : public engine::Observer<mpfr> {
     for (int k = 0; k < (impact.with_wall ? 1 : 2); ++k)
       before[k] = {simulation.flight(ball_of(impact, k)).position, impact.velocity_before[k],
                    impact.spin_before[k]};
-    events_.emplace_back();
+    auto& derivatives = found_.emplace_back();
     for (std::size_t which = 0; which < others_.size(); ++which)
-      events_.back().push_back(derivative(impact, before, which));
+      derivatives.push_back(derivative(impact, before, which));
   }
-
-  /// By impact, and then by perturbation.
-  const std::vector<std::vector<EventDerivative>>& events() const { return events_; }
 
  private:
   static int ball_of(const engine::Impact<mpfr>& impact, int k) {
@@ -157,7 +156,7 @@ class Linearised : public engine::Observer<mpfr> {
   unsigned digits_;
   /// By perturbation and ball, at its last impact.
   std::vector<std::vector<Tangent>> tangents_;
-  std::vector<std::vector<EventDerivative>> events_;
+  std::vector<std::vector<EventDerivative>>& found_;
 };
 
 constexpr unsigned most_digits_of_step = 380;  // decimals in a case have at most 400
@@ -200,10 +199,10 @@ class Differentiator : private engine::Observer<mpfr> {
  public:
   Differentiator(const casefile::CaseSpec& spec, const SensitivityOptions& options)
       : spec_(spec), options_(options) {
-    for (const auto& key : options.by) numbers_.push_back(number_of(spec, key));
-    for (const auto& number : numbers_) {
-      result.by.push_back(number.key);
-      result.units.push_back(number.unit);
+    result.by = options.by;
+    for (const auto& key : options.by) {
+      numbers_.push_back(number_of(spec, key));
+      result.units.push_back(numbers_.back().unit);
     }
   }
 
@@ -215,7 +214,7 @@ class Differentiator : private engine::Observer<mpfr> {
       const auto base = casefile::build_case<mpfr>(spec_);
       std::vector<Perturbation> others;
       for (const auto& number : numbers_) others.push_back(perturbed(number, base, step_digits));
-      return Linearised(without_change(base), std::move(others), evaluation);
+      return Linearised(without_change(base), std::move(others), evaluation, result.derivatives);
     }();
     const mpfr::Digits of_run(digits);
     result.precision = fmt::format("mpfr:{}", digits);
@@ -224,9 +223,9 @@ class Differentiator : private engine::Observer<mpfr> {
     simulation.attach(linearised);
     simulation.attach(*this);
     result.events.clear();
+    result.derivatives.clear();
     simulation.run_until(built.the_case.stop.end_time.value_or(Instant<mpfr>::never()));
     result.interrupted = options_.interrupt && *options_.interrupt;
-    result.derivatives = linearised.events();
     put_lower_first();
     return needed();
   }
