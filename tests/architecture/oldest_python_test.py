@@ -78,7 +78,7 @@ def oldest_of(file):
 
 def blocks():
     """Names and texts of everything that users run; those of a page at their lines."""
-    for folder in ("src/bindings/python", "docs", "regression", "verification"):
+    for folder in ("src/bindings/python", "cmake", "docs", "regression", "verification"):
         for file in sorted((source / folder).rglob("*.py")):
             yield file, file.read_text(encoding="utf-8")
         for file in sorted((source / folder).rglob("*.ipynb")):

@@ -15,7 +15,7 @@ import sysconfig
 import tempfile
 import zipfile
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
+ROOT = pathlib.Path(__file__).resolve().parents[1]
 PLATFORM = re.sub("[-.]", "_", sysconfig.get_platform())
 # What every Linux with Python has: PEP 600 and its predecessors leave them out of wheels.
 OF_THE_SYSTEM = re.compile(r"(ld-linux|libc|libm|libdl|librt|libpthread|libresolv|libgcc_s|libstdc\+\+|linux-vdso)[.-].*")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """One file of the page: its text, style and scripts, the engine compressed within it, and the cases of docs/examples.
 
-usage: assemble.py ENGINE PAGE.html   where ENGINE.js and ENGINE.wasm are
+usage: assemble_page.py ENGINE PAGE.html   where ENGINE.js and ENGINE.wasm are
 """
 import base64
 import gzip
@@ -9,15 +9,16 @@ import json
 import pathlib
 import sys
 
-HERE = pathlib.Path(__file__).resolve().parent
-EXAMPLES = HERE.parents[2] / "docs/examples"
+SOURCE = pathlib.Path(__file__).resolve().parents[1]
+PARTS = SOURCE / "src/bindings/browser"
+EXAMPLES = SOURCE / "docs/examples"
 CASES = {"SPEX 8000, 28 balls": "demo.toml", "planetary mill": "planetary.toml", "shaken box": "shaken_box.toml",
          "steel and alumina, with a piston": "materials.toml"}
 
 
 def main(engine, place):
     def read(name):
-        return (HERE / name).read_text(encoding="utf-8")
+        return (PARTS / name).read_text(encoding="utf-8")
 
     def script(name):
         """Without comments and indentation: the file is to stay small."""
@@ -26,7 +27,7 @@ def main(engine, place):
 
     compressed = gzip.compress(pathlib.Path(engine + ".wasm").read_bytes(), 9, mtime=0)
     cases = {name: (EXAMPLES / file).read_text(encoding="utf-8") for name, file in CASES.items()}
-    reference = HERE.parents[2] / "regression/reference"
+    reference = SOURCE / "regression/reference"
     rows = [line.split(",") for line in (reference / "three_balls.events.csv").read_text(encoding="utf-8").splitlines()
             if not line.startswith("#")]
     proven = {"case": (reference / "three_balls.toml").read_text(encoding="utf-8"),
