@@ -64,22 +64,17 @@ bool is_done(const auto& work) {
   }
 }
 
-/// Calls f(name, member of an impact in doubles, member of one in texts) for everything that is known of one.
-template <class F>
+/// Calls f(name, member) for everything that is known of an impact.
+template <class Number, class F>
 void for_each_member(F&& f) {
-  using D = Impact<double>;
-  using T = Impact<std::string>;
-  f("index", &D::index, &T::index), f("time", &D::time, &T::time), f("ball", &D::ball, &T::ball);
-  f("with_wall", &D::with_wall, &T::with_wall), f("partner", &D::partner, &T::partner);
-  f("normal", &D::normal, &T::normal), f("approach_speed", &D::approach_speed, &T::approach_speed);
-  f("slip_speed", &D::slip_speed, &T::slip_speed);
-  f("separation_speed", &D::separation_speed, &T::separation_speed);
-  f("restitution_tangential", &D::restitution_tangential, &T::restitution_tangential);
-  f("normal_impulse", &D::normal_impulse, &T::normal_impulse);
-  f("tangential_impulse", &D::tangential_impulse, &T::tangential_impulse);
-  f("milling_dose", &D::milling_dose, &T::milling_dose);
-  f("supplied_energy", &D::supplied_energy, &T::supplied_energy),
-      f("wall_work", &D::wall_work, &T::wall_work);
+  using I = Impact<Number>;
+  f("index", &I::index), f("time", &I::time), f("ball", &I::ball);
+  f("with_wall", &I::with_wall), f("partner", &I::partner), f("normal", &I::normal);
+  f("approach_speed", &I::approach_speed), f("slip_speed", &I::slip_speed);
+  f("separation_speed", &I::separation_speed), f("restitution_tangential", &I::restitution_tangential);
+  f("normal_impulse", &I::normal_impulse), f("tangential_impulse", &I::tangential_impulse);
+  f("milling_dose", &I::milling_dose), f("supplied_energy", &I::supplied_energy);
+  f("wall_work", &I::wall_work);
 }
 /// A member of an impact as Python has it.
 template <class Value>
@@ -92,14 +87,12 @@ py::object to_python(const Value& value) {
     return py::cast(value);
 }
 
-/// The array owns what the list held: nothing is copied.
-template <class Row>
-py::array as_array(std::vector<Row> rows) {
-  auto owner = std::make_unique<std::vector<Row>>(std::move(rows));
-  const auto size = static_cast<py::ssize_t>(owner->size());
-  const Row* data = owner->data();
-  py::capsule keeper(owner.release(), [](void* p) { delete static_cast<std::vector<Row>*>(p); });
-  return py::array_t<Row>(size, data, keeper);
+template <class Number>
+void bind_impact(Module& m, const char* name) {
+  py::class_<Impact<Number>> impact(m, name);
+  for_each_member<Number>([&](const char* member, auto which) {
+    impact.def_property_readonly(member, [which](const Impact<Number>& i) { return to_python(i.*which); });
+  });
 }
 
 /// Keeps all impacts. Wide numbers are objects, a list of tuples for the package to make an array of.
@@ -113,14 +106,19 @@ class Collector : public run::Watcher {
     }
     const auto seen = impact.in_double();
     auto& row = doubles_.emplace_back();  // zero in its gaps, too: equal runs give equal bytes
-    for_each_member([&](const char*, auto which, auto) { row.*which = seen.*which; });
+    for_each_member<double>([&](const char*, auto which) { row.*which = seen.*which; });
   }
+  /// An array in double owns what the list held: nothing is copied.
   py::object events() {
-    if (!numbers_.wide) return as_array(std::move(doubles_));
+    if (!numbers_.wide) {
+      auto* owner = new std::vector(std::move(doubles_));
+      const py::capsule keeper(owner, [](void* p) { delete static_cast<std::vector<Impact<double>>*>(p); });
+      return py::array_t<Impact<double>>(static_cast<py::ssize_t>(owner->size()), owner->data(), keeper);
+    }
     py::list rows;
     for (const auto& event : texts_) {
       py::list row;
-      for_each_member([&](const char*, auto, auto which) { row.append(to_python(event.*which)); });
+      for_each_member<std::string>([&](const char*, auto which) { row.append(to_python(event.*which)); });
       rows.append(py::tuple(row));
     }
     return rows;
@@ -131,20 +129,11 @@ class Collector : public run::Watcher {
   std::vector<Impact<double>> doubles_;
   std::vector<Impact<std::string>> texts_;
 };
-py::object states_of(const AnyRun& run, const Numbers& numbers) {
+
+py::list states_of(const AnyRun& run, const Numbers& numbers) {
   py::list rows;
-  std::vector<BallState<double>> doubles;
-  const auto in_double = [](const Vector<std::string>& v) {
-    return Vector<double>{std::stod(v[0]), std::stod(v[1]), std::stod(v[2])};
-  };
-  for (int k = 0; k < run.ball_count(); ++k) {
-    const auto s = run.ball(k);
-    if (numbers.wide)
-      rows.append(numbers.of(s));
-    else
-      doubles.push_back({in_double(s.position), in_double(s.velocity), in_double(s.spin)});
-  }
-  return numbers.wide ? py::object(rows) : py::object(as_array(std::move(doubles)));
+  for (int k = 0; k < run.ball_count(); ++k) rows.append(numbers.of(run.ball(k)));
+  return rows;
 }
 
 /// Calls Python's signal handlers and reports progress, ten times a second; ends the run after Ctrl-C.
@@ -295,12 +284,8 @@ const Binding runs([](Module& m) {
                        slip_speed, separation_speed, restitution_tangential, normal_impulse,
                        tangential_impulse, milling_dose, supplied_energy, wall_work);
   PYBIND11_NUMPY_DTYPE(BallState<double>, position, velocity, spin);
-  py::class_<Impact<double>> in_double(m, "Impact");
-  py::class_<Impact<std::string>> in_texts(m, "WideImpact");
-  for_each_member([&](const char* name, auto number, auto text) {
-    in_double.def_property_readonly(name, [number](const Impact<double>& i) { return to_python(i.*number); });
-    in_texts.def_property_readonly(name, [text](const Impact<std::string>& i) { return to_python(i.*text); });
-  });
+  bind_impact<double>(m, "Impact");
+  bind_impact<std::string>(m, "WideImpact");
   py::class_<RunOfPython>(m, "Running")
       .def_property_readonly("time", [](const RunOfPython& r) { return r.numbers.of(r.run.time()); })
       .def_property_readonly("ball_count", [](const RunOfPython& r) { return r.run.ball_count(); })

@@ -53,8 +53,8 @@ class Run:
         self.summary = json.loads(result["summary"], parse_float=number)
         self.right_digits = self.summary.get("right_digits")
         self.time = result["time"]
-        self.events = _array(result["events"], _edmill.event_dtype).view(Records)
-        self.states = _array(result["states"], _edmill.state_dtype).view(Records)
+        self.events = _array(result["events"], _edmill.event_dtype, number).view(Records)
+        self.states = _array(result["states"], _edmill.state_dtype, number).view(Records)
         self._page: str | None = None
         self._series: dict[str, np.ndarray] | None = None
         self._laws: dict[str, Any] = {}  # of Python
@@ -151,16 +151,13 @@ class Run:
         return f"<edmill.Run of {self.case!r} in {self.precision} to {self.time} s ({s['end_reason']}): {counted}>"
 
 
-def _wide(dtype: np.dtype) -> np.dtype:
-    """The fields with objects for numbers."""
-    return np.dtype([(name, object if dtype[name].base.kind == "f" else dtype[name].base, dtype[name].shape) for name in dtype.names])
-
-
-def _array(rows: Any, dtype: np.dtype) -> np.ndarray:
-    """Rows of a run in double are an array already; numbers of others become objects."""
+def _array(rows: Any, dtype: np.dtype, number: type) -> np.ndarray:
+    """Events of a run in double are an array already; wide numbers become objects."""
     if isinstance(rows, np.ndarray):
         return rows
-    return np.array(rows, dtype=_wide(dtype))
+    if number is not float:
+        dtype = np.dtype([(name, object if dtype[name].base.kind == "f" else dtype[name].base, dtype[name].shape) for name in dtype.names])
+    return np.array(rows, dtype=dtype)
 
 
 def _line(until: float | None):
@@ -313,10 +310,7 @@ def read_run(folder: str | pathlib.Path) -> Run:
     facts = json.loads(summary)
     number = float if facts["precision"] == "double" else decimal.Decimal
     states = list(csv.DictReader(table.splitlines()))
-    rows = np.empty(len(states), dtype=_edmill.state_dtype if number is float else _wide(_edmill.state_dtype))
-    for field in _edmill.state_dtype.names:
-        for k, axis in enumerate("xyz"):
-            rows[field][:, k] = [number(state[f"{field}_{axis}"]) for state in states]
+    rows = [tuple([number(state[f"{field}_{axis}"]) for axis in "xyz"] for field in _edmill.state_dtype.names) for state in states]
     made = Case.parse(case, str(files[1]), facts["settings"])
     time = number(json.loads(summary, parse_float=str)["end_time"])
     return Run(made, facts["precision"], place,
