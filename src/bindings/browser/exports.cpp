@@ -1,14 +1,22 @@
 // What the page calls, as C functions: texts in, JSON out. A text is valid until the next call.
 #include <emscripten.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "audit/audit.hpp"
-#include "browser/session.hpp"
+#include "base/digest.hpp"
+#include "base/errors.hpp"
+#include "base/version.hpp"
+#include "browser/case_with_values.hpp"
 #include "casefile/build_case.hpp"
 #include "check.hpp"
 #include "compare/comparison.hpp"
@@ -16,14 +24,172 @@
 #include "identify/identify.hpp"
 #include "io/input_file.hpp"
 #include "io/json_text.hpp"
+#include "model/mill.hpp"
+#include "model/parts/surface.hpp"
+#include "output/scene.hpp"
 #include "run/case_access.hpp"
+
+namespace edmill::browser {
 
 namespace {
 
-using edmill::io::content_of;
-using edmill::io::JsonText;
+using io::content_of, io::JsonText;
 
-std::unique_ptr<edmill::browser::Session> session;
+/// A run that a page shows while it goes on.
+class Session : private Observer<double> {
+ public:
+  /// @param settings  "section.key=value" over the text, whose own outputs are left out
+  /// @param log       whether collisions.csv is written
+  /// @throws InputError with all problems of the case
+  Session(const std::string& text, const std::vector<std::string>& settings, bool log)
+      : spec_(read(text, settings, log)),
+        mill_(casefile::build_mill<double>(spec_)),
+        run_(CaseAccess::make(spec_)),
+        log_(log) {
+    run_.write_to(folder);
+    run_.attach(*this);
+  }
+
+  /// What stands still, as JSON: radii, walls as meshes, names of partners, digest of the case, the period.
+  void scene(JsonText& json) const {
+    json.add("version", version());
+    json.add("case_digest", spec_.digest);
+    json.add("period", mill_.motion.period());
+    json.add("start", spec_.statistics_start.to<double>());
+    if (spec_.end_time) json.add("end", spec_.end_time->to<double>());
+    json.add("balls", run_.ball_count());
+    std::vector<double> radii;
+    for (const auto& batch : spec_.batches)
+      radii.insert(radii.end(), batch.count, batch.diameter.to<double>() / 2);
+    for (const auto& ball : spec_.balls) radii.push_back(ball.diameter.to<double>() / 2);
+    json.add("radii", radii);
+    const auto partners = casefile::partners_of(spec_);
+    std::vector<std::string> names;
+    for (int k = 0; k < partners.count(); ++k) names.push_back(partners[k].label);
+    json.add("partners", names);
+    json.add("middle", coordinates(std::array{mill_.motion.middle()}));
+    json.begin("walls");
+    int wall = 0;
+    for (const auto& surface : mill_.vessel.surfaces()) {
+      const auto mesh = model::mesh_of(surface);
+      json.begin(std::to_string(wall++));
+      json.add("points", coordinates(mesh.points));
+      std::vector<int> corners;  // of each face, after their number
+      for (const auto& face : mesh.faces) {
+        corners.push_back(static_cast<int>(face.size()));
+        corners.insert(corners.end(), face.begin(), face.end());
+      }
+      json.add("faces", corners);
+      json.end();
+    }
+    json.end();
+  }
+
+  /// Simulates up to a time [s].
+  void advance_to(double time) {
+    if (going_on_) going_on_ = run_.advance_to(time);
+  }
+  /// Simulates to the next impact, but for no longer than a hundred drive periods.
+  void advance_one_impact() {
+    const auto before = impacts_;
+    const double now = run_.time();
+    double step = impacts_ > 0 ? now / static_cast<double>(impacts_) / 1000 : 1e-6;
+    const double latest = now + 100 * mill_.motion.period();
+    for (double time = now; going_on_ && impacts_ == before && time < latest; step *= 1.1)
+      advance_to(time += step);
+  }
+
+  /// The present state as JSON: places, the vessel's frame, rates with intervals, counts by approach speed.
+  void frame(JsonText& json) {
+    const double now = run_.time();
+    const auto summary = run_.summary();
+    json.add("time", now);
+    json.add("impacts", impacts_);
+    json.add("ended", !going_on_);
+    json.add("end_reason", summary.end_reason);
+    std::vector<Vector<double>> places;
+    for (int k = 0; k < run_.ball_count(); ++k) places.push_back(run_.ball(k).position);
+    json.add("places", coordinates(places));
+    const auto frame = output::vessel_frame(mill_.motion, now);
+    json.add("vessel", coordinates(std::array{frame.origin, frame.x, frame.y, frame.z}));
+    if (impacts_ > 0) {
+      json.begin("last");
+      json.add("time", last_.time);
+      json.add("ball", last_.ball);
+      json.add("partner", last_.partner);
+      json.add("with_wall", last_.with_wall);
+      json.add("approach_speed", last_.approach_speed);
+      json.add("slip_speed", last_.slip_speed);
+      json.add("separation_speed", last_.separation_speed);
+      json.add("milling_dose", last_.milling_dose);
+      json.end();
+    }
+    if (now > summary.start_time) {
+      json.add("dose", summary.milling_dose);
+      json.add("dose_rate", summary.milling_dose_rate());
+      if (summary.milling_dose_rate_half_width) json.add("half_width", *summary.milling_dose_rate_half_width);
+      json.add("collisions", summary.collisions);
+      json.add("dose_by_partner", summary.dose_by_partner);
+    }
+    json.add("speeds", by_speed_);
+  }
+
+  /// The case with the settings in it, as a file that the command line runs: with the same log, if any.
+  std::string case_text() const { return text_with_values(spec_, log_); }
+
+  /// The summary, and the SHA-256 of collisions.csv as the command line writes it. Nothing can follow.
+  void finish(JsonText& json) {
+    if (!finished_) run_.commit();
+    finished_ = true;
+    const auto log = content_of(std::string(folder) + "/collisions.csv");
+    if (!log.empty()) json.add("digest", sha256(log));
+    json.add("summary", content_of(std::string(folder) + "/summary.json"));
+  }
+
+ private:
+  static constexpr const char* folder = "/run";
+
+  /// Of vectors, one after the other.
+  static std::vector<double> coordinates(const auto& vectors) {
+    std::vector<double> list;
+    for (const auto& v : vectors) list.insert(list.end(), {v[0], v[1], v[2]});
+    return list;
+  }
+  static casefile::CaseSpec read(const std::string& text, const std::vector<std::string>& settings,
+                                 bool log) {
+    constexpr std::size_t most_balls = 5000;
+    auto spec = casefile::parse_case(text, "case.toml", settings);
+    if (spec.precision != "double" || spec.digits)
+      throw InputError("case.toml: found " +
+                       (spec.digits ? "run.digits" : "run.precision = \"" + spec.precision + "\"") +
+                       ", expected a run in double: this page has no other numbers; the command line has");
+    if (spec.ball_count() > most_balls)
+      throw InputError(std::to_string(spec.ball_count()) +
+                       " balls are too many to be drawn: this page takes up to " +
+                       std::to_string(most_balls) + "; the command line takes any number.");
+    spec.outputs.clear();
+    if (log) casefile::add_outputs("[[output]]\ntype = \"collisions\"\n", "the page's output", spec);
+    return spec;
+  }
+  void on_impact(const Impact<double>& impact, Run<double>&) override {
+    ++impacts_;
+    last_ = impact;
+    if (impact.time < spec_.statistics_start.to<double>()) return;
+    constexpr int count = std::tuple_size_v<decltype(by_speed_)>;
+    const double place = std::log10(std::max(impact.approach_speed, 1e-3) / 1e-3) * count / 4;
+    ++by_speed_[static_cast<std::size_t>(std::min(place, count - 1.0))];
+  }
+
+  casefile::CaseSpec spec_;
+  model::Mill<double> mill_;
+  Run<double> run_;
+  std::array<std::uint64_t, 40> by_speed_{};  ///< impacts, in classes of equal ratio from 1 mm/s to 10 m/s
+  std::uint64_t impacts_ = 0;
+  Impact<double> last_{};
+  bool log_, going_on_ = true, finished_ = false;
+};
+
+std::unique_ptr<Session> session;
 
 const char* kept(std::string text) {
   static std::string last;
@@ -38,7 +204,7 @@ const char* answer(const auto& work) {
     JsonText json;
     work(json);
     return kept(json.finish());
-  } catch (const edmill::InputError& error) {
+  } catch (const InputError& error) {
     problems.add("problems", error.problems());
   } catch (const std::exception& error) {
     problems.add("problems", std::vector<std::string>{error.what()});
@@ -56,8 +222,8 @@ std::vector<std::string> settings() {
   return lines;
 }
 
-edmill::browser::Session& running() {
-  if (!session) throw edmill::InputError("found no run, expected one that has begun");
+Session& running() {
+  if (!session) throw InputError("found no run, expected one that has begun");
   return *session;
 }
 
@@ -67,9 +233,9 @@ void tell_stage(const std::string& stage) {
 }
 
 /// Those of a case, a wall as -1 - its number.
-struct FirstImpacts : edmill::Observer<double> {
+struct FirstImpacts : Observer<double> {
   explicit FirstImpacts(int most) : most(static_cast<std::size_t>(most)) {}
-  void on_impact(const edmill::Impact<double>& impact, edmill::Run<double>& run) override {
+  void on_impact(const Impact<double>& impact, Run<double>& run) override {
     times.push_back(impact.time);
     balls.push_back(impact.ball);
     partners.push_back(impact.with_wall ? -1 - impact.partner : impact.partner);
@@ -89,7 +255,7 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_begin(int log) {
   return answer([&](JsonText& json) {
     session.reset();
     std::filesystem::remove_all("/run");
-    session = std::make_unique<edmill::browser::Session>(case_text(), settings(), log != 0);
+    session = std::make_unique<Session>(case_text(), settings(), log != 0);
     session->scene(json);
   });
 }
@@ -115,8 +281,7 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_finish() {
 
 EMSCRIPTEN_KEEPALIVE const char* edmill_first_impacts(int most) {
   return answer([&](JsonText& json) {
-    edmill::Run<double> run(
-        edmill::CaseAccess::make(edmill::casefile::parse_case(case_text(), "case.toml", settings())));
+    Run<double> run(CaseAccess::make(casefile::parse_case(case_text(), "case.toml", settings())));
     FirstImpacts found(most);
     run.attach(found);
     run.finish();
@@ -130,19 +295,18 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_first_impacts(int most) {
 /// @param identify  whether the mistake behind violations is looked for
 EMSCRIPTEN_KEEPALIVE const char* edmill_audit(int identify) {
   return answer([&](JsonText& json) {
-    const auto spec = edmill::casefile::parse_case(case_text(), "case.toml", settings());
-    auto options = edmill::audit::options_of(spec);
+    const auto spec = casefile::parse_case(case_text(), "case.toml", settings());
+    auto options = audit::options_of(spec);
     options.log = "/log";
-    const auto built = edmill::casefile::build_case<double>(spec);
-    auto audited = edmill::audit::audit(built.the_case, built.states, options);
+    const auto built = casefile::build_case<double>(spec);
+    auto audited = audit::audit(built.the_case, built.states, options);
     audited.case_name = spec.file;
     audited.log_name = "log";
-    json.add("verdict", edmill::audit::name_of(audited.verdict));
-    std::string table = edmill::audit::table(audited);
-    if (audited.verdict == edmill::audit::AuditVerdict::violations)
-      table += edmill::identify::table(edmill::identify::identify(
-          spec, options, identify != 0 ? edmill::identify::Search::all : edmill::identify::Search::single,
-          tell_stage));
+    json.add("verdict", audit::name_of(audited.verdict));
+    std::string table = audit::table(audited);
+    if (audited.verdict == audit::AuditVerdict::violations)
+      table += identify::table(identify::identify(
+          spec, options, identify != 0 ? identify::Search::all : identify::Search::single, tell_stage));
     json.add("table", table);
   });
 }
@@ -156,8 +320,7 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_check() {
     } catch (const checker::Rejected& why) {
       json.add("verdict", std::string("rejected: ") + why.what());
     } catch (const nlohmann::json::exception&) {
-      throw edmill::InputError(
-          "found a line that is not JSON, expected a file of `edmill prove --certificate`");
+      throw InputError("found a line that is not JSON, expected a file of `edmill prove --certificate`");
     }
   });
 }
@@ -165,12 +328,14 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_check() {
 /// The logs are the files /reference and /log.
 EMSCRIPTEN_KEEPALIVE const char* edmill_compare() {
   return answer([&](JsonText& json) {
-    edmill::compare::ComparisonOptions options;
+    compare::ComparisonOptions options;
     options.a = "/reference";
     options.b = "/log";
-    const auto comparison = edmill::compare::compare(options);
-    json.add("verdict", edmill::compare::name_of(comparison.verdict));
-    json.add("table", edmill::compare::table(comparison));
+    const auto comparison = compare::compare(options);
+    json.add("verdict", compare::name_of(comparison.verdict));
+    json.add("table", compare::table(comparison));
   });
 }
 }
+
+}  // namespace edmill::browser

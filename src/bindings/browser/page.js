@@ -16,22 +16,12 @@ const fields = {
   most: 'run.max_collisions',
 };
 const units = {diameter: ' mm', speed: ' rpm'};
-const kinds = {
-  mill: {
-    'as in the case': '', 'SPEX 8000': '{type="spex8000"}', 'vibratory, 11 mm along y': '{type="vibratory",amplitude=["0 mm","11 mm","0 mm"],speed="1500 rpm"}',
-    'planetary': '{type="planetary",radius="75 mm",speed="300 rpm",ratio=-2}', 'drum': '{type="drum",speed="120 rpm"}',
-  },
-  vessel: {
-    'as in the case': '', 'cylinder': '{type="cylinder",diameter="38 mm",height="57 mm"}',
-    'rounded cylinder': '{type="rounded_cylinder",diameter="38 mm",height="57 mm",edge_radius="8 mm"}', 'capsule': '{type="capsule",diameter="38 mm",height="57 mm"}',
-    'sphere': '{type="sphere",diameter="50 mm"}', 'box': '{type="box",size=["34 mm","57 mm","34 mm"]}',
-  },
-};
+const kinds = ['mill', 'vessel'];  // sections that are chosen as a whole
 let text = '';  // of the case
 
 /// What is not chosen stays as the case has it.
 function settings() {
-  const list = Object.entries(kinds).filter(([key]) => $(`${key}-kind`).value).map(([key]) => `${key}=${$(`${key}-kind`).value}`);
+  const list = kinds.filter(key => $(`${key}-kind`).value).map(key => `${key}=${$(`${key}-kind`).value}`);
   for (const [field, key] of Object.entries(fields)) {
     const value = $(field).value.trim();
     if (value === '' || $(field).disabled) continue;
@@ -44,7 +34,7 @@ function choose(name) {
   text = cases[name];
   $('case').value = name;
   for (const field in fields) $(field).value = '';
-  for (const key in kinds) $(`${key}-kind`).value = '';
+  for (const key of kinds) $(`${key}-kind`).value = '';
   // Laws by materials go before those of all contacts.
   const by_materials = /^\s*\[\[\s*contact\.pair/m.test(text);
   for (const field of ['restitution', 'friction']) {
@@ -206,7 +196,6 @@ function give(input, file) {
 // ---- Events
 
 $('case').append(...Object.keys(cases).map(name => new Option(name, name)));
-for (const [key, list] of Object.entries(kinds)) $(`${key}-kind`).append(...Object.entries(list).map(([name, value]) => new Option(name, value)));
 $('case').addEventListener('change', () => choose($('case').value));
 $('choices').addEventListener('submit', event => {
   event.preventDefault();
