@@ -13,35 +13,26 @@ namespace edmill::report {
 namespace {
 
 using casefile::CaseSpec;
-using casefile::ContactSpec;
 using casefile::Quantity;
 
-bool same(const Quantity& a, const Quantity& b) { return a.text() == b.text(); }
-
-/// Law and parameters in one line.
-std::string text_of(const ContactSpec& c) {
-  std::string text = c.name();
-  c.parameters([&](const model::Parameter&, const Quantity& value) { text += " " + value.text(); });
+/// What the thesis gives of a case but its balls, exact.
+std::string text_without_balls(const CaseSpec& spec) {
+  std::string text = spec.powder_mass->text() + "\n" + text_of(spec.mill) + "\n" + text_of(spec.vessel);
+  for (const auto& component : spec.gravity) text += "\n" + component.text();
+  for (const auto* law : {&spec.ball_ball, &spec.ball_wall}) {
+    text += "\n" + std::string(law->name());
+    law->parameters([&](const model::Parameter&, const Quantity& value) { text += " " + value.text(); });
+  }
   return text;
 }
 
-bool same(const ContactSpec& a, const ContactSpec& b) { return text_of(a) == text_of(b); }
-
-bool same_surroundings(const CaseSpec& a, const CaseSpec& b) {
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    if (!same(a.gravity[axis], b.gravity[axis])) return false;
-  return casefile::text_of(a.mill) == casefile::text_of(b.mill) &&
-         casefile::text_of(a.vessel) == casefile::text_of(b.vessel);
-}
-
-bool same_ball(const casefile::BallSpec& a, const casefile::BallSpec& b) {
-  return same(a.diameter, b.diameter) && same(a.density, b.density) &&
-         same(a.reduced_inertia, b.reduced_inertia);
+std::string text_of(const casefile::BallSpec& ball) {
+  return ball.diameter.text() + " " + ball.density.text() + " " + ball.reduced_inertia.text();
 }
 
 /// Whether every ball of a case equals this one.
 bool all_balls_are(const CaseSpec& spec, const casefile::BallSpec& ball) {
-  const auto is_same = [&](const casefile::BallSpec& b) { return same_ball(b, ball); };
+  const auto is_same = [&](const casefile::BallSpec& b) { return text_of(b) == text_of(ball); };
   return std::ranges::all_of(spec.balls, is_same) && std::ranges::all_of(spec.batches, [&](const auto& b) {
            return is_same(b) && b.diameter_spread.zero();
          });
@@ -82,9 +73,7 @@ std::optional<WardCase> ward_case_of(const CaseSpec& spec) {
   for (const auto& ward : ward_cases()) {
     if (static_cast<std::size_t>(ward.balls) != spec.ball_count()) continue;
     const CaseSpec known = spec_of(ward);
-    if (same(*known.powder_mass, *spec.powder_mass) && same_surroundings(known, spec) &&
-        same(known.ball_ball, spec.ball_ball) && same(known.ball_wall, spec.ball_wall) &&
-        all_balls_are(spec, known.batches.front()))
+    if (text_without_balls(known) == text_without_balls(spec) && all_balls_are(spec, known.batches.front()))
       return ward;
   }
   return std::nullopt;
