@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <ranges>
 
@@ -116,33 +115,28 @@ void draw_over_time(pugi::xml_node grid, const std::vector<RunFolder>& runs) {
 
 /// What the cases do not have in common.
 void add_differences(pugi::xml_node main, const std::vector<RunFolder>& runs) {
-  std::vector<std::string> keys;
-  std::vector<std::map<std::string, std::string>> facts;
-  for (const auto& run : runs) {
-    auto& own = facts.emplace_back();
-    auto rows = case_rows(run);
-    rows.push_back({"statistics", fmt::format("{} s to {} s", brief(run.facts.number("start_time"), 12),
-                                              brief(run.facts.number("end_time"), 12))});
-    rows.push_back({"seed, precision",
-                    fmt::format("{:.0f}, {}", run.facts.number("seed"), run.facts.text("precision"))});
-    rows.push_back(
-        {"program", fmt::format("edmill {} ({})", run.facts.text("version"), run.facts.text("commit"))});
-    for (const auto& row : rows) {
-      const auto [fact, is_first] = own.emplace(row[0], row[1]);
-      if (!is_first) fact->second += "; " + row[1];
-      if (std::ranges::find(keys, row[0]) == keys.end()) keys.push_back(row[0]);
+  Rows rows;  // a key, and what each run has for it
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const auto& f = runs[k].facts;
+    auto own = case_rows(runs[k]);
+    own.push_back({"statistics", fmt::format("{} s to {} s", brief(f.number("start_time"), 12),
+                                             brief(f.number("end_time"), 12))});
+    own.push_back({"seed, precision", fmt::format("{:.0f}, {}", f.number("seed"), f.text("precision"))});
+    own.push_back({"program", fmt::format("edmill {} ({})", f.text("version"), f.text("commit"))});
+    for (const auto& fact : own) {
+      auto row = std::ranges::find_if(rows, [&](const auto& r) { return r[0] == fact[0]; });
+      if (row == rows.end()) {
+        row = rows.emplace(row, runs.size() + 1);
+        row->front() = fact[0];
+      }
+      auto& text = (*row)[k + 1];
+      text += (text.empty() ? "" : "; ") + fact[1];
     }
   }
-  Rows rows;
-  for (const auto& key : keys) {
-    std::vector<std::string> row{key};
-    for (const auto& own : facts) {
-      const auto found = own.find(key);
-      row.push_back(found == own.end() ? "\u2013" : found->second);
-    }
-    if (std::adjacent_find(row.begin() + 1, row.end(), std::not_equal_to<>()) != row.end())
-      rows.push_back(std::move(row));
-  }
+  std::erase_if(rows, [](const auto& row) {
+    return std::adjacent_find(row.begin() + 1, row.end(), std::not_equal_to<>()) == row.end();
+  });
+  for (auto& row : rows) std::ranges::replace(row, std::string(), "\u2013");
   auto section = add_section(main, "cases", "What differs in the cases");
   if (rows.empty()) {
     add(section, "p", {}, "Nothing: all runs are of one case.");
