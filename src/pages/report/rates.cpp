@@ -217,22 +217,14 @@ void add_spectrum(pugi::xml_node section, const OutputTable& table) {
 
 /// Three exponents at most.
 void add_over_time(pugi::xml_node grid, const RunFolder& run, const casefile::OutputSpec& output,
-                   const std::vector<std::vector<double>>& rows) {
+                   const OutputTable& table) {
   constexpr std::size_t most = 3;
   auto chart = over_time(run, "exponents-over-time", "Finite-time Lyapunov exponents over time",
                          "growth over an interval [1/s]");
   chart.description = "Lines of the growth of the distance to motions nearby in each interval.";
-  double start = chart.x.low;
-  if (output.timer.start_time) start = std::max(start, output.timer.start_time->to<double>());
-  for (std::size_t k = 1; k < rows[0].size() && k <= most; ++k) {
-    plot::Curve curve{fmt::format("exponent {}", k), fmt::format("c{}", k - 1), {}, false};
-    double begin = start;
-    for (const auto& row : rows) {
-      curve.points.emplace_back((begin + row[0]) / 2, row[k]);
-      begin = row[0];
-    }
-    chart.curves.push_back(std::move(curve));
-  }
+  for (std::size_t k = 1; k < table.numbers[0].size() && k <= most; ++k)
+    chart.curves.push_back({fmt::format("exponent {}", k), fmt::format("c{}", k - 1),
+                            points_of(intervals_of(output, table, k, chart.x.low)), false});
   draw_fitted(grid, chart);
 }
 
@@ -313,7 +305,7 @@ void add_exponents(pugi::xml_node main, const RunFolder& run) {
     const auto table = read_table(run.file_of(*finite_time), "a table of finite-time exponents");
     if (!table.numbers.empty()) {
       auto grid = add(section, "div", {{"class", "charts"}});
-      add_over_time(grid, run, *finite_time, table.numbers);
+      add_over_time(grid, run, *finite_time, table);
       add_histogram(grid, table.numbers);
     }
   }

@@ -226,16 +226,20 @@ OutputTable read_table(const std::filesystem::path& file, const std::string& exp
   return table;
 }
 
-std::optional<Series> series_of(const casefile::OutputSpec& output, const OutputTable& table, int variable,
-                                double start) {
-  const auto place = place_of_rate(output, variable);
-  if (!place) return std::nullopt;
+Series intervals_of(const casefile::OutputSpec& output, const OutputTable& table, std::size_t column,
+                    double start) {
   Series series;
   double begin = start;
   if (output.timer.start_time) begin = std::max(begin, output.timer.start_time->to<double>());
   for (const auto& row : table.numbers)
-    series.push_back({std::exchange(begin, row.at(0)), row.at(0), row.at(*place)});
+    series.push_back({std::exchange(begin, row.at(0)), row.at(0), row.at(column)});
   return series;
+}
+
+std::optional<Series> series_of(const casefile::OutputSpec& output, const OutputTable& table, int variable,
+                                double start) {
+  const auto place = place_of_rate(output, variable);
+  return place ? std::optional(intervals_of(output, table, *place, start)) : std::nullopt;
 }
 
 std::optional<Series> rate_of(const RunFolder& run, const char* variable, std::size_t most, int partner) {

@@ -75,10 +75,12 @@ struct Interval {
 /// Successive ones.
 using Series = std::vector<Interval>;
 
-/// A rate in a table of trends.
+/// A column of a table whose rows are of intervals that follow each other.
 /// @param start  initial time of the run, at which the first interval begins unless the table begins later
 /// [s]
-/// @return nothing when the table has no such column
+Series intervals_of(const casefile::OutputSpec& output, const OutputTable& table, std::size_t column,
+                    double start);
+/// A rate in a table of trends. @return nothing when the table has no such column
 std::optional<Series> series_of(const casefile::OutputSpec& output, const OutputTable& table, int variable,
                                 double start);
 

@@ -1,6 +1,4 @@
 // Impact speeds, and the energies at which dissipation takes place.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
