@@ -6,6 +6,7 @@
 namespace edmill::report {
 
 extern const std::string_view page_html, page_css, page_js;  ///< the page, its look, its behaviour
+extern const std::string_view ball_vert, ball_frag;          ///< shaders of the animation's balls
 extern const std::string_view figures_js;                ///< files of figures, units of the reader's choice
 extern const std::string_view outputs_toml;              ///< what `edmill run --report` adds to a case
 extern const std::string_view terms_toml;                ///< words of the pages and what they mean

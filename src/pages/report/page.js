@@ -1,28 +1,7 @@
 // Plays the mill: the frames of the page's JSON, on demand. Lengths in millimetres, times in milliseconds.
 "use strict";
 
-// A ball is a square that faces the eye, shaded as a sphere: cheap, and round however near.
-const ballVertex = `
-  attribute vec3 place, colour;
-  attribute float radius;
-  varying vec3 tint;
-  varying vec2 across;
-  void main() {
-    tint = colour;
-    across = position.xy;
-    vec4 centre = viewMatrix * vec4(place, 1.0);
-    gl_Position = projectionMatrix * (centre + vec4(radius * across, 0.0, 0.0));
-  }`;
-const ballFragment = `
-  varying vec3 tint;
-  varying vec2 across;
-  void main() {
-    float r = length(across), edge = clamp((1.0 - r) / fwidth(r) + 0.5, 0.0, 1.0);
-    if (edge == 0.0) discard;
-    vec3 normal = vec3(across, sqrt(max(0.0, 1.0 - r * r)));
-    float light = 0.55 + 0.6 * max(0.0, dot(normal, normalize(vec3(-0.4, 0.7, 1.0))));
-    gl_FragColor = vec4(light * tint, edge);
-  }`;
+const textOf = (id) => document.getElementById(id).textContent;
 
 /** The balls. Returns a function that puts them where they are between two frames. */
 function addBalls(scene, spheres) {
@@ -35,7 +14,7 @@ function addBalls(scene, spheres) {
   squares.setAttribute("radius", new THREE.InstancedBufferAttribute(Float32Array.from(spheres.radii), 1));
   squares.setAttribute("colour", new THREE.InstancedBufferAttribute(Float32Array.from(colours), 3));
   const mesh = new THREE.Mesh(squares, new THREE.ShaderMaterial({
-    vertexShader: ballVertex, fragmentShader: ballFragment, transparent: true, extensions: { derivatives: true } }));
+    vertexShader: textOf("ball-vertex"), fragmentShader: textOf("ball-fragment"), transparent: true, extensions: { derivatives: true } }));
   mesh.frustumCulled = false; // its bounds are those of one square at the origin
   scene.add(mesh);
   return (frame, share) => {
@@ -127,7 +106,7 @@ function addControls(camera, canvas, target, onChange) {
 }
 
 function play(renderer) {
-  const mill = JSON.parse(document.getElementById("frames").textContent);
+  const mill = JSON.parse(textOf("frames"));
   const stage = document.querySelector(".stage"), canvas = renderer.domElement;
   const button = document.getElementById("play"), slider = document.getElementById("time");
   const clock = document.getElementById("clock");

@@ -29,8 +29,11 @@ std::string subtitle_of(const RunFolder& run) {
 }
 
 std::string player() {
-  return fmt::format("<script>\n/* {}*/\n{}\n{}</script>\n<script>\n{}</script>\n", three_licence, three_js,
-                     three_orbit_js, page_js);
+  return fmt::format(
+      "<script type=\"x-shader/x-vertex\" id=\"ball-vertex\">\n{}</script>\n"
+      "<script type=\"x-shader/x-fragment\" id=\"ball-fragment\">\n{}</script>\n"
+      "<script>\n/* {}*/\n{}\n{}</script>\n<script>\n{}</script>\n",
+      ball_vert, ball_frag, three_licence, three_js, three_orbit_js, page_js);
 }
 
 std::string law_text(const casefile::ContactSpec& c) {
