@@ -330,22 +330,16 @@ void save(std::ostream& out, const Chart& chart) {
 
 std::string heat_colour(double share) {
   // Every eighth of matplotlib's viridis (public domain, CC0); straight lines between.
-  static constexpr std::array<std::array<double, 3>, 9> stops{{{68, 1, 84},
-                                                               {71, 44, 122},
-                                                               {59, 81, 139},
-                                                               {44, 113, 142},
-                                                               {33, 144, 141},
-                                                               {39, 173, 129},
-                                                               {92, 200, 99},
-                                                               {170, 220, 50},
-                                                               {253, 231, 37}}};
+  static constexpr std::array stops{0x440154, 0x472c7a, 0x3b518b, 0x2c718e, 0x21908d,
+                                    0x27ad81, 0x5cc863, 0xaadc32, 0xfde725};
   const double place = std::clamp(share, 0.0, 1.0) * 8;
   const auto k = std::min<std::size_t>(7, static_cast<std::size_t>(place));
-  const auto part = [&](std::size_t c) {
-    return static_cast<int>(
-        std::lround(stops[k][c] + (place - static_cast<double>(k)) * (stops[k + 1][c] - stops[k][c])));
-  };
-  return fmt::format("#{:02x}{:02x}{:02x}", part(0), part(1), part(2));
+  std::string colour = "#";
+  for (const int shift : {16, 8, 0}) {
+    const double low = stops[k] >> shift & 255, high = stops[k + 1] >> shift & 255;
+    colour += fmt::format("{:02x}", std::lround(low + (place - static_cast<double>(k)) * (high - low)));
+  }
+  return colour;
 }
 
 void draw(pugi::xml_node parent, const HeatMap& map) {

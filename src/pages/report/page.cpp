@@ -65,23 +65,19 @@ bool has_word(const std::string& text, const std::string& word) {
 }
 
 /// What a reader sees of a node, without the text of the case file and of other verbatim parts.
-void collect_text(const pugi::xml_node& node, std::string& text) {
-  if (node.type() == pugi::node_pcdata) {
-    text += node.value();
-    text += ' ';
-  }
-  const std::string name = node.name();
-  if (name == "pre" || name == "code" || name == "script" || name == "style") return;
-  for (const auto& child : node.children()) collect_text(child, text);
+std::string text_in(const pugi::xml_node& node) {
+  std::string text;
+  for (const auto& found : node.select_nodes(".//text()[not(ancestor::pre or ancestor::code or "
+                                             "ancestor::script or ancestor::style)]"))
+    text += std::string(found.node().value()) + ' ';
+  return text;
 }
 
 /// Ends each section with a folded list of the terms that its text uses.
 void add_terms(pugi::xml_node main) {
   static const auto terms = read_terms();
   for (auto section : main.children("section")) {
-    std::string text;
-    collect_text(section, text);
-    text = in_lower_case(text);
+    const auto text = in_lower_case(text_in(section));
     std::vector<const Term*> used;
     for (const auto& term : terms)
       if (std::ranges::any_of(term.words, [&](const auto& word) { return has_word(text, word); }))

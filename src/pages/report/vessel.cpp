@@ -77,12 +77,10 @@ void label(WallMap& wall) {
 void read_cells(std::vector<WallMap>& walls, const OutputTable& table) {
   const auto wall_id = table.column("wall"), density = table.column("dose_per_area");
   for (auto& wall : walls) {
-    std::array<std::size_t, 4> columns;
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      const std::string name = model::info_of(wall.surface.coordinates()[axis]).name;
-      columns[2 * axis] = table.column(name + "_low");
-      columns[2 * axis + 1] = table.column(name + "_high");
-    }
+    const auto column = [&](std::size_t axis, const std::string& end) {
+      return table.column(model::info_of(wall.surface.coordinates()[axis]).name + end);
+    };
+    const std::array columns{column(0, "_low"), column(0, "_high"), column(1, "_low"), column(1, "_high")};
     for (const auto& row : table.numbers) {
       if (row[wall_id] != static_cast<double>(wall.id)) continue;
       const double value = row[density] / table.duration() / 1000;  // kW/m2
