@@ -67,9 +67,8 @@ py::dict digits_of(const run::Agreement& agreement) {
   py::dict digits;
   for (std::size_t k = 0; k < model::logged_count; ++k) {
     const double found = agreement.digits(k);
-    // No difference at all was seen.
-    digits[name_of(k)] =
-        found < run::Agreement::most ? py::object(py::float_(found)) : py::object(py::none());
+    // None where no difference at all was seen.
+    digits[name_of(k)] = found < run::Agreement::most ? py::cast(found) : py::none();
   }
   return digits;
 }

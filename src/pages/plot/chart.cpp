@@ -318,8 +318,7 @@ void save(std::ostream& out, const Chart& chart) {
   draw(page, chart);
   auto svg = document.append_copy(page.first_element_by_path("figure/svg"));
   svg.append_attribute("xmlns") = "http://www.w3.org/2000/svg";
-  for (auto group : svg.children("g"))
-    for (auto path : group.children("path")) path.remove_attribute("data-points");
+  for (const auto& path : svg.select_nodes("g/path")) path.node().remove_attribute("data-points");
   svg.append_child("style").text() =
       "text { font: 11px sans-serif; fill: #333; } .axis text { text-anchor: middle; } .y-axis .label { "
       "text-anchor: end; } path, line { fill: none; stroke: currentColor; stroke-width: 1.2; stroke-linecap: "

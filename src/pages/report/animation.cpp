@@ -144,13 +144,14 @@ Json millimetres(const Vec3<double>& place, double steps) {
   return array;
 }
 
-std::size_t frame_count(const Animation& animation) {
-  return 1 +
-         std::clamp<std::size_t>(most_places / std::max<std::size_t>(1, animation.spheres.size()), 40, 640);
-}
-
-double fraction_of(std::size_t frame, std::size_t frames) {
-  return static_cast<double>(frame) / static_cast<double>(frames - 1);
+/// Of the playback, one for each frame.
+std::vector<double> fractions_of(const Animation& animation) {
+  const auto steps =
+      std::clamp<std::size_t>(most_places / std::max<std::size_t>(1, animation.spheres.size()), 40, 640);
+  std::vector<double> fractions;
+  for (std::size_t frame = 0; frame <= steps; ++frame)
+    fractions.push_back(static_cast<double>(frame) / static_cast<double>(steps));
+  return fractions;
 }
 
 /// Corners of the triangles of all walls, by their places in the list of all points.
@@ -167,15 +168,14 @@ Json triangles_of(const std::vector<model::Mesh>& walls) {
 }
 
 /// Lists each wall that moves in the vessel: its part of the list of all points, and its shift in each frame.
-Json pistons_of(const MovingVessel& vessel, std::size_t frames, double steps) {
+Json pistons_of(const MovingVessel& vessel, const std::vector<double>& fractions, double steps) {
   Json pistons = Json::array();
   std::size_t first = 0;
   for (std::size_t wall = 0; wall < vessel.walls.size(); ++wall) {
     const std::size_t count = vessel.walls[wall].points.size();
     if (const auto& shift = vessel.shifts[wall]; shift.keys.size() > 1) {
       Json shifts = Json::array();
-      for (std::size_t frame = 0; frame < frames; ++frame)
-        append(shifts, 1000 * shift.at(fraction_of(frame, frames)), 10 * steps);
+      for (const double fraction : fractions) append(shifts, 1000 * shift.at(fraction), 10 * steps);
       pistons.push_back({{"first", first}, {"count", count}, {"shifts", std::move(shifts)}});
     }
     first += count;
@@ -190,7 +190,7 @@ Json pistons_of(const MovingVessel& vessel, std::size_t frames, double steps) {
 /// Frames divide the playback into equal parts, from its beginning to its end.
 void add_frames(pugi::xml_node parent, const Animation& animation) {
   const auto& vessel = animation.vessel;
-  const std::size_t frames = frame_count(animation);
+  const auto fractions = fractions_of(animation);
   const double steps = steps_of(animation);
   Json points = Json::array(), poses = Json::array(), places = Json::array(), radii = Json::array(),
        colours = Json::array();
@@ -200,8 +200,7 @@ void add_frames(pugi::xml_node parent, const Animation& animation) {
     radii.push_back(1000 * sphere.radius);
     colours.push_back(sphere.colour);
   }
-  for (std::size_t frame = 0; frame < frames; ++frame) {
-    const double fraction = fraction_of(frame, frames);
+  for (const double fraction : fractions) {
     const auto pose = vessel.pose(fraction);
     append(poses, 1000 * pose.translation(), steps);
     append(poses, Eigen::Quaterniond(pose.rotation()).coeffs(), 1e6);
@@ -215,7 +214,7 @@ void add_frames(pugi::xml_node parent, const Animation& animation) {
                         {"triangles", triangles_of(vessel.walls)},
                         {"colour", vessel.colour},
                         {"opacity", vessel.opacity},
-                        {"pistons", pistons_of(vessel, frames, steps)},
+                        {"pistons", pistons_of(vessel, fractions, steps)},
                         {"poses", poses}}},
                       {"spheres", {{"radii", radii}, {"colours", colours}, {"places", places}}}};
   add(parent, "script", {{"type", "application/json"}, {"id", "frames"}}, scene.dump());

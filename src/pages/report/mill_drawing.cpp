@@ -98,51 +98,43 @@ Pictured picture(const model::Mill<double>& mill) {
 }
 
 /// One view in its panel of the drawing.
-class Panel {
- public:
-  Panel(pugi::xml_node svg, const View& view, double left, const Flat& middle, double scale)
-      : svg_(svg), view_(view), left_(left), middle_(middle), scale_(scale) {
-    add(svg_, "text", {{"x", pixel(left + margin)}, {"y", "16"}}, view.title);
+struct Panel {
+  pugi::xml_node svg;
+  const View& view;
+  double left, scale;
+  Flat middle;
+
+  double x(const Flat& p) const { return left + margin + panel / 2 + (p.first - middle.first) * scale; }
+  double y(const Flat& p) const { return heading + panel / 2 - (p.second - middle.second) * scale; }
+
+  plot::Points flat(const Points& points) const {
+    plot::Points seen;
+    for (const auto& p : points) seen.push_back(view.of(p));
+    return seen;
   }
-  void line(const char* style, const Points& points) {
-    std::string path;
-    for (const auto& p : points) path += text(path.empty() ? "M" : "L", view_.of(p));
-    add(svg_, "path", {{"class", style}, {"d", path}});
+  void path(const char* style, const plot::Points& points, const char* end) {
+    std::string d;
+    for (const auto& p : points) d += fmt::format("{}{} {}", d.empty() ? "M" : "L", pixel(x(p)), pixel(y(p)));
+    add(svg, "path", {{"class", style}, {"d", d + end}});
   }
+  void line(const char* style, const Points& points) { path(style, flat(points), ""); }
   void outline(const char* style, const Points& points) {
-    plot::Points flat;
-    for (const auto& p : points) flat.push_back(view_.of(p));
-    auto hull = plot::hull_of(std::move(flat));
+    auto hull = plot::hull_of(flat(points));
     hull.push_back(hull.front());
-    std::string path;
-    for (const auto& p : hull) path += text(path.empty() ? "M" : "L", p);
-    add(svg_, "path", {{"class", style}, {"d", path + "Z"}});
+    path(style, hull, "Z");
   }
   void joint(const JointMark& mark, std::size_t number) {
-    const Flat at = view_.of(mark.from);
+    const Flat at = view.of(mark.from);
     if (mark.rotates)
       line("axis", {mark.from - (mark.to - mark.from), mark.to});
     else
       line("arm", {mark.from, mark.to});
-    add(svg_, "circle", {{"class", "joint"}, {"cx", pixel(x(at))}, {"cy", pixel(y(at))}, {"r", "3"}});
+    add(svg, "circle", {{"class", "joint"}, {"cx", pixel(x(at))}, {"cy", pixel(y(at))}, {"r", "3"}});
     // Joints at one place have their numbers side by side.
-    add(svg_, "text",
+    add(svg, "text",
         {{"x", pixel(x(at) + 5 + 12 * static_cast<double>(number - 1))}, {"y", pixel(y(at) - 5)}},
         std::to_string(number));
   }
-
- private:
-  double x(const Flat& p) const { return left_ + margin + panel / 2 + (p.first - middle_.first) * scale_; }
-  double y(const Flat& p) const { return heading + panel / 2 - (p.second - middle_.second) * scale_; }
-  std::string text(const char* pen, const Flat& p) const {
-    return fmt::format("{}{} {}", pen, pixel(x(p)), pixel(y(p)));
-  }
-
-  pugi::xml_node svg_;
-  const View& view_;
-  double left_;
-  Flat middle_;
-  double scale_;
 };
 
 /// 1, 2 or 5 times a power of ten, at most a third of the panel [m].
@@ -170,7 +162,8 @@ std::string mill_drawing(const model::Mill<double>& mill) {
   add(svg, "style", {}, style);
   double left = 0;
   for (const auto& view : views) {
-    Panel drawn(svg, view, left, view.of(middle), scale);
+    add(svg, "text", {{"x", pixel(left + margin)}, {"y", "16"}}, view.title);
+    Panel drawn{svg, view, left, scale, view.of(middle)};
     for (std::size_t k = p.vessel.size(); k-- > 1;) drawn.outline("later", p.vessel[k]);
     drawn.outline("vessel", p.vessel[0]);
     drawn.line("point", p.point);

@@ -160,7 +160,7 @@ void add_level(plot::Chart& chart, double left, double right, const RateOf& rate
                          {left, right},
                          {rate.value - half, rate.value - half},
                          {rate.value + half, rate.value + half}});
-  chart.curves.push_back({name, colour, {{left, rate.value}, {right, rate.value}}, false});
+  chart.curves.push_back({name, colour, {{left, rate.value}, {right, rate.value}}});
 }
 
 pugi::xml_node add_section(pugi::xml_node main, const std::string& id, const std::string& heading) {

@@ -106,7 +106,7 @@ void draw_over_time(pugi::xml_node grid, const std::vector<RunFolder>& runs) {
                     {"milling dose rate [W]"}};
   for (std::size_t k = 0; k < runs.size(); ++k)
     if (const auto series = rate_of(runs[k], "milling_dose", 60)) {
-      chart.curves.push_back({runs[k].name, run_colour(k), points_of(*series), false});
+      chart.curves.push_back({runs[k].name, run_colour(k), points_of(*series)});
       chart.x.high = std::max(chart.x.high, series->back().end);
     }
   if (chart.curves.empty()) return;

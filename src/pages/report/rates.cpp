@@ -24,7 +24,7 @@ void add_dose_rate(pugi::xml_node grid, const RunFolder& run) {
         "type = \"trends\", columns = [{ variable = \"milling_dose\", statistics = [\"rate\"] }]");
   const auto& f = run.facts;
   auto chart = over_time(run, "dose-rate", "Milling dose rate over time", "milling dose rate [W]");
-  chart.curves.push_back({"", "c0", points_of(*series), false});
+  chart.curves.push_back({"", "c0", points_of(*series)});
   if (const auto rate = rate_in(f, "milling_dose_rate"); rate && rate->half_width) {
     chart.curves[0].name = fmt::format("over {} s", readable(series->front().end - series->front().begin, 2));
     add_level(chart, f.number("start_time"), f.number("end_time"), *rate, "mean with its 95 % interval",
@@ -41,10 +41,10 @@ void add_collision_rates(pugi::xml_node grid, const RunFolder& run) {
   for (int k = 0; k < run.partners.count(); ++k)
     if (const auto series = rate_of(run, "collision", most_points, k))
       chart.curves.push_back(
-          {typeset(run.partners[k].label), partner_colour(run.partners, k), points_of(*series), false});
+          {typeset(run.partners[k].label), partner_colour(run.partners, k), points_of(*series)});
   if (chart.curves.empty())
     if (const auto all = rate_of(run, "collision", most_points))
-      chart.curves.push_back({"all", "c4", points_of(*all), false});
+      chart.curves.push_back({"all", "c4", points_of(*all)});
   if (chart.curves.empty())
     return add_missing(
         grid, "collision rates over time",
@@ -137,7 +137,7 @@ void add_speeds_over_time(pugi::xml_node grid, const RunFolder& run) {
   auto chart = over_time(run, "ball-speeds-over-time", "Ball speeds over time", "speed [m/s]");
   // Groups of five, so that each point covers all phases of the drive that the report's own table samples.
   const std::size_t together = (table.numbers.size() / most_points + 5) / 5 * 5;
-  plot::Curve mean{"mean of all balls", "c0", {}, false};
+  plot::Curve mean{"mean of all balls", "c0", {}};
   plot::Band range{"c0", {}, {}, {}};
   for (std::size_t first = 0; first < table.numbers.size(); first += together) {
     const std::size_t last = std::min(table.numbers.size(), first + together);
@@ -224,7 +224,7 @@ void add_over_time(pugi::xml_node grid, const RunFolder& run, const casefile::Ou
   chart.description = "Lines of the growth of the distance to motions nearby in each interval.";
   for (std::size_t k = 1; k < table.numbers[0].size() && k <= most; ++k)
     chart.curves.push_back({fmt::format("exponent {}", k), fmt::format("c{}", k - 1),
-                            points_of(intervals_of(output, table, k, chart.x.low)), false});
+                            points_of(intervals_of(output, table, k, chart.x.low))});
   draw_fitted(grid, chart);
 }
 

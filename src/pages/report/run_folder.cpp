@@ -77,15 +77,13 @@ int walls_of(const io::Facts& summary) {
   return walls;
 }
 
-/// "# from 0.5 s to 10 s: ..." in the first line.
-void read_times(OutputTable& table) {
-  std::ifstream in(table.file);
+/// By "# from 0.5 s to 10 s: ..." in the first line; 0 without.
+double duration_of(const std::string& file) {
+  std::ifstream in(file);
   std::string line;
   double from = 0, until = 0;
-  if (std::getline(in, line) && std::sscanf(line.c_str(), "# from %lf s to %lf s", &from, &until) == 2) {
-    table.from = from;
-    table.until = until;
-  }
+  std::getline(in, line);
+  return std::sscanf(line.c_str(), "# from %lf s to %lf s", &from, &until) == 2 ? until - from : 0;
 }
 
 /// The column of a variable's rate in a table of trends; nothing where it has none.
@@ -206,7 +204,7 @@ OutputTable read_table(const std::filesystem::path& file, const std::string& exp
   OutputTable table;
   table.file = file.string();
   table.header = reader.header();
-  read_times(table);
+  table.duration = duration_of(table.file);
   if (table.header.size() <= texts) reader.bad_line("found too few columns, expected " + expected);
   while (reader.next_row()) {
     std::vector<std::string> words;

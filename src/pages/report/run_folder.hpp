@@ -53,9 +53,8 @@ struct OutputTable {
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> texts;  ///< of each row, the first columns
   std::vector<std::vector<double>> numbers;     ///< of each row, the other columns; nan where it is empty
-  std::optional<double> from, until;            ///< of the record, where the table says so [s]
+  double duration = 0;                          ///< of the record, where the table says so [s]
 
-  double duration() const { return from && until ? *until - *from : 0; }
   /// Index in `numbers` of the column whose name begins with this text ("total energy").
   /// @throws InputError when there is none
   std::size_t column(std::string_view name) const;

@@ -10,11 +10,10 @@ namespace edmill::report {
 
 namespace {
 
-/// One column of one spectrum as density over the decades of its bins.
-/// @param scale  what a unit of the column is worth
-plot::Points density(const OutputTable& table, const std::string& spectrum, const std::string& column,
-                     double scale) {
+/// One column of one spectrum per second, as density over the decades of its bins.
+plot::Points density(const OutputTable& table, const std::string& spectrum, const std::string& column) {
   const auto place = table.column(column);
+  const double scale = 1 / table.duration;
   plot::Points points;
   double end = 0;
   for (const auto& row : table.rows_of(spectrum)) {
@@ -60,7 +59,7 @@ std::optional<OutputTable> spectra_of(const RunFolder& run, const std::string& o
   run.output("spectra", [&](const casefile::OutputSpec& o) {
     if (!o.only.empty()) return false;
     OutputTable table = read_table(run.file_of(o), "a table of spectra of " + of, 2);
-    if (table.numbers.empty() || table.texts[0][0] != first || !(table.duration() > 0)) return false;
+    if (table.numbers.empty() || table.texts[0][0] != first || !(table.duration > 0)) return false;
     found = std::move(table);
     return true;
   });
@@ -91,8 +90,7 @@ void draw_partners(pugi::xml_node grid, plot::Chart chart, const OutputTable& ta
                    const model::Partners& partners) {
   for (int k = 0; k < partners.count(); ++k)
     chart.curves.push_back({typeset(partners[k].label), partner_colour(partners, k),
-                            density(table, spectrum, partners[k].key + " " + quantity, 1 / table.duration()),
-                            true});
+                            density(table, spectrum, partners[k].key + " " + quantity), true});
   fit(chart);
   draw(grid, chart);
 }
@@ -108,8 +106,7 @@ void add_energies(pugi::xml_node grid, const OutputTable& table, const model::Pa
       {"dose rate [W per decade]"}};
   for (const auto& [spectrum, colour] :
        {std::pair{"normal", "c0"}, std::pair{"tangential", "c1"}, std::pair{"total", "c4"}})
-    by_direction.curves.push_back(
-        {spectrum, colour, density(table, spectrum, "total energy", 1 / table.duration()), true});
+    by_direction.curves.push_back({spectrum, colour, density(table, spectrum, "total energy"), true});
   fit(by_direction);
   draw(grid, by_direction);
 }
@@ -163,8 +160,7 @@ void add_spectra_of(pugi::xml_node main, const std::vector<RunFolder>& runs) {
     const auto put = [&](plot::Chart& chart, const std::optional<OutputTable>& table, const char* spectrum,
                          const char* column) {
       if (table)
-        chart.curves.push_back(
-            {runs[k].name, run_colour(k), density(*table, spectrum, column, 1 / table->duration()), true});
+        chart.curves.push_back({runs[k].name, run_colour(k), density(*table, spectrum, column), true});
     };
     put(energies, spectra_of(runs[k], "energy", "normal"), "total", "total energy");
     put(speeds, spectra_of(runs[k], "speed", "approach"), "approach", "total impacts");

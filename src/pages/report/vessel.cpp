@@ -58,8 +58,8 @@ void label(WallMap& wall) {
   map.disc = wall.has(Coordinate::radius);
   const auto [left, right] = wall.ends(0);
   const auto [bottom, top] = wall.ends(1);
-  map.x = {axis_title(wall.surface, 0), left, right, false};
-  map.y = {axis_title(wall.surface, 1), bottom, top, false};
+  map.x = {axis_title(wall.surface, 0), left, right};
+  map.y = {axis_title(wall.surface, 1), bottom, top};
   if (map.disc) {
     map.id = fmt::format("cap-{}", wall.id);
     map.title = fmt::format("{}, {} mm across", name, brief(2000 * top));
@@ -83,7 +83,7 @@ void read_cells(std::vector<WallMap>& walls, const OutputTable& table) {
     const std::array columns{column(0, "_low"), column(0, "_high"), column(1, "_low"), column(1, "_high")};
     for (const auto& row : table.numbers) {
       if (row[wall_id] != static_cast<double>(wall.id)) continue;
-      const double value = row[density] / table.duration() / 1000;  // kW/m2
+      const double value = row[density] / table.duration / 1000;  // kW/m2
       const double x = wall.scale(0), y = wall.scale(1);
       wall.map.cells.push_back(
           {row[columns[0]] * x, row[columns[1]] * x, row[columns[2]] * y, row[columns[3]] * y, value});
@@ -110,7 +110,7 @@ void add_maps(pugi::xml_node section, const RunFolder& run) {
   const auto* output = run.output("coverage", [](const auto& o) { return o.only.empty(); });
   if (!output) return add_missing(section, "dose on the vessel's walls", "type = \"coverage\"");
   const auto table = read_table(run.file_of(*output), "a table of coverage");
-  if (!(table.duration() > 0))
+  if (!(table.duration > 0))
     return add_missing(section, "time in the coverage of the vessel", "type = \"coverage\"");
   const auto vessel = casefile::build_mill<double>(run.spec).vessel;
   const auto surfaces = vessel.surfaces();
@@ -200,7 +200,7 @@ void add_balls(pugi::xml_node section, const RunFolder& run) {
   const auto* output = run.output("bodies", [](const auto& o) { return o.only.empty(); });
   if (!output) return add_missing(section, "dose of each ball", "type = \"bodies\"");
   const auto table = read_table(run.file_of(*output), "a table of bodies", 1);
-  if (!(table.duration() > 0))
+  if (!(table.duration > 0))
     return add_missing(section, "time in the dose of each ball", "type = \"bodies\"");
   const auto rate = table.column("dose_rate"), area = table.column("area");
   std::vector<Ball> balls;
