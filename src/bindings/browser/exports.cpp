@@ -50,14 +50,11 @@ class Session : private Observer<double> {
     run_.attach(*this);
   }
 
-  /// What stands still, as JSON: radii, walls as meshes, names of partners, digest of the case, the period.
+  /// What stands still, as JSON: radii, walls as meshes, names of partners, the period.
   void scene(JsonText& json) const {
     json.add("version", version());
-    json.add("case_digest", spec_.digest);
     json.add("period", mill_.motion.period());
     json.add("start", spec_.statistics_start.to<double>());
-    if (spec_.end_time) json.add("end", spec_.end_time->to<double>());
-    json.add("balls", run_.ball_count());
     std::vector<double> radii;
     for (const auto& batch : spec_.batches)
       radii.insert(radii.end(), batch.count, batch.diameter.to<double>() / 2);
@@ -67,19 +64,14 @@ class Session : private Observer<double> {
     std::vector<std::string> names;
     for (int k = 0; k < partners.count(); ++k) names.push_back(partners[k].label);
     json.add("partners", names);
-    json.add("middle", coordinates(std::array{mill_.motion.middle()}));
+    json.add("middle", mill_.motion.middle());
     json.begin("walls");
     int wall = 0;
     for (const auto& surface : mill_.vessel.surfaces()) {
       const auto mesh = model::mesh_of(surface);
       json.begin(std::to_string(wall++));
-      json.add("points", coordinates(mesh.points));
-      std::vector<int> corners;  // of each face, after their number
-      for (const auto& face : mesh.faces) {
-        corners.push_back(static_cast<int>(face.size()));
-        corners.insert(corners.end(), face.begin(), face.end());
-      }
-      json.add("faces", corners);
+      json.add("points", mesh.points);
+      json.add("faces", mesh.faces);
       json.end();
     }
     json.end();
@@ -109,17 +101,15 @@ class Session : private Observer<double> {
     json.add("end_reason", summary.end_reason);
     std::vector<Vector<double>> places;
     for (int k = 0; k < run_.ball_count(); ++k) places.push_back(run_.ball(k).position);
-    json.add("places", coordinates(places));
+    json.add("places", places);
     const auto frame = output::vessel_frame(mill_.motion, now);
-    json.add("vessel", coordinates(std::array{frame.origin, frame.x, frame.y, frame.z}));
+    json.add("vessel", std::array{frame.origin, frame.x, frame.y, frame.z});
     if (impacts_ > 0) {
       json.begin("last");
-      json.add("time", last_.time);
       json.add("ball", last_.ball);
       json.add("partner", last_.partner);
       json.add("with_wall", last_.with_wall);
       json.add("approach_speed", last_.approach_speed);
-      json.add("slip_speed", last_.slip_speed);
       json.add("separation_speed", last_.separation_speed);
       json.add("milling_dose", last_.milling_dose);
       json.end();
@@ -137,24 +127,17 @@ class Session : private Observer<double> {
   /// The case with the settings in it, as a file that the command line runs: with the same log, if any.
   std::string case_text() const { return text_with_values(spec_, log_); }
 
-  /// The summary, and the SHA-256 of collisions.csv as the command line writes it. Nothing can follow.
+  /// The SHA-256 of collisions.csv as the command line writes it. Nothing can follow.
   void finish(JsonText& json) {
     if (!finished_) run_.commit();
     finished_ = true;
     const auto log = content_of(std::string(folder) + "/collisions.csv");
     if (!log.empty()) json.add("digest", sha256(log));
-    json.add("summary", content_of(std::string(folder) + "/summary.json"));
   }
 
  private:
   static constexpr const char* folder = "/run";
 
-  /// Of vectors, one after the other.
-  static std::vector<double> coordinates(const auto& vectors) {
-    std::vector<double> list;
-    for (const auto& v : vectors) list.insert(list.end(), {v[0], v[1], v[2]});
-    return list;
-  }
   static casefile::CaseSpec read(const std::string& text, const std::vector<std::string>& settings,
                                  bool log) {
     constexpr std::size_t most_balls = 5000;

@@ -2,7 +2,6 @@
 // ---- Five steps that teach what event-driven means
 
 const value_of = id => Number($(id).value);
-const path = (points, cls) => `<path class="${cls}" d="${points.map((p, k) => (k ? 'L' : 'M') + p.map(c => c.toFixed(1)).join(' ')).join('')}"/>`;
 
 function show_flight() {
   const place = t => [20 + 3.6 * t, 30 + 0.012 * (t - 25) ** 2 * 1.6];
@@ -67,8 +66,8 @@ function show_law() {
 async function diverge() {
   const most = 2000;
   $('divergence-said').textContent = 'Running.';
-  const one = (await judging.ask({what: 'first_impacts', text: cases[Object.keys(cases)[0]], settings: [], most})).answer;
-  const other = (await judging.ask({what: 'first_impacts', text: cases[Object.keys(cases)[0]], settings: ['contact.restitution=0.5300000000001'], most})).answer;
+  const run = settings => judging.ask({what: 'first_impacts', text: cases[Object.keys(cases)[0]], settings, most});
+  const one = (await run([])).answer, other = (await run(['contact.restitution=0.5300000000001'])).answer;
   const failed = one.problems ?? other.problems;
   if (failed) return void ($('divergence-said').textContent = failed.join(' '));
   const same = k => one.ball[k] === other.ball[k] && one.partner[k] === other.partner[k];

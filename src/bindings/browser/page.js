@@ -81,11 +81,7 @@ async function begin() {
   if (answer.problems) return give_up('The case has problems.', answer.problems);
   scene = answer;
   scene.size = 0;
-  scene.meshes = Object.values(scene.walls).map(({points, faces}) => {
-    const list = [];
-    for (let k = 0; k < faces.length; k += faces[k] + 1) list.push(faces.slice(k + 1, k + 1 + faces[k]));
-    return {points: Array.from({length: points.length / 3}, (_, k) => points.slice(3 * k, 3 * k + 3)), faces: list};
-  });
+  scene.meshes = Object.values(scene.walls);
   rates = [], last_dose = [0, 0], ended = false, chunk = 0.03;
   const first = (await ask({what: 'advance', time: 0})).answer;
   if (own !== run_number) return;

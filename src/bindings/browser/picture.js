@@ -16,7 +16,7 @@ function draw() {
   if (!scene || !frame) return;
   const colours = getComputedStyle(document.documentElement);
   const {right, up, towards} = camera();
-  const [origin, x, y, z] = [0, 3, 6, 9].map(k => frame.vessel.slice(k, k + 3));
+  const [origin, x, y, z] = frame.vessel;
   const outside = p => [0, 1, 2].map(k => origin[k] + x[k] * p[0] + y[k] * p[1] + z[k] * p[2]);
   // What the vessel has swept so far is in the picture.
   for (const wall of scene.meshes)
@@ -37,7 +37,7 @@ function draw() {
       context.closePath();
       context.stroke();
     }
-  const balls = scene.radii.map((radius, k) => [...seen(frame.places.slice(3 * k, 3 * k + 3)), radius * scale, k]);
+  const balls = scene.radii.map((radius, k) => [...seen(frame.places[k]), radius * scale, k]);
   balls.sort((a, b) => a[2] - b[2]);
   const colour = colours.getPropertyValue('--ball').trim(), edge = colours.getPropertyValue('--card').trim();
   const last = frame.last && [frame.last.ball, frame.last.with_wall ? -1 : frame.last.partner];
@@ -61,6 +61,7 @@ function turn(azimuth, elevation) {
 
 const number = (value, digits = 4) => String(Number(Number(value).toPrecision(digits)));
 let rates = [];
+const path = (points, cls) => `<path class="${cls}" d="${points.map((p, k) => (k ? 'L' : 'M') + p.map(c => c.toFixed(1)).join(' ')).join('')}"/>`;
 
 function line(svg, points, low, high, unit, none = '') {
   const [left, right, top, bottom] = [45, 392, 10, 175];
@@ -68,12 +69,12 @@ function line(svg, points, low, high, unit, none = '') {
     svg.innerHTML = `<path class="axis" d="M${left} ${top}V${bottom}H${right}"/><text x="${(left + right) / 2}" y="${(top + bottom) / 2}" text-anchor="middle">${none}</text>`;
     return;
   }
-  const first = points.length ? points[0][0] : 0, last = points.length ? points[points.length - 1][0] : 1;
+  const first = points[0][0], last = points[points.length - 1][0];
   const place = ([t, value]) => [left + (right - left) * (t - first) / Math.max(last - first, 1e-12), bottom - (bottom - top) * (value - low) / (high - low)];
   svg.innerHTML = `<path class="axis" d="M${left} ${top}V${bottom}H${right}"/><text x="${left - 4}" y="${top + 8}" text-anchor="end">${number(high, 3)}</text>
     <text x="${left - 4}" y="${bottom}" text-anchor="end">${number(low, 3)}</text><text x="${left}" y="192">${number(first, 3)} ${unit}</text>
     <text x="${right}" y="192" text-anchor="end">${number(last, 4)} ${unit}</text>
-    <path class="curve" d="${points.map((p, k) => (k ? 'L' : 'M') + place(p).map(c => c.toFixed(1)).join(' ')).join('')}"/>`;
+    ${path(points.map(place), 'curve')}`;
 }
 
 function bars(svg, counts) {
