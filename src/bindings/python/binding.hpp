@@ -99,13 +99,13 @@ pybind11::object call(const pybind11::object& callable, Argument&&... argument) 
   return made_by([&] { return PyObject_CallObject(callable.ptr(), arguments.ptr()); });
 }
 
-/// Work on a thread of its own, with options that take a flag, while this one lets Python's signal handlers
-/// run: Ctrl-C sets the flag, which the work obeys, and is raised when that has ended.
-template <class Options, class Work>
-auto with_interrupt(Options options, const Work& work) {
+/// Calls work(arguments..., options) on a thread of its own, with options that take a flag, while this one
+/// lets Python's signal handlers run: Ctrl-C sets the flag, which the work obeys, and is raised when that has
+/// ended.
+auto with_interrupt(auto options, const auto& work, const auto&... arguments) {
   std::atomic<bool> interrupt{false};
   options.interrupt = &interrupt;
-  auto done = std::async(std::launch::async, [&] { return work(options); });
+  auto done = std::async(std::launch::async, [&] { return work(arguments..., options); });
   bool raised = false;
   for (;;) {
     {

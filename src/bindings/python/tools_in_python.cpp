@@ -54,8 +54,7 @@ std::string audit(const Case& the_case, const std::string& log, const std::vecto
                   std::optional<int> first_ball, const std::string& walls, bool from_start, bool identify) {
   const app::AuditOptions options{log,        columns, tolerance,  gap_tolerance,
                                   first_ball, walls,   from_start, identify};
-  return with_interrupt(options, [&](const auto& o) { return app::audit(CaseAccess::spec(the_case), o); })
-      .json;
+  return with_interrupt(options, app::audit, CaseAccess::spec(the_case)).json;
 }
 
 py::str name_of(std::size_t quantity) {
@@ -90,8 +89,7 @@ py::list bodies_of(const std::vector<run::Event>& events) {
 /// @throws UndecidedError when no two scalars agree
 py::tuple certify(const Case& the_case, std::size_t collisions, int digits, const std::string& file) {
   const app::CertifyOptions options{file, collisions, digits};
-  const auto found =
-      with_interrupt(options, [&](const auto& o) { return app::certify(CaseAccess::spec(the_case), o); });
+  const auto found = with_interrupt(options, app::certify, CaseAccess::spec(the_case));
   if (!found.undecided.empty()) throw UndecidedError(found.undecided);
   py::list evidence;
   for (const auto& pair : found.evidence)
@@ -123,8 +121,7 @@ py::tuple sensitivity(const Case& the_case, const std::vector<std::string>& by, 
   options.by = by;
   options.events = events;
   options.digits = digits;
-  const auto found =
-      with_interrupt(options, [&](const auto& o) { return run::sensitivity(CaseAccess::spec(the_case), o); });
+  const auto found = with_interrupt(options, run::sensitivity, CaseAccess::spec(the_case));
   py::list of_numbers;
   for (std::size_t k = 0; k < by.size(); ++k) {
     std::vector<std::string> quantities, states;
@@ -146,9 +143,7 @@ py::tuple sensitivity(const Case& the_case, const std::vector<std::string>& by, 
 /// @return the precision in which the case has the digits that it asks for, and the case with those found
 /// @throws UndecidedError when no number of digits suffices
 py::tuple find_digits(const Case& the_case) {
-  const auto found = with_interrupt(app::DigitsOptions(), [&](const auto& options) {
-    return app::find_digits(CaseAccess::spec(the_case), options);
-  });
+  const auto found = with_interrupt(app::DigitsOptions(), app::find_digits, CaseAccess::spec(the_case));
   if (!found.undecided.empty()) throw UndecidedError(found.undecided);
   auto spec = CaseAccess::spec(the_case);
   spec.right_digits = found.right();
@@ -156,9 +151,8 @@ py::tuple find_digits(const Case& the_case) {
 }
 
 py::dict estimate(const Case& the_case, const std::string& precision) {
-  const auto found = with_interrupt(app::DigitsOptions(), [&](const auto& options) {
-    return app::estimate_run(CaseAccess::spec(the_case), precision, options);
-  });
+  const auto found =
+      with_interrupt(app::DigitsOptions(), app::estimate_run, CaseAccess::spec(the_case), precision);
   const double verifying = found.verifying > 0 ? found.trials + found.verifying * found.cpu_seconds() : 0;
   return py::dict("precision"_a = found.precision, "events"_a = found.events,
                   "digits_lost_per_event"_a = found.lost_per_event, "right_events"_a = found.right_events,
@@ -174,8 +168,7 @@ py::tuple prove(const Case& the_case, std::size_t collisions, long most_bits,
   options.collisions = collisions;
   options.most_bits = most_bits;
   options.certificate = certificate;
-  const auto proof =
-      with_interrupt(options, [&](const auto& o) { return app::prove(CaseAccess::spec(the_case), o); }).proof;
+  const auto proof = with_interrupt(options, app::prove, CaseAccess::spec(the_case)).proof;
   if (!proof.impossible.empty()) throw UndecidedError(proof.impossible);
   std::ostringstream events;
   prove::write_events(events, proof, 40);
@@ -183,9 +176,8 @@ py::tuple prove(const Case& the_case, std::size_t collisions, long most_bits,
 }
 
 /// @throws KeyboardInterrupt when Ctrl-C ended it, with its state on disk
-void in_folder(const app::RunOptions& options,
-               const std::function<app::RunResult(const app::RunOptions&)>& work) {
-  const auto result = with_interrupt(options, work);
+void in_folder(const app::RunOptions& options, const auto& work, const auto&... arguments) {
+  const auto result = with_interrupt(options, work, arguments...);
   if (result.end_reason == model::EndReason::undecided) throw UndecidedError(result.error);
 }
 
@@ -197,14 +189,14 @@ void run_with_checkpoints(const Case& the_case, const std::string& precision, co
   options.folder = folder;
   options.report = report;
   options.checkpoint = app::first_checkpoint(spec, precision, report, interval);
-  in_folder(options, [&](const app::RunOptions& o) { return app::run(precision, spec, o); });
+  in_folder(options, app::run, precision, spec);
 }
 
 void resume(const std::string& folder, const std::string& interval) {
   if (!interval.empty()) run::parse_checkpoint_interval(interval);
   app::RunOptions options;
   options.folder = folder;
-  in_folder(options, [&](const app::RunOptions& o) { return app::resume(interval, o); });
+  in_folder(options, app::resume, interval);
 }
 
 /// @return names and texts of the files, the command that runs the first, and notes
