@@ -335,7 +335,7 @@ std::string heat_colour(double share) {
   const auto k = std::min<std::size_t>(7, static_cast<std::size_t>(place));
   std::string colour = "#";
   for (const int shift : {16, 8, 0}) {
-    const double low = stops[k] >> shift & 255, high = stops[k + 1] >> shift & 255;
+    const double low = (stops[k] >> shift) & 255, high = (stops[k + 1] >> shift) & 255;
     colour += fmt::format("{:02x}", std::lround(low + (place - static_cast<double>(k)) * (high - low)));
   }
   return colour;

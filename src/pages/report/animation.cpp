@@ -185,7 +185,7 @@ Json pistons_of(const MovingVessel& vessel, const std::vector<double>& fractions
 
 /// Adds <script type="application/json" id="frames">, which page.js plays. Lengths in millimetres:
 ///   {duration, eye, target,
-///    vessel: {radius, height, colour, opacity, poses: [x, y, z, qx, qy, qz, qw of each frame]},
+///    vessel: {points, triangles, colour, opacity, pistons, poses: [x, y, z, qx, qy, qz, qw of each frame]},
 ///    spheres: {radii, colours, places: [x, y, z of each sphere, frame by frame]}}
 /// Frames divide the playback into equal parts, from its beginning to its end.
 void add_frames(pugi::xml_node parent, const Animation& animation) {
