@@ -1,18 +1,65 @@
 #include "dem/deck.hpp"
 
-#include <fmt/format.h>
+#include <fmt/args.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/errors.hpp"
 #include "base/version.hpp"
+#include "casefile/build_case.hpp"
 #include "casefile/parts.hpp"
+#include "dem/moving_vessel.hpp"
 #include "dem/soft_contact.hpp"
+#include "dem/wall_mesh.hpp"
 
 namespace edmill::dem {
 
+// The files of decks/: texts with the names of what is filled in. What may be absent ends its own lines.
+extern const std::string_view lammps_in, lammps_frame_in, liggghts_in, yade_in, yade_planes_in,
+    yade_triangles_in;
+extern const std::string_view pose_in;  ///< pose(t) in Python: orientation, centre, angular velocity and its
+                                        ///< rate, velocity and acceleration of the centre, all inertial
+
 namespace {
+
+const double turn = 2 * numerics::pi<double>();  ///< [rad]
+constexpr double poisson = 0.3;
+
+/// A law of contacts as a DEM code has it.
+struct SoftLaw {
+  double restitution, friction;
+  double damping;  ///< soft_contact.hpp
+};
+
+/// What a deck is written from; SI.
+struct DeckCase {
+  const std::string& file;
+  DeckOptions options;
+  std::vector<model::BallProperties<double>> balls;
+  std::vector<model::BallState<double>> states;  ///< inertial
+  SoftLaw of_balls, of_walls;
+  model::Mill<double> mill;
+  model::Joints<double> joints;  ///< of the vessel
+  double begin, period;          ///< time of the states, period of the drive [s]
+  model::AnyPose<double> pose;   ///< of the vessel at the begin
+  double young;                  ///< [Pa]
+  /// By the names under which the texts have them.
+  fmt::dynamic_format_arg_store<fmt::format_context> fields = {};
+
+  void add(const char* name, const auto& value) { fields.push_back(fmt::arg(name, value)); }
+  std::string filled(std::string_view text) const { return fmt::vformat(text, fields); }
+
+  /// As it was given: the mass came from it.
+  double density(std::size_t ball) const {
+    const double r = balls[ball].radius;
+    return std::stod(
+        fmt::format("{:.14g}", balls[ball].mass / (4.0 / 3 * numerics::pi<double>() * r * r * r)));
+  }
+  /// No joint turns: the vessel translates, or stands still.
+  bool translates() const { return std::ranges::none_of(joints.list, &model::Joint<double>::rotates); }
+};
 
 SoftLaw soft_law(const model::ContactLaw<double>& law, const std::string& file, const DeckOptions& options) {
   if (law.name() != std::string("walton-braun"))
@@ -52,34 +99,15 @@ void refuse_what_no_code_has(const casefile::CaseSpec& spec, const casefile::Ini
   if (!problems.empty()) throw InputError(problems);
 }
 
-}  // namespace
-
-double DeckCase::density(std::size_t ball) const {
-  const double r = balls[ball].radius;
-  // As it was given: the mass came from it.
-  return std::stod(fmt::format("{:.14g}", balls[ball].mass / (4.0 / 3 * numerics::pi<double>() * r * r * r)));
-}
-
-bool DeckCase::translates() const {
-  return std::ranges::none_of(joints.list, &model::Joint<double>::rotates);
-}
-
-std::string header_of(const DeckCase& c, const DeckOptions& options) {
-  return fmt::format(
-      "# {} of edmill {}: contacts of {:g} s at {:g} m/s, restitution {:g} (balls) and {:g} (walls)\n"
-      "# digest of the case {}\n",
-      c.file, version(), options.contact_time, options.speed, c.of_balls.restitution, c.of_walls.restitution,
-      c.digest);
-}
-
-std::string weight_of(const DeckCase& c) {
-  const auto& g = c.mill.gravity;
+/// Gravity as a command of LAMMPS and LIGGGHTS; empty where there is none.
+std::string weight_of(const Vec3<double>& g) {
   const double size = norm<double>(g);
   if (!(size > 0)) return "";
   return fmt::format("fix weight all gravity {} vector {} {} {}\n", size, g[0] / size, g[1] / size,
                      g[2] / size);
 }
 
+/// Unit; zero for a joint without one.
 std::array<double, 3> axis_of(const model::Joint<double>& joint) {
   auto axis = joint.axis;
   const double length = std::hypot(axis[0], axis[1], axis[2]);
@@ -87,6 +115,8 @@ std::array<double, 3> axis_of(const model::Joint<double>& joint) {
   return axis;
 }
 
+/// [0.003 * sin(62.8 * t + 0.5)]: the displacement of all translations along each axis at the time `t`, as
+/// LAMMPS and Python write formulas. @pre c.translates()
 std::array<std::string, 3> displacement_formulas(const DeckCase& c, const std::string& time) {
   std::array<std::string, 3> sums;
   const auto add = [&](std::size_t k, const std::string& term) {
@@ -109,7 +139,8 @@ std::array<std::string, 3> displacement_formulas(const DeckCase& c, const std::s
   return sums;
 }
 
-std::string pose_in_python(const DeckCase& c) {
+/// Needs `import numpy as np`.
+std::string pose_in_python(DeckCase& c) {
   std::string joints;
   for (const auto& j : c.joints.list) {
     std::string swings;
@@ -120,78 +151,409 @@ std::string pose_in_python(const DeckCase& c) {
                           j.rotates ? "True" : "False", fmt::join(axis_of(j), ", "), fmt::join(j.shift, ", "),
                           turn * j.angle, j.rotates ? turn * j.speed : j.speed, swings);
   }
-  return fmt::format(
-      R"(from math import cos, sin
-# rotates, axis, shift, angle, speed, swings (amplitude, angular speed, phase): from the ground to the vessel
-JOINTS = [
-{}]
-def cross(a, b):
-    a, b = a.tolist(), b.tolist()  # sooner than np.cross
-    return np.array((a[1]*b[2]-a[2]*b[1], a[2]*b[0]-a[0]*b[2], a[0]*b[1]-a[1]*b[0]))
-def skew(n):
-    x, y, z = n.tolist()
-    return np.array(((0, -z, y), (z, 0, -x), (-y, x, 0)))
-def turned(n, q):
-    K = skew(n)
-    return np.eye(3)+sin(q)*K+(1-cos(q))*(K @ K)
-def pose(t):
-    R, C, w, dw, V, A = np.eye(3), np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(3)
-    for rotates, axis, shift, angle, speed, swings in JOINTS:
-        q, q1, q2 = angle+speed*t, speed, 0.0
-        for a, f, p in swings:
-            q, q1, q2 = q+a*sin(f*t+p), q1+a*f*cos(f*t+p), q2-a*f*f*sin(f*t+p)
-        if rotates:
-            n = R @ axis
-            dw = dw+q2*n+q1*cross(w, n)
-            w = w+q1*n
-            R = R @ turned(axis, q)
-        else:
-            d, v, a = R @ (shift+axis*q), R @ (axis*q1), R @ (axis*q2)
-            A = A+a+2*cross(w, v)+cross(dw, d)+cross(w, cross(w, d))
-            V = V+v+cross(w, d)
-            C = C+d
-    return R, C, w, dw, V, A)",
-      joints);
+  c.add("joints", joints);
+  return c.filled(pose_in);
 }
+
+// LAMMPS of 2021 and later: exact regions. Regions turn about one axis at most, so a vessel that turns is at
+// rest and the fictitious forces and torques come from Python.
+
+std::string region_of(const DeckCase& c, const std::string& moves) {
+  const auto& v = c.mill.vessel;
+  if (const auto* box = v.get_if<model::BoxVessel<double>>())
+    return fmt::format("region vessel block {} {} {} {} {} {} side in units box{}\n", -box->half[0],
+                       box->half[0], -box->half[1], box->half[1], -box->half[2], box->half[2], moves);
+  if (const auto* cylinder = v.get_if<model::CylinderVessel<double>>())
+    return fmt::format("region vessel cylinder y 0 0 {} {} {} side in units box{}\n", cylinder->radius,
+                       -cylinder->half_height, cylinder->half_height, moves);
+  if (const auto* sphere = v.get_if<model::SphereVessel<double>>())
+    return fmt::format("region vessel sphere 0 0 0 {} side in units box{}\n", sphere->radius, moves);
+  throw InputError(
+      fmt::format("{}: key 'vessel.type': found a vessel that is no single region of LAMMPS, expected "
+                  "cylinder, box or sphere",
+                  c.file));
+}
+
+std::string contact_of(const DeckCase& c, const SoftLaw& law) {
+  if (law.damping > 1.2728)
+    throw InputError(
+        fmt::format("{}: key 'contact.restitution': found {}, expected {:.2g} or more: LAMMPS's damping "
+                    "tsuji goes no lower",
+                    c.file, law.restitution, restitution_of(1.2728, c.options.steps) + 0.005));
+  return fmt::format(
+      "hertz/material {:.12g} {:.9g} {:g} tangential mindlin NULL 0.0 {:.12g} damping tsuji limit_damping",
+      c.young, lammps_restitution(law.damping), poisson, law.friction);
+}
+
+/// The state of a ball as the deck has it: inertial, or as seen from the vessel.
+model::BallState<double> state_in(const DeckCase& c, std::size_t ball, bool in_vessel) {
+  const auto& s = c.states[ball];
+  if (!in_vessel) return s;
+  const auto& motion = c.mill.motion;
+  const auto seen = motion.to_vessel_frame(c.pose, s.position, s.velocity);
+  return {seen.position, seen.velocity, in_axes(motion, c.pose, s.spin - motion.angular_velocity(c.pose))};
+}
+
+std::string atoms_of(const DeckCase& c, bool in_vessel) {
+  std::string text, sets;
+  for (std::size_t k = 0; k < c.balls.size(); ++k) {
+    const auto [x, v, w] = state_in(c, k, in_vessel);
+    text += fmt::format("create_atoms 1 single {} {} {} units box\n", x[0], x[1], x[2]);
+    sets += fmt::format(
+        "set atom {0} diameter {1} density {2}\n"
+        "set atom {0} vx {3} vy {4} vz {5} omega {6} {7} {8}\n",
+        k + 1, 2 * c.balls[k].radius, c.density(k), v[0], v[1], v[2], w[0], w[1], w[2]);
+  }
+  return text + sets;
+}
+
+/// Fictitious forces and torques with the velocity of the step, not LAMMPS's of half a step before.
+std::string frame_in_python(DeckCase& c) {
+  std::string masses, radii;
+  for (const auto& ball : c.balls) {
+    masses += fmt::format("{}, ", ball.mass);
+    radii += fmt::format("{}, ", ball.radius);
+  }
+  c.add("pose", pose_in_python(c));
+  c.add("masses", masses);
+  c.add("radii", radii);
+  return c.filled(lammps_frame_in);
+}
+
+Deck lammps_deck(DeckCase& c) {
+  const bool in_vessel = !c.translates();
+  std::string vessel;
+  if (!in_vessel) {
+    const auto formulas = displacement_formulas(c, "v_t");
+    vessel = fmt::format("variable t equal {}+step*dt\n", c.begin);
+    for (std::size_t k = 0; k < 3; ++k)
+      vessel += fmt::format("variable move{} equal {}\n", "xyz"[k], formulas[k]);
+  }
+  const bool moves = !in_vessel && c.mill.motion.wall_speed(0) > 0;
+  c.add("frame", in_vessel ? "vessel" : "laboratory");
+  c.add("balls", atoms_of(c, in_vessel));
+  c.add("contacts", contact_of(c, c.of_balls));
+  c.add("vessel", vessel + region_of(c, moves ? " move v_movex v_movey v_movez" : ""));
+  c.add("wall_contacts", contact_of(c, c.of_walls));
+  c.add("weight", in_vessel ? "" : weight_of(c.mill.gravity));
+  c.add("forces", in_vessel ? frame_in_python(c) : "");
+  Deck deck{
+      {{c.options.name + ".in", c.filled(lammps_in)}}, fmt::format("lmp -in {}.in", c.options.name), {}};
+  if (in_vessel)
+    deck.notes = {
+        "the vessel turns, which LAMMPS's regions do about one axis at most: the deck computes in the "
+        "vessel's frame, with fictitious forces by python3-lammps"};
+  return deck;
+}
+
+// LIGGGHTS 3.8: walls as triangles that several moves carry along: turns about fixed axes through the origin,
+// and the velocity that is left. The formulas of both are written by joints, in its own variables.
+
+/// A formula; empty for zero.
+using Formula = std::string;
+using FormulaVector = std::array<Formula, 3>;
+
+Formula product(const Formula& a, const Formula& b) {
+  if (a.empty() || b.empty()) return "";
+  if (a == "1") return b;
+  if (b == "1") return a;
+  return a + "*" + b;
+}
+Formula sum(const Formula& a, const Formula& b) {
+  if (a.empty() || b.empty()) return a + b;
+  return a + "+" + b;
+}
+Formula negative(const Formula& a) { return a.empty() ? "" : "(-1)*(" + a + ")"; }
+Formula number(double x) {
+  if (x == 0) return "";
+  return x == 1 ? "1" : fmt::format("({})", x);
+}
+FormulaVector number(const std::array<double, 3>& x) { return {number(x[0]), number(x[1]), number(x[2])}; }
+
+/// Orientation, angular velocity, and place and velocity of the vessel as variables of LIGGGHTS.
+class Chain {
+ public:
+  explicit Chain(const DeckCase& c) {
+    // Moves of a step ask for rates when its number is that of its end: those of its middle keep the walls in
+    // place.
+    lines_ = fmt::format("variable t equal {}+(step-0.5)*dt\n", c.begin);
+    for (std::size_t i = 0; i < 3; ++i) orientation_[i][i] = "1";
+    for (const auto& joint : c.joints.list) joint.rotates ? add_rotation(joint) : add_translation(joint);
+    // The velocity that the material point at the origin has.
+    for (std::size_t i = 0; i < 3; ++i)
+      velocity_[i] = named(sum(velocity_[i], negative(cross(spin_, centre_)[i])));
+    // A turn carries the vessel from where it is at the beginning of a step, before it is shifted.
+    const auto turned_shift = cross(spin_, velocity_);
+    for (std::size_t i = 0; i < 3; ++i)
+      velocity_[i] = named(sum(velocity_[i], product("(0.5*dt)", turned_shift[i])));
+  }
+
+  const std::string& lines() const { return lines_; }
+  /// "v_q7" or empty.
+  const Formula& spin(std::size_t axis) const { return spin_[axis]; }
+  const Formula& velocity(std::size_t axis) const { return velocity_[axis]; }
+  bool shifts() const { return !(velocity_[0] + velocity_[1] + velocity_[2]).empty(); }
+
+ private:
+  using Joint = model::Joint<double>;
+
+  /// A variable for what is longer than a variable.
+  Formula named(const Formula& formula) {
+    const bool is_variable = formula.starts_with("v_") && formula.find_first_of("*+(") == Formula::npos;
+    if (formula.empty() || formula == "1" || is_variable) return formula;
+    const auto name = fmt::format("q{}", count_++);
+    lines_ += fmt::format("variable {} equal {}\n", name, formula);
+    return "v_" + name;
+  }
+  FormulaVector cross(const FormulaVector& a, const FormulaVector& b) {
+    FormulaVector c;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+      c[i] = named(sum(product(a[j], b[k]), negative(product(a[k], b[j]))));
+    }
+    return c;
+  }
+  FormulaVector turned(const FormulaVector& v) {
+    FormulaVector w;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) w[i] = sum(w[i], product(orientation_[i][j], v[j]));
+      w[i] = named(w[i]);
+    }
+    return w;
+  }
+  /// The joint's own coordinate and its rate.
+  std::pair<Formula, Formula> coordinate(const Joint& joint, double unit) {
+    Formula value = number(joint.rotates ? unit * joint.angle : 0), rate = number(unit * joint.speed);
+    if (joint.speed != 0) value = sum(value, product(rate, "v_t"));
+    for (const auto& s : joint.swings) {
+      const auto phase = fmt::format("({}*v_t+{})", turn * s.frequency, turn * s.phase);
+      value = sum(value, product(number(unit * s.amplitude), "sin" + phase));
+      rate = sum(rate, product(number(unit * s.amplitude * turn * s.frequency), "cos" + phase));
+    }
+    return {named(value), named(rate)};
+  }
+  void add_rotation(const Joint& joint) {
+    const auto [angle, rate] = coordinate(joint, turn);
+    const auto own = number(axis_of(joint)), axis = turned(own);
+    for (std::size_t i = 0; i < 3; ++i) spin_[i] = named(sum(spin_[i], product(axis[i], rate)));
+    if (angle.empty()) return;
+    // Rodrigues: cos + (1 - cos) n n + sin [n].
+    const auto cosine = named("cos(" + angle + ")"), sine = named("sin(" + angle + ")"),
+               rest = named("1-" + cosine);
+    std::array<FormulaVector, 3> turn_of;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) {
+        Formula entry = product(product(own[i], own[j]), rest);
+        if (i == j) entry = sum(entry, cosine);
+        const std::size_t k = 3 - i - j;
+        if (i != j)
+          entry = sum(entry, (j == (i + 1) % 3) ? negative(product(own[k], sine)) : product(own[k], sine));
+        turn_of[i][j] = named(entry);
+      }
+    std::array<FormulaVector, 3> behind;
+    for (std::size_t j = 0; j < 3; ++j) {
+      const auto column = turned({turn_of[0][j], turn_of[1][j], turn_of[2][j]});
+      for (std::size_t i = 0; i < 3; ++i) behind[i][j] = column[i];
+    }
+    orientation_ = behind;
+  }
+
+  void add_translation(const Joint& joint) {
+    const auto [way, rate] = coordinate(joint, 1);
+    const auto axis = number(axis_of(joint));
+    FormulaVector shift, speed;
+    for (std::size_t i = 0; i < 3; ++i) {
+      shift[i] = named(sum(number(joint.shift[i]), product(axis[i], way)));
+      speed[i] = product(axis[i], rate);
+    }
+    const auto placed = turned(shift), moving = turned(speed), carried = cross(spin_, placed);
+    for (std::size_t i = 0; i < 3; ++i) {
+      centre_[i] = named(sum(centre_[i], placed[i]));
+      velocity_[i] = named(sum(velocity_[i], sum(moving[i], carried[i])));
+    }
+  }
+
+  std::string lines_;
+  int count_ = 0;
+  std::array<FormulaVector, 3> orientation_;
+  FormulaVector spin_, centre_, velocity_;
+};
+
+std::string moves_of(const Chain& chain, const std::vector<WallMesh>& meshes) {
+  constexpr const char* axes[] = {"1 0 0", "0 1 0", "0 0 1"};
+  std::string text;
+  for (const auto& mesh : meshes) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (!chain.spin(k).empty())
+        text += fmt::format(
+            "fix turn_{0}_{1} all move/mesh mesh {0} rotate/variable origin 0 0 0 axis {2} omega {3}\n",
+            mesh.name, "xyz"[k], axes[k], chain.spin(k));
+    if (chain.shifts()) {
+      std::string speeds;
+      for (std::size_t k = 0; k < 3; ++k)
+        speeds += " " + (chain.velocity(k).empty() ? "v_zero" : chain.velocity(k));
+      text += fmt::format("fix shift_{0} all move/mesh mesh {0} linear/variable{1}\n", mesh.name, speeds);
+    }
+  }
+  return text;
+}
+
+std::string granules_of(const DeckCase& c) {
+  std::string text, sets;
+  for (std::size_t k = 0; k < c.balls.size(); ++k) {
+    const auto& [x, v, w] = c.states[k];
+    text += fmt::format("create_atoms 1 single {} {} {} units box\n", x[0], x[1], x[2]);
+    sets +=
+        fmt::format("set atom {0} diameter {1} density {2}\n", k + 1, 2 * c.balls[k].radius, c.density(k));
+    if (norm<double>(v) > 0 || norm<double>(w) > 0)
+      sets += fmt::format("set atom {0} vx {1} vy {2} vz {3} omegax {4} omegay {5} omegaz {6}\n", k + 1, v[0],
+                          v[1], v[2], w[0], w[1], w[2]);
+  }
+  return text + sets;
+}
+
+Deck liggghts_deck(DeckCase& c) {
+  const auto meshes = meshes_of(c.mill.vessel, c.options.facets);
+  if (meshes.empty())
+    throw InputError(
+        fmt::format("{}: key 'vessel.type': found a vessel with walls that are round in two ways, expected "
+                    "flat walls or a cylinder, which LIGGGHTS can have as triangles",
+                    c.file));
+  Deck deck{{{}}, fmt::format("liggghts -in {}.in", c.options.name), notes_on(meshes, c.options.facets)};
+  std::string walls, names;
+  for (const auto& mesh : meshes) {
+    const auto file = fmt::format("{}_{}.stl", c.options.name, mesh.name);
+    deck.files.push_back({file, stl_text({&mesh, 1}, c.mill.motion, c.pose)});
+    walls +=
+        fmt::format("fix {0} all mesh/surface file {1} type 2 curvature {2:.6g} curvature_tolerant yes\n",
+                    mesh.name, file, mesh.smooth_angle > 0 ? mesh.smooth_angle : 0.26);
+    names += " " + mesh.name;
+  }
+  const Chain chain(c);
+  c.add("facts", facts_of(meshes, c.options.facets));
+  c.add("balls", granules_of(c));
+  c.add("rates", chain.lines());
+  c.add("walls", walls);
+  c.add("mesh_count", meshes.size());
+  c.add("meshes", names);
+  c.add("moves", moves_of(chain, meshes));
+  c.add("weight", weight_of(c.mill.gravity));
+  deck.files.front() = {c.options.name + ".in", c.filled(liggghts_in)};
+  return deck;
+}
+
+// YADE 2023: infinite planes where the vessel only translates, else triangles that turn about the point at
+// rest.
+
+/// Whether the vessel's centre moves across its angular velocity at all times that are tried, so that a point
+/// of it is at rest.
+bool turns_about_a_point(const DeckCase& c) {
+  const auto& motion = c.mill.motion;
+  const DriveClock<double> clock(motion.period());
+  for (int k = 0; k < 64; ++k) {
+    const auto pose = motion.pose(clock.at(c.begin + c.period * k / 64));
+    const Vec3<double> spin = motion.angular_velocity(pose);
+    const Vec3<double> centre = motion.to_inertial(pose, Vec3<double>::Zero());
+    const Vec3<double> velocity = motion.wall_velocity(pose, centre);
+    const double size = norm<double>(spin);
+    if (norm<double>(velocity) > 1e-12 && !(size > 1e-9)) return false;
+    if (std::abs(dot<double>(spin, velocity)) > 1e-9 * (1 + size * norm<double>(velocity))) return false;
+  }
+  return true;
+}
+
+Deck yade_deck(DeckCase& c) {
+  const auto* box = c.mill.vessel.get_if<model::BoxVessel<double>>();
+  const bool planes = box && c.translates();
+  const auto meshes = meshes_of(c.mill.vessel, c.options.facets);
+  if (!planes && (meshes.empty() || !turns_about_a_point(c)))
+    throw InputError(fmt::format(
+        "{}: found a {}, expected a box that translates, or flat walls or a cylinder about a point at "
+        "rest, which YADE's engines move",
+        c.file,
+        meshes.empty() ? "vessel with walls that are round in two ways" : "motion along its own axis"));
+  std::string balls;
+  for (std::size_t k = 0; k < c.balls.size(); ++k) {
+    const auto& [x, v, w] = c.states[k];
+    balls += fmt::format("    (({}), {}, {}, ({}), ({})),\n", fmt::join(x, ", "), c.balls[k].radius,
+                         c.density(k), fmt::join(v, ", "), fmt::join(w, ", "));
+  }
+  Deck deck{{{}}, fmt::format("yade -n -x -j1 {}.py", c.options.name), {}};
+  c.add("facts", facts_of(meshes, c.options.facets));
+  c.add("balls", balls);
+  if (planes) {
+    c.add("half", fmt::format("{}", fmt::join(box->half, ", ")));
+    c.add("place", fmt::format("{}", fmt::join(displacement_formulas(c, "t"), ", ")));
+    c.add("walls", c.filled(yade_planes_in));
+  } else {
+    c.add("pose", pose_in_python(c));
+    c.add("walls", c.filled(yade_triangles_in));
+    deck.files.push_back({c.options.name + "_walls.stl", stl_text(meshes, c.mill.motion, c.pose)});
+    deck.notes = notes_on(meshes, c.options.facets);
+  }
+  deck.files.front() = {c.options.name + ".py", c.filled(yade_in)};
+  return deck;
+}
+
+}  // namespace
 
 Deck make_deck(const casefile::CaseSpec& spec, const DeckOptions& options) {
   const auto built = casefile::build_case<double>(spec);
   refuse_what_no_code_has(spec, built);
-  const auto& c = built.the_case;
-  const DriveClock<double> clock(c.mill.motion.period());
+  const auto& mill = built.the_case.mill;
+  const auto& balls = built.the_case.balls;
+  const DriveClock<double> clock(mill.motion.period());
   const double begin = clock.seconds(built.start), time_step = options.contact_time / options.steps;
   const double duration = options.duration > 0 ? options.duration
                           : spec.end_time      ? spec.end_time->to<double>() - begin
                                                : 0;
   const double interval = options.frame_interval > 0 ? options.frame_interval : options.contact_time / 5;
-  const auto& largest = *std::ranges::max_element(c.balls, {}, &model::BallProperties<double>::radius);
-  const DeckCase deck{
+  const auto& largest = *std::ranges::max_element(balls, {}, &model::BallProperties<double>::radius);
+  DeckCase c{
       .file = spec.file,
-      .digest = spec.digest,
-      .balls = c.balls,
+      .options = options,
+      .balls = balls,
       .states = built.states,
-      .of_balls = soft_law(c.mill.ball_ball, spec.file, options),
-      .of_walls = soft_law(c.mill.ball_wall, spec.file, options),
-      .mill = c.mill,
+      .of_balls = soft_law(mill.ball_ball, spec.file, options),
+      .of_walls = soft_law(mill.ball_wall, spec.file, options),
+      .mill = mill,
       .joints = model::converted_joints<double>(
           model::Joints<casefile::Quantity>{casefile::joints_of(spec.mill), casefile::period_of(spec.mill)},
           [](const casefile::Quantity& q) { return q.to<double>(); }),
       .begin = begin,
       .period = casefile::period_of(spec.mill).to<double>(),
-      .pose = c.mill.motion.pose(clock.at(begin)),
-      .young =
-          young_for(options.contact_time, options.speed, largest.radius, largest.mass, DeckCase::poisson),
-      .time_step = time_step,
-      .steps = std::lround(duration / time_step),
-      .frame_every = std::max(1L, std::lround(interval / time_step)),
-      .largest_radius = largest.radius};
+      .pose = mill.motion.pose(clock.at(begin)),
+      .young = young_for(options.contact_time, options.speed, largest.radius, largest.mass, poisson)};
   if (!(duration > 0))
     throw InputError(spec.file + ": found no run.end_time and no --duration, expected one of them");
-  if (options.code == "lammps") return lammps_deck(deck, options);
-  auto filled = options;
   // A ball at an edge between two triangles of YADE touches both, so that they must be few.
-  if (filled.facets == 0) filled.facets = options.code == "yade" ? 24 : 128;
-  return options.code == "liggghts" ? liggghts_deck(deck, filled) : yade_deck(deck, filled);
+  if (c.options.facets == 0) c.options.facets = options.code == "yade" ? 24 : 128;
+  const long steps = std::lround(duration / time_step);
+  c.add("file", spec.file);
+  c.add("version", version());
+  c.add("digest", spec.digest);
+  c.add("name", options.name);
+  c.add("contact_time", options.contact_time);
+  c.add("speed", options.speed);
+  c.add("restitution", c.of_balls.restitution);
+  c.add("wall_restitution", c.of_walls.restitution);
+  c.add("en", formula_restitution(c.of_balls.damping));
+  c.add("wall_en", formula_restitution(c.of_walls.damping));
+  c.add("friction", c.of_balls.friction);
+  c.add("wall_friction", c.of_walls.friction);
+  c.add("young", c.young);
+  c.add("poisson", poisson);
+  c.add("gravity", fmt::format("{}", fmt::join(mill.gravity, ", ")));
+  c.add("reach", 1.5 * mill.motion.reach(mill.vessel.reach()));
+  c.add("skin", largest.radius / 2);
+  c.add("begin", begin);
+  c.add("time_step", time_step);
+  c.add("steps", steps);
+  c.add("frame_every", std::max(1L, std::lround(interval / time_step)));
+  c.add("thermo", std::max(1L, steps / 20));
+  return options.code == "lammps"     ? lammps_deck(c)
+         : options.code == "liggghts" ? liggghts_deck(c)
+                                      : yade_deck(c);
 }
 
 }  // namespace edmill::dem
