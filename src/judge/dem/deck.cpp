@@ -24,6 +24,8 @@ extern const std::string_view pose_in;  ///< pose(t) in Python: orientation, cen
 
 namespace {
 
+using namespace std::string_literals;
+
 const double turn = 2 * numerics::pi<double>();  ///< [rad]
 constexpr double poisson = 0.3;
 
@@ -155,6 +157,21 @@ std::string pose_in_python(DeckCase& c) {
   return c.filled(pose_in);
 }
 
+/// The balls as commands of LAMMPS and LIGGGHTS.
+/// @param spin  the words that set it, with places for its components
+std::string atoms_of(const DeckCase& c, const char* spin, bool also_at_rest) {
+  std::string text, sets;
+  for (std::size_t k = 0; k < c.balls.size(); ++k) {
+    const auto& [x, v, w] = c.states[k];
+    text += fmt::format("create_atoms 1 single {} {} {} units box\n", x[0], x[1], x[2]);
+    sets += fmt::format("set atom {} diameter {} density {}\n", k + 1, 2 * c.balls[k].radius, c.density(k));
+    if (also_at_rest || norm<double>(v) > 0 || norm<double>(w) > 0)
+      sets += fmt::format("set atom {} vx {} vy {} vz {} ", k + 1, v[0], v[1], v[2]) +
+              fmt::format(fmt::runtime(spin), w[0], w[1], w[2]) + "\n";
+  }
+  return text + sets;
+}
+
 // LAMMPS of 2021 and later: exact regions. Regions turn about one axis at most, so a vessel that turns is at
 // rest and the fictitious forces and torques come from Python.
 
@@ -185,34 +202,18 @@ std::string contact_of(const DeckCase& c, const SoftLaw& law) {
       c.young, lammps_restitution(law.damping), poisson, law.friction);
 }
 
-/// The state of a ball as the deck has it: inertial, or as seen from the vessel.
-model::BallState<double> state_in(const DeckCase& c, std::size_t ball, bool in_vessel) {
-  const auto& s = c.states[ball];
-  if (!in_vessel) return s;
+/// The states as seen from the vessel, and fictitious forces and torques with the velocity of the step, not
+/// LAMMPS's of half a step before.
+std::string put_in_vessel(DeckCase& c) {
   const auto& motion = c.mill.motion;
-  const auto seen = motion.to_vessel_frame(c.pose, s.position, s.velocity);
-  return {seen.position, seen.velocity, in_axes(motion, c.pose, s.spin - motion.angular_velocity(c.pose))};
-}
-
-std::string atoms_of(const DeckCase& c, bool in_vessel) {
-  std::string text, sets;
-  for (std::size_t k = 0; k < c.balls.size(); ++k) {
-    const auto [x, v, w] = state_in(c, k, in_vessel);
-    text += fmt::format("create_atoms 1 single {} {} {} units box\n", x[0], x[1], x[2]);
-    sets += fmt::format(
-        "set atom {0} diameter {1} density {2}\n"
-        "set atom {0} vx {3} vy {4} vz {5} omega {6} {7} {8}\n",
-        k + 1, 2 * c.balls[k].radius, c.density(k), v[0], v[1], v[2], w[0], w[1], w[2]);
-  }
-  return text + sets;
-}
-
-/// Fictitious forces and torques with the velocity of the step, not LAMMPS's of half a step before.
-std::string frame_in_python(DeckCase& c) {
+  const Vec3<double> turning = motion.angular_velocity(c.pose);
   std::string masses, radii;
-  for (const auto& ball : c.balls) {
-    masses += fmt::format("{}, ", ball.mass);
-    radii += fmt::format("{}, ", ball.radius);
+  for (std::size_t k = 0; k < c.balls.size(); ++k) {
+    auto& [x, v, w] = c.states[k];
+    const auto seen = motion.to_vessel_frame(c.pose, x, v);
+    c.states[k] = {seen.position, seen.velocity, in_axes(motion, c.pose, w - turning)};
+    masses += fmt::format("{}, ", c.balls[k].mass);
+    radii += fmt::format("{}, ", c.balls[k].radius);
   }
   c.add("pose", pose_in_python(c));
   c.add("masses", masses);
@@ -222,6 +223,7 @@ std::string frame_in_python(DeckCase& c) {
 
 Deck lammps_deck(DeckCase& c) {
   const bool in_vessel = !c.translates();
+  c.add("forces", in_vessel ? put_in_vessel(c) : "");
   std::string vessel;
   if (!in_vessel) {
     const auto formulas = displacement_formulas(c, "v_t");
@@ -231,12 +233,11 @@ Deck lammps_deck(DeckCase& c) {
   }
   const bool moves = !in_vessel && c.mill.motion.wall_speed(0) > 0;
   c.add("frame", in_vessel ? "vessel" : "laboratory");
-  c.add("balls", atoms_of(c, in_vessel));
+  c.add("balls", atoms_of(c, "omega {} {} {}", true));
   c.add("contacts", contact_of(c, c.of_balls));
   c.add("vessel", vessel + region_of(c, moves ? " move v_movex v_movey v_movez" : ""));
   c.add("wall_contacts", contact_of(c, c.of_walls));
   c.add("weight", in_vessel ? "" : weight_of(c.mill.gravity));
-  c.add("forces", in_vessel ? frame_in_python(c) : "");
   Deck deck{
       {{c.options.name + ".in", c.filled(lammps_in)}}, fmt::format("lmp -in {}.in", c.options.name), {}};
   if (in_vessel)
@@ -249,26 +250,28 @@ Deck lammps_deck(DeckCase& c) {
 // LIGGGHTS 3.8: walls as triangles that several moves carry along: turns about fixed axes through the origin,
 // and the velocity that is left. The formulas of both are written by joints, in its own variables.
 
-/// A formula; empty for zero.
-using Formula = std::string;
-using FormulaVector = std::array<Formula, 3>;
+/// The text of a formula; empty for zero.
+struct Formula {
+  std::string text;
 
-Formula product(const Formula& a, const Formula& b) {
-  if (a.empty() || b.empty()) return "";
-  if (a == "1") return b;
-  if (b == "1") return a;
-  return a + "*" + b;
-}
-Formula sum(const Formula& a, const Formula& b) {
-  if (a.empty() || b.empty()) return a + b;
-  return a + "+" + b;
-}
-Formula negative(const Formula& a) { return a.empty() ? "" : "(-1)*(" + a + ")"; }
-Formula number(double x) {
-  if (x == 0) return "";
-  return x == 1 ? "1" : fmt::format("({})", x);
-}
-FormulaVector number(const std::array<double, 3>& x) { return {number(x[0]), number(x[1]), number(x[2])}; }
+  Formula(double x = 0) : text(x == 0 ? "" : x == 1 ? "1" : fmt::format("({})", x)) {}
+  Formula(std::string written) : text(std::move(written)) {}
+
+  Formula operator-() const { return text.empty() ? text : "(-1)*(" + text + ")"; }
+  Formula operator+(const Formula& b) const {
+    return text.empty() || b.text.empty() ? text + b.text : text + "+" + b.text;
+  }
+  Formula operator-(const Formula& b) const { return *this + -b; }
+  Formula operator*(const Formula& b) const {
+    if (text.empty() || b.text.empty()) return {};
+    if (text == "1") return b;
+    return b.text == "1" ? text : text + "*" + b.text;
+  }
+};
+using FormulaVector = Vec3<Formula>;
+using FormulaMatrix = Eigen::Matrix<Formula, 3, 3>;
+
+FormulaVector numbers(const std::array<double, 3>& x) { return {x[0], x[1], x[2]}; }
 
 /// Orientation, angular velocity, and place and velocity of the vessel as variables of LIGGGHTS.
 class Chain {
@@ -276,107 +279,80 @@ class Chain {
   explicit Chain(const DeckCase& c) {
     // Moves of a step ask for rates when its number is that of its end: those of its middle keep the walls in
     // place.
-    lines_ = fmt::format("variable t equal {}+(step-0.5)*dt\n", c.begin);
-    for (std::size_t i = 0; i < 3; ++i) orientation_[i][i] = "1";
+    lines = fmt::format("variable t equal {}+(step-0.5)*dt\n", c.begin);
     for (const auto& joint : c.joints.list) joint.rotates ? add_rotation(joint) : add_translation(joint);
     // The velocity that the material point at the origin has.
-    for (std::size_t i = 0; i < 3; ++i)
-      velocity_[i] = named(sum(velocity_[i], negative(cross(spin_, centre_)[i])));
+    for (int i = 0; i < 3; ++i)
+      velocity[i] = named(velocity[i] - named(FormulaVector(spin.cross(centre_)))[i]);
     // A turn carries the vessel from where it is at the beginning of a step, before it is shifted.
-    const auto turned_shift = cross(spin_, velocity_);
-    for (std::size_t i = 0; i < 3; ++i)
-      velocity_[i] = named(sum(velocity_[i], product("(0.5*dt)", turned_shift[i])));
+    const auto turned_shift = named(FormulaVector(spin.cross(velocity)));
+    velocity = named(FormulaVector(velocity + Formula("(0.5*dt)"s) * turned_shift));
   }
 
-  const std::string& lines() const { return lines_; }
-  /// "v_q7" or empty.
-  const Formula& spin(std::size_t axis) const { return spin_[axis]; }
-  const Formula& velocity(std::size_t axis) const { return velocity_[axis]; }
-  bool shifts() const { return !(velocity_[0] + velocity_[1] + velocity_[2]).empty(); }
+  std::string lines;             ///< that define the variables
+  FormulaVector spin, velocity;  ///< each "v_q7" or empty
 
  private:
   using Joint = model::Joint<double>;
 
   /// A variable for what is longer than a variable.
   Formula named(const Formula& formula) {
-    const bool is_variable = formula.starts_with("v_") && formula.find_first_of("*+(") == Formula::npos;
-    if (formula.empty() || formula == "1" || is_variable) return formula;
+    const auto& text = formula.text;
+    const bool is_variable = text.starts_with("v_") && text.find_first_of("*+(") == std::string::npos;
+    if (text.empty() || text == "1" || is_variable) return formula;
     const auto name = fmt::format("q{}", count_++);
-    lines_ += fmt::format("variable {} equal {}\n", name, formula);
+    lines += fmt::format("variable {} equal {}\n", name, text);
     return "v_" + name;
   }
-  FormulaVector cross(const FormulaVector& a, const FormulaVector& b) {
-    FormulaVector c;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-      c[i] = named(sum(product(a[j], b[k]), negative(product(a[k], b[j]))));
-    }
-    return c;
-  }
-  FormulaVector turned(const FormulaVector& v) {
-    FormulaVector w;
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < 3; ++j) w[i] = sum(w[i], product(orientation_[i][j], v[j]));
-      w[i] = named(w[i]);
-    }
-    return w;
+  template <int columns>
+  Eigen::Matrix<Formula, 3, columns> named(Eigen::Matrix<Formula, 3, columns> formulas) {
+    for (auto& formula : formulas.reshaped()) formula = named(formula);
+    return formulas;
   }
   /// The joint's own coordinate and its rate.
   std::pair<Formula, Formula> coordinate(const Joint& joint, double unit) {
-    Formula value = number(joint.rotates ? unit * joint.angle : 0), rate = number(unit * joint.speed);
-    if (joint.speed != 0) value = sum(value, product(rate, "v_t"));
+    Formula value = joint.rotates ? unit * joint.angle : 0, rate = unit * joint.speed;
+    if (joint.speed != 0) value = value + rate * "v_t"s;
     for (const auto& s : joint.swings) {
       const auto phase = fmt::format("({}*v_t+{})", turn * s.frequency, turn * s.phase);
-      value = sum(value, product(number(unit * s.amplitude), "sin" + phase));
-      rate = sum(rate, product(number(unit * s.amplitude * turn * s.frequency), "cos" + phase));
+      value = value + Formula(unit * s.amplitude) * ("sin" + phase);
+      rate = rate + Formula(unit * s.amplitude * turn * s.frequency) * ("cos" + phase);
     }
     return {named(value), named(rate)};
   }
   void add_rotation(const Joint& joint) {
     const auto [angle, rate] = coordinate(joint, turn);
-    const auto own = number(axis_of(joint)), axis = turned(own);
-    for (std::size_t i = 0; i < 3; ++i) spin_[i] = named(sum(spin_[i], product(axis[i], rate)));
-    if (angle.empty()) return;
+    const auto n = numbers(axis_of(joint)), axis = named(FormulaVector(orientation_ * n));
+    spin = named(FormulaVector(spin + axis * rate));
+    if (angle.text.empty()) return;
     // Rodrigues: cos + (1 - cos) n n + sin [n].
-    const auto cosine = named("cos(" + angle + ")"), sine = named("sin(" + angle + ")"),
-               rest = named("1-" + cosine);
-    std::array<FormulaVector, 3> turn_of;
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j) {
-        Formula entry = product(product(own[i], own[j]), rest);
-        if (i == j) entry = sum(entry, cosine);
-        const std::size_t k = 3 - i - j;
-        if (i != j)
-          entry = sum(entry, (j == (i + 1) % 3) ? negative(product(own[k], sine)) : product(own[k], sine));
-        turn_of[i][j] = named(entry);
+    const auto cosine = named("cos(" + angle.text + ")"), sine = named("sin(" + angle.text + ")"),
+               rest = named("1-" + cosine.text);
+    FormulaMatrix turned;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        const Formula across = i == j ? cosine : n[3 - i - j] * sine;
+        turned(i, j) = named(n[i] * n[j] * rest + (j == (i + 1) % 3 ? -across : across));
       }
-    std::array<FormulaVector, 3> behind;
-    for (std::size_t j = 0; j < 3; ++j) {
-      const auto column = turned({turn_of[0][j], turn_of[1][j], turn_of[2][j]});
-      for (std::size_t i = 0; i < 3; ++i) behind[i][j] = column[i];
-    }
-    orientation_ = behind;
+    orientation_ = named(FormulaMatrix(orientation_ * turned));
   }
 
   void add_translation(const Joint& joint) {
     const auto [way, rate] = coordinate(joint, 1);
-    const auto axis = number(axis_of(joint));
-    FormulaVector shift, speed;
-    for (std::size_t i = 0; i < 3; ++i) {
-      shift[i] = named(sum(number(joint.shift[i]), product(axis[i], way)));
-      speed[i] = product(axis[i], rate);
-    }
-    const auto placed = turned(shift), moving = turned(speed), carried = cross(spin_, placed);
-    for (std::size_t i = 0; i < 3; ++i) {
-      centre_[i] = named(sum(centre_[i], placed[i]));
-      velocity_[i] = named(sum(velocity_[i], sum(moving[i], carried[i])));
+    const auto axis = numbers(axis_of(joint)),
+               placed = named(
+                   FormulaVector(orientation_ * named(FormulaVector(numbers(joint.shift) + axis * way)))),
+               moving = named(FormulaVector(orientation_ * FormulaVector(axis * rate))),
+               carried = named(FormulaVector(spin.cross(placed)));
+    for (int i = 0; i < 3; ++i) {
+      centre_[i] = named(centre_[i] + placed[i]);
+      velocity[i] = named(velocity[i] + moving[i] + carried[i]);
     }
   }
 
-  std::string lines_;
   int count_ = 0;
-  std::array<FormulaVector, 3> orientation_;
-  FormulaVector spin_, centre_, velocity_;
+  FormulaMatrix orientation_ = FormulaMatrix::Identity();
+  FormulaVector centre_;
 };
 
 std::string moves_of(const Chain& chain, const std::vector<WallMesh>& meshes) {
@@ -384,32 +360,18 @@ std::string moves_of(const Chain& chain, const std::vector<WallMesh>& meshes) {
   std::string text;
   for (const auto& mesh : meshes) {
     for (std::size_t k = 0; k < 3; ++k)
-      if (!chain.spin(k).empty())
+      if (!chain.spin[k].text.empty())
         text += fmt::format(
             "fix turn_{0}_{1} all move/mesh mesh {0} rotate/variable origin 0 0 0 axis {2} omega {3}\n",
-            mesh.name, "xyz"[k], axes[k], chain.spin(k));
-    if (chain.shifts()) {
+            mesh.name, "xyz"[k], axes[k], chain.spin[k].text);
+    if (!(chain.velocity.sum().text.empty())) {
       std::string speeds;
       for (std::size_t k = 0; k < 3; ++k)
-        speeds += " " + (chain.velocity(k).empty() ? "v_zero" : chain.velocity(k));
+        speeds += " " + (chain.velocity[k].text.empty() ? "v_zero" : chain.velocity[k].text);
       text += fmt::format("fix shift_{0} all move/mesh mesh {0} linear/variable{1}\n", mesh.name, speeds);
     }
   }
   return text;
-}
-
-std::string granules_of(const DeckCase& c) {
-  std::string text, sets;
-  for (std::size_t k = 0; k < c.balls.size(); ++k) {
-    const auto& [x, v, w] = c.states[k];
-    text += fmt::format("create_atoms 1 single {} {} {} units box\n", x[0], x[1], x[2]);
-    sets +=
-        fmt::format("set atom {0} diameter {1} density {2}\n", k + 1, 2 * c.balls[k].radius, c.density(k));
-    if (norm<double>(v) > 0 || norm<double>(w) > 0)
-      sets += fmt::format("set atom {0} vx {1} vy {2} vz {3} omegax {4} omegay {5} omegaz {6}\n", k + 1, v[0],
-                          v[1], v[2], w[0], w[1], w[2]);
-  }
-  return text + sets;
 }
 
 Deck liggghts_deck(DeckCase& c) {
@@ -431,8 +393,8 @@ Deck liggghts_deck(DeckCase& c) {
   }
   const Chain chain(c);
   c.add("facts", facts_of(meshes, c.options.facets));
-  c.add("balls", granules_of(c));
-  c.add("rates", chain.lines());
+  c.add("balls", atoms_of(c, "omegax {} omegay {} omegaz {}", false));
+  c.add("rates", chain.lines);
   c.add("walls", walls);
   c.add("mesh_count", meshes.size());
   c.add("meshes", names);
