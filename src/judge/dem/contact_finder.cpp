@@ -139,10 +139,7 @@ void ContactFinder::add(Frame next) {
       ended.push_back(ball);
     }
   }
-  for (const std::size_t ball : ended) {
-    close(static_cast<std::size_t>(open_of_[ball]));
-    open_of_[ball] = -1;
-  }
+  for (const std::size_t ball : ended) close(stretches_[static_cast<std::size_t>(open_of_[ball])]);
   if (!ended.empty()) settle();
   find_jumps();
   watch_overlaps(flies);
@@ -159,14 +156,14 @@ void ContactFinder::find_jumps() {
     const double way = norm<double>(Vector(b.position - a.position));
     const double fastest = norm<double>(a.velocity) + norm<double>(b.velocity);
     if (way <= fastest * dt + vessel_.ball(ball).radius / 10) continue;
-    Contact contact;
-    contact.kind = ContactClass::jump;
-    contact.begin = contact.free_until = from.time;
-    contact.end = contact.free_from = to.time;
-    contact.ball = static_cast<int>(ball);
-    contact.before = a;
-    contact.after = b;
-    found_(contact);
+    found_({.kind = ContactClass::jump,
+            .begin = from.time,
+            .end = to.time,
+            .free_until = from.time,
+            .free_from = to.time,
+            .ball = static_cast<int>(ball),
+            .before = a,
+            .after = b});
   }
 }
 
@@ -228,12 +225,11 @@ void ContactFinder::finish() {
   at_end_ = true;
   for (const auto& [bodies, overlap] : overlaps_) end_overlap(bodies, overlap);
   for (auto& stretch : stretches_)
-    if (stretch.open) close(static_cast<std::size_t>(&stretch - stretches_.data()));
+    if (stretch.open) close(stretch);
   settle();
 }
 
-void ContactFinder::close(std::size_t place) {
-  auto& stretch = stretches_[place];
+void ContactFinder::close(Stretch& stretch) {
   stretch.open = false;
   for (auto& other : stretches_)
     if (other.group != stretch.group && other.first < stretch.last && stretch.first < other.last &&
@@ -289,13 +285,14 @@ void ContactFinder::settle() {
     if (stretches_[k].open) open_of_[stretches_[k].ball] = static_cast<int>(k);
 }
 
-std::vector<ContactFinder::WallTouch> ContactFinder::touches_of(const Stretch& s) const {
-  std::vector<int> spells(static_cast<std::size_t>(vessel_.walls()));
-  std::vector<bool> inside(spells.size());
+/// The walls that a ball overlaps on its way, each as often as it comes to it.
+std::vector<int> ContactFinder::walls_met(const Stretch& s) const {
+  std::vector<int> met;
+  std::vector<bool> inside(static_cast<std::size_t>(vessel_.walls()));
   const auto see = [&](const auto& gap_from) {
-    for (std::size_t wall = 0; wall < spells.size(); ++wall) {
-      const bool under = gap_from(static_cast<int>(wall)) < 0;
-      if (under && !inside[wall]) ++spells[wall];
+    for (int wall = 0; wall < vessel_.walls(); ++wall) {
+      const bool under = gap_from(wall) < 0;
+      if (under && !inside[wall]) met.push_back(wall);
       inside[wall] = under;
     }
   };
@@ -319,10 +316,7 @@ std::vector<ContactFinder::WallTouch> ContactFinder::touches_of(const Stretch& s
       });
   else
     for (std::size_t k = s.first; k < s.last; ++k) see_flights(frame(k), frame(k + 1));
-  std::vector<WallTouch> touches;
-  for (std::size_t wall = 0; wall < spells.size(); ++wall)
-    if (spells[wall] > 0) touches.push_back({static_cast<int>(wall), spells[wall]});
-  return touches;
+  return met;
 }
 
 /// Energy that a ball loses on its way.
@@ -403,15 +397,17 @@ void ContactFinder::report(std::vector<Stretch> group) {
                                                frame(s.first).balls[s.ball].velocity - frames_.gravity * dt));
   };
   if (group.size() == 1) {
-    const auto touches = touches_of(group[0]);
+    const auto met = walls_met(group[0]);
     // Rounded numbers of a dump, and no contact.
     const double change = norm<double>(impulse(group[0])) / vessel_.ball(group[0].ball).mass;
-    if (touches.empty() && change < std::max(50 * frames_.kick, 1e-3)) return;
-    if (touches.empty()) contact.kind = ContactClass::unexplained;
-    if (touches.size() == 1) contact.partner = touches[0].wall;
-    if (lasts && !touches.empty())
+    if (met.empty() && change < std::max(50 * frames_.kick, 1e-3)) return;
+    if (met.empty())
+      contact.kind = ContactClass::unexplained;
+    else if (std::ranges::count(met, met[0]) == std::ssize(met))
+      contact.partner = met[0];
+    if (lasts && !met.empty())
       contact.kind = ContactClass::lasting;
-    else if (touches.size() == 1 && touches[0].spells == 1)
+    else if (met.size() == 1)
       contact.kind =
           make_single(group, contact.partner, contact) ? ContactClass::wall : ContactClass::unexplained;
   } else if (group.size() == 2) {

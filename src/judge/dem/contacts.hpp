@@ -36,8 +36,8 @@ struct Contact {
   int ball = 0;                          ///< the lowest
   int partner = -1;                      ///< wall or ball; -1 where there is no single one
   double dose = 0;                       ///< energy lost by all balls, by the balance [J]
-  BallState before, after;
-  BallState partner_before, partner_after;  ///< of a pair
+  BallState before = {}, after = {};
+  BallState partner_before = {}, partner_after = {};  ///< of a pair
 };
 
 /// What the first frames tell, for the rest.
@@ -72,10 +72,6 @@ class ContactFinder {
     int group = -1;
     bool open = true;
   };
-  struct WallTouch {
-    int wall;
-    int spells;
-  };
   /// A ball overlaps a wall or another ball, from frame to frame.
   struct Overlap {
     double begin = 0;                       ///< of the last frame before [s]
@@ -92,11 +88,11 @@ class ContactFinder {
   void find_jumps();
   void watch_overlaps(const std::vector<bool>& flies);
   void end_overlap(const BodyPair& bodies, const Overlap& overlap);
-  void close(std::size_t stretch);
+  void close(Stretch& stretch);
   bool come_near(const Stretch& one, const Stretch& other) const;
   void settle();
   void report(std::vector<Stretch> group);
-  std::vector<WallTouch> touches_of(const Stretch& s) const;
+  std::vector<int> walls_met(const Stretch& s) const;
   using States = std::vector<std::pair<double, BallState>>;  ///< of a ball, by time
   double balance(std::size_t ball, const States& states) const;
   bool make_single(const std::vector<Stretch>& group, int wall, Contact& contact) const;
