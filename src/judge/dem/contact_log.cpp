@@ -33,10 +33,9 @@ std::string header() {
   return text;
 }
 
-void put(std::string& line, const BallState& state, bool given) {
-  for (const auto* v : {&state.position, &state.velocity, &state.spin})
-    for (Eigen::Index k = 0; k < 3; ++k) line += given ? fmt::format(",{}", (*v)[k]) : ",";
-}
+/// The states of a contact in the order of their columns.
+auto states_of(auto& c) { return std::array{&c.before, &c.after, &c.partner_before, &c.partner_after}; }
+auto vectors_of(auto& state) { return std::array{&state.position, &state.velocity, &state.spin}; }
 
 template <class T>
 constexpr bool is_list = requires(T value) {
@@ -121,11 +120,10 @@ void ContactLogWriter::add(const Contact& c) {
                                         : "",
                                  c.partner >= 0 ? std::to_string(c.partner) : "", c.bodies, c.free_until,
                                  c.free_from, c.dose);
-  const bool states_of_pair = c.kind == ContactClass::pair;
-  put(line, c.before, true);
-  put(line, c.after, true);
-  put(line, c.partner_before, states_of_pair);
-  put(line, c.partner_after, states_of_pair);
+  for (const auto* state : states_of(c)) {
+    const bool given = c.kind == ContactClass::pair || state == &c.before || state == &c.after;
+    for (const auto* v : vectors_of(*state)) line += given ? fmt::format(",{}", fmt::join(*v, ",")) : ",,,";
+  }
   line += '\n';
   check_temporary_file(std::fwrite(line.data(), 1, line.size(), rows_.get()) == line.size());
 }
@@ -202,16 +200,16 @@ std::optional<Contact> ContactLogReader::parse() {
     c.partner = *partner;
   }
   std::size_t column = first_state;
-  for (auto* state : {&c.before, &c.after, &c.partner_before, &c.partner_after}) {
+  for (auto* state : states_of(c)) {
     if (csv_.field(column).empty()) {
       column += std::size(quantities);
       continue;
     }
-    for (auto* v : {&state->position, &state->velocity, &state->spin})
-      for (Eigen::Index k = 0; k < 3; ++k) {
+    for (auto* v : vectors_of(*state))
+      for (double& part : *v) {
         const auto value = csv_.finite(column++);
         if (!value) return std::nullopt;
-        (*v)[k] = *value;
+        part = *value;
       }
   }
   const bool needs_partner = c.kind == ContactClass::wall || c.kind == ContactClass::pair;
