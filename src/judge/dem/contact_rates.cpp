@@ -89,7 +89,7 @@ ContactRates rates_of_impacts(const std::string& place, const Window& window) {
 }
 
 std::string sentence(const ContactComparison& c) {
-  return fmt::format("dose rate of B over that of A: {:.4f} ± {:.4f}", 1 + c.difference, c.half_width);
+  return fmt::format("dose rate of B over that of A: {:.4f} ± {:.4f}", c.ratio, c.half_width);
 }
 
 const char* word_for(compare::Verdict verdict) {
@@ -100,28 +100,34 @@ const char* word_for(compare::Verdict verdict) {
 
 constexpr double widest = 0.05;  ///< interval with which rates are said to agree
 
-std::string sentence(compare::Verdict verdict, double half_width, std::optional<double> within) {
-  const auto bound = within ? fmt::format(" within {:g} %", 100 * *within) : std::string();
-  if (verdict == compare::Verdict::agree) return "the dose rates agree" + bound;
-  if (verdict == compare::Verdict::differ)
-    return "the dose rates differ" + (within ? " by more than" + bound.substr(7) : "");
-  return fmt::format("too few data: the ratio is known to ± {:.2g} %, {}", 100 * half_width,
-                     within
+std::string verdict_of(const ContactComparison& c) {
+  const auto bound = c.within ? fmt::format(" within {:g} %", 100 * *c.within) : std::string();
+  if (c.verdict == compare::Verdict::agree) return "the dose rates agree" + bound;
+  if (c.verdict == compare::Verdict::differ)
+    return "the dose rates differ" + (c.within ? " by more than" + bound.substr(7) : "");
+  return fmt::format("too few data: the ratio is known to ± {:.2g} %, {}", 100 * c.half_width,
+                     c.within
                          ? "which leaves open whether it is" + bound
                          : fmt::format("± {:g} % are needed; --within asks for other bounds", 100 * widest));
 }
 
-}  // namespace
-
-compare::Verdict verdict_of(double difference, double half_width, std::optional<double> within) {
+void judge(ContactComparison& c) {
   using compare::Verdict;
-  const double off = std::abs(difference);
-  if (within)
-    return off + half_width <= *within  ? Verdict::agree
-           : off - half_width > *within ? Verdict::differ
-                                        : Verdict::too_few;
-  return off > half_width ? Verdict::differ : half_width <= widest ? Verdict::agree : Verdict::too_few;
+  const auto &a = c.a, &b = c.b;
+  c.ratio = b.dose_rate / a.dose_rate;
+  c.half_width = c.ratio * std::hypot(a.half_width / a.dose_rate, b.half_width / b.dose_rate);
+  const double off = std::abs(c.ratio - 1);
+  if (c.within)
+    c.verdict = off + c.half_width <= *c.within  ? Verdict::agree
+                : off - c.half_width > *c.within ? Verdict::differ
+                                                 : Verdict::too_few;
+  else
+    c.verdict = off > c.half_width       ? Verdict::differ
+                : c.half_width <= widest ? Verdict::agree
+                                         : Verdict::too_few;
 }
+
+}  // namespace
 
 ContactComparison compare_contacts(const compare::ComparisonOptions& options) {
   const auto a = options.a.string(), b = options.b.string();
@@ -130,11 +136,7 @@ ContactComparison compare_contacts(const compare::ComparisonOptions& options) {
   c.a = is_contact_log(a) ? rates_of_contacts(a, window, 0) : rates_of_impacts(a, window);
   c.b = is_contact_log(b) ? rates_of_contacts(b, window, is_contact_log(a) ? 0 : c.a.first)
                           : rates_of_impacts(b, window);
-  if (!(c.a.dose_rate > 0 && c.b.dose_rate > 0)) return c;
-  const double ratio = c.b.dose_rate / c.a.dose_rate;
-  c.difference = ratio - 1;
-  c.half_width = ratio * std::hypot(c.a.half_width / c.a.dose_rate, c.b.half_width / c.b.dose_rate);
-  c.verdict = verdict_of(c.difference, c.half_width, c.within);
+  if (c.a.dose_rate > 0 && c.b.dose_rate > 0) judge(c);
   return c;
 }
 
@@ -157,8 +159,8 @@ std::string table(const ContactComparison& c) {
         "  contacts that last do not have the dose rate of impacts exactly; `edmill limit` takes their "
         "duration to zero\n";
   const bool has_dose = c.a.dose_rate > 0 && c.b.dose_rate > 0;
-  return out + fmt::format("\n  verdict: {}\n", has_dose ? sentence(c.verdict, c.half_width, c.within)
-                                                         : "too few data: a record has no dose");
+  return out +
+         fmt::format("\n  verdict: {}\n", has_dose ? verdict_of(c) : "too few data: a record has no dose");
 }
 
 std::string to_json(const ContactComparison& c) {
@@ -177,7 +179,7 @@ std::string to_json(const ContactComparison& c) {
     json.add("milling_dose_rate_half_width", r->half_width);
     json.end();
   }
-  json.add("difference", c.difference);
+  json.add("difference", c.ratio - 1);
   json.add("half_width", c.half_width);
   if (c.within) json.add("within", *c.within);
   return json.finish();
@@ -191,11 +193,8 @@ std::string to_junit(const ContactComparison& c) {
                                .not_judged = c.verdict == Verdict::too_few ? sentence(c) : ""}});
 }
 
-double Limit::ratio_half_width() const {
-  return ratio() * std::hypot(half_width / value, edmill->half_width / edmill->dose_rate);
-}
-
-Limit limit_of(const std::vector<std::string>& logs, const std::string& run, double from) {
+Limit limit_of(const std::vector<std::string>& logs, const std::string& run, double from,
+               std::optional<double> within) {
   Limit limit;
   for (const auto& log : logs) limit.points.push_back(rates_of_contacts(log, {from}, -INFINITY));
   std::sort(limit.points.begin(), limit.points.end(),
@@ -208,25 +207,27 @@ Limit limit_of(const std::vector<std::string>& logs, const std::string& run, dou
         "found contacts of {:.3g} s to {:.3g} s, expected durations that differ by more than a fifth",
         limit.points.back().contact_time, slowest.contact_time));
   limit.slope = line.slope();
-  limit.value = line.value();
-  limit.half_width = line.deviation();
-  if (!run.empty()) limit.edmill = rates_of_impacts(run, {from});
+  limit.at_zero.dose_rate = line.value();
+  limit.at_zero.half_width = line.deviation();
+  if (!run.empty()) {
+    limit.to_edmill = {.a = rates_of_impacts(run, {from}), .b = limit.at_zero, .within = within};
+    judge(*limit.to_edmill);
+  }
   return limit;
 }
 
 std::string table(const Limit& limit) {
   std::string out = fmt::format("  {:>12}  {:<24}{}\n", "contact time", "dose rate [W]", "log");
-  const auto row = [&](const std::string& time, double value, double half_width, const std::string& log) {
-    out += fmt::format("  {:>12}  {:<24}{}\n", time, fmt::format("{:.4f} ± {:.4f}", value, half_width), log);
+  const auto row = [&](const std::string& time, const ContactRates& r) {
+    out += fmt::format("  {:>12}  {:<24}{}\n", time,
+                       fmt::format("{:.4f} ± {:.4f}", r.dose_rate, r.half_width), r.log);
   };
-  for (const auto& p : limit.points)
-    row(fmt::format("{:.3g} s", p.contact_time), p.dose_rate, p.half_width, p.log);
-  row("0", limit.value, limit.half_width, "limit, by a weighted line");
-  if (limit.edmill) {
-    row("0", limit.edmill->dose_rate, limit.edmill->half_width, limit.edmill->log);
-    out += fmt::format("\n  limit over edmill: {:.4f} ± {:.4f}\n\n  verdict: {}\n", limit.ratio(),
-                       limit.ratio_half_width(),
-                       sentence(limit.verdict(), limit.ratio_half_width(), limit.within));
+  for (const auto& p : limit.points) row(fmt::format("{:.3g} s", p.contact_time), p);
+  row("0", limit.at_zero);
+  if (const auto& c = limit.to_edmill) {
+    row("0", c->a);
+    out += fmt::format("\n  limit over edmill: {:.4f} ± {:.4f}\n\n  verdict: {}\n", c->ratio, c->half_width,
+                       verdict_of(*c));
   }
   return out;
 }
@@ -239,15 +240,15 @@ std::string to_json(const Limit& limit) {
     json.add("milling_dose_rate", p.dose_rate);
     json.add("half_width", p.half_width);
   });
-  json.add("limit", limit.value);
-  json.add("half_width", limit.half_width);
+  json.add("limit", limit.at_zero.dose_rate);
+  json.add("half_width", limit.at_zero.half_width);
   json.add("slope", limit.slope);
-  if (limit.edmill) {
-    json.add("edmill", limit.edmill->dose_rate);
-    json.add("edmill_half_width", limit.edmill->half_width);
-    json.add("ratio", limit.ratio());
-    json.add("ratio_half_width", limit.ratio_half_width());
-    json.add("verdict", word_for(limit.verdict()));
+  if (const auto& c = limit.to_edmill) {
+    json.add("edmill", c->a.dose_rate);
+    json.add("edmill_half_width", c->a.half_width);
+    json.add("ratio", c->ratio);
+    json.add("ratio_half_width", c->half_width);
+    json.add("verdict", word_for(c->verdict));
   }
   return json.finish();
 }
@@ -257,26 +258,28 @@ std::string to_svg(const Limit& limit) {
   chart.id = "limit";
   chart.title = "dose rate over contact time";
   chart.description = "dose rates of runs with contacts of several durations, and their limit";
-  double low = limit.value - limit.half_width, high = limit.value + limit.half_width;
-  const auto see = [&](const ContactRates& p) {
-    low = std::min(low, p.dose_rate - p.half_width);
-    high = std::max(high, p.dose_rate + p.half_width);
-  };
-  for (const auto& p : limit.points) see(p);
-  if (limit.edmill) see(*limit.edmill);
+  double low = INFINITY, high = -INFINITY;
+  auto all = limit.points;
+  all.push_back(limit.at_zero);
+  if (limit.to_edmill) all.push_back(limit.to_edmill->a);
+  for (const auto& r : all) {
+    low = std::min(low, r.dose_rate - r.half_width);
+    high = std::max(high, r.dose_rate + r.half_width);
+  }
   const double last = limit.points.front().contact_time, room = 0.08 * (high - low);
   chart.x = {"contact time [us]", 0, 1.08e6 * last};
   chart.y = {"dose rate [W]", low - room, high + room};
-  const auto bar = [&](double time, double value, double half_width, const char* colour, const char* name) {
+  const auto bar = [&](double time, const ContactRates& r, const char* colour, const char* name) {
     const double x = 1e6 * time;
-    chart.curves.push_back({name, colour, {{x, value - half_width}, {x, value + half_width}}});
+    chart.curves.push_back(
+        {name, colour, {{x, r.dose_rate - r.half_width}, {x, r.dose_rate + r.half_width}}});
   };
-  chart.curves.push_back({"line", "c0", {{0, limit.value}, {1e6 * last, limit.value + limit.slope * last}}});
+  const double value = limit.at_zero.dose_rate;
+  chart.curves.push_back({"line", "c0", {{0, value}, {1e6 * last, value + limit.slope * last}}});
   bool first = true;
-  for (const auto& p : limit.points)
-    bar(p.contact_time, p.dose_rate, p.half_width, "c1", std::exchange(first, false) ? "runs" : "");
-  bar(0.004 * last, limit.value, limit.half_width, "c0", "limit");
-  if (limit.edmill) bar(0.012 * last, limit.edmill->dose_rate, limit.edmill->half_width, "c2", "edmill");
+  for (const auto& p : limit.points) bar(p.contact_time, p, "c1", std::exchange(first, false) ? "runs" : "");
+  bar(0.004 * last, limit.at_zero, "c0", "limit");
+  if (limit.to_edmill) bar(0.012 * last, limit.to_edmill->a, "c2", "edmill");
   std::ostringstream out;
   plot::save(out, chart);
   return out.str();

@@ -2,7 +2,6 @@
 // with contacts of several durations, extrapolated to contacts of none.
 #pragma once
 
-#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,14 +20,12 @@ struct ContactRates {
   double grouped = 0;                    ///< share of the dose that groups and lasting contacts have
 };
 
-/// Of a difference with its 95 % interval: it agrees if the interval is within what is asked for, and differs
-/// if it is beyond. Where nothing is asked for, it agrees if the interval holds 0 and is no wider than 5 %.
-compare::Verdict verdict_of(double difference, double half_width, std::optional<double> within);
-
 struct ContactComparison {
   ContactRates a = {}, b = {};
-  double difference = 0, half_width = 0;  ///< of dose rates, relative to A
-  std::optional<double> within = {};      ///< that was asked for
+  std::optional<double> within = {};  ///< largest difference from 1 of the ratio, where one is asked for
+  double ratio = 1, half_width = 0;   ///< of B's dose rate over A's
+  /// The ratio agrees if its interval is within what is asked for, and differs if it is beyond. Where nothing
+  /// is asked for, it agrees if the interval holds 1 and is no wider than 5 %.
   compare::Verdict verdict = compare::Verdict::too_few;
 };
 
@@ -42,23 +39,18 @@ std::string to_junit(const ContactComparison& comparison);
 
 struct Limit {
   std::vector<ContactRates> points;
-  double value = 0, half_width = 0;    ///< dose rate at contact time zero, with its 95 % interval [W]
-  double slope = 0;                    ///< [W/s]
-  std::optional<ContactRates> edmill;  ///< contact time 0
-  std::optional<double> within = {};   ///< that was asked for
-
-  compare::Verdict verdict() const {
-    return edmill ? verdict_of(ratio() - 1, ratio_half_width(), within) : compare::Verdict::not_compared;
-  }
-  double ratio() const { return value / edmill->dose_rate; }
-  double ratio_half_width() const;
+  ContactRates at_zero{.log = "limit, by a weighted line"};  ///< of contacts that take no time
+  double slope = 0;                                          ///< [W/s]
+  std::optional<ContactComparison> to_edmill;                ///< of the limit, B, with a run, A
 };
 
 /// @param logs  of contacts, two or more of different contact times
 /// @param run   folder of a run of edmill, or its collision log; none when empty
-/// @param from  time from which on both count [s]
+/// @param from    time from which on both count [s]
+/// @param within  largest difference of the limit from that run, relative
 /// @throws InputError when a log cannot be read, or contact times do not differ
-Limit limit_of(const std::vector<std::string>& logs, const std::string& run, double from);
+Limit limit_of(const std::vector<std::string>& logs, const std::string& run, double from,
+               std::optional<double> within = {});
 
 std::string table(const Limit& limit);
 std::string to_json(const Limit& limit);

@@ -170,12 +170,13 @@ struct Limit {
     command.add_flag("--quiet", quiet_, "no table");
   }
   int run() {
-    auto limit = dem::limit_of(logs_, run_, from_);
-    if (!within_.empty()) limit.within = part_of_one("--within", within_);
+    std::optional<double> within;
+    if (!within_.empty()) within = part_of_one("--within", within_);
+    const auto limit = dem::limit_of(logs_, run_, from_, within);
     write_to(json_, dem::to_json(limit));
     write_to(svg_, dem::to_svg(limit));
     if (!quiet_) io::print("{}", dem::table(limit));
-    return code_of(limit.verdict());
+    return code_of(limit.to_edmill ? limit.to_edmill->verdict : compare::Verdict::not_compared);
   }
 
  private:
