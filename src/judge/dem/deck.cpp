@@ -117,27 +117,47 @@ std::array<double, 3> axis_of(const model::Joint<double>& joint) {
   return axis;
 }
 
+/// The text of a formula; empty for zero.
+struct Formula {
+  std::string text;
+
+  Formula(double x = 0) : text(x == 0 ? "" : x == 1 ? "1" : fmt::format("({})", x)) {}
+  Formula(std::string written) : text(std::move(written)) {}
+
+  Formula operator-() const { return text.empty() ? text : "(-1)*(" + text + ")"; }
+  Formula operator+(const Formula& b) const {
+    return text.empty() || b.text.empty() ? text + b.text : text + "+" + b.text;
+  }
+  Formula operator-(const Formula& b) const { return *this + -b; }
+  Formula& operator+=(const Formula& b) { return *this = *this + b; }
+  Formula operator*(const Formula& b) const {
+    if (text.empty() || b.text.empty()) return {};
+    if (text == "1") return b;
+    return b.text == "1" ? text : text + "*" + b.text;
+  }
+};
+using FormulaVector = Vec3<Formula>;
+
+FormulaVector numbers(const std::array<double, 3>& x) { return {x[0], x[1], x[2]}; }
+
 /// [0.003 * sin(62.8 * t + 0.5)]: the displacement of all translations along each axis at the time `t`, as
 /// LAMMPS and Python write formulas. @pre c.translates()
-std::array<std::string, 3> displacement_formulas(const DeckCase& c, const std::string& time) {
-  std::array<std::string, 3> sums;
-  const auto add = [&](std::size_t k, const std::string& term) {
-    sums[k] += (sums[k].empty() ? "" : "+") + term;
-  };
+std::array<Formula, 3> displacement_formulas(const DeckCase& c, const std::string& time) {
+  std::array<Formula, 3> sums;
   for (const auto& joint : c.joints.list) {
     const auto axis = axis_of(joint);
     for (std::size_t k = 0; k < 3; ++k) {
-      if (joint.shift[k] != 0) add(k, fmt::format("{}", joint.shift[k]));
+      if (joint.shift[k] != 0) sums[k] += fmt::format("{}", joint.shift[k]);
       if (axis[k] == 0) continue;
-      if (joint.speed != 0) add(k, fmt::format("{}*{}", axis[k] * joint.speed, time));
+      if (joint.speed != 0) sums[k] += fmt::format("{}*{}", axis[k] * joint.speed, time);
       for (const auto& s : joint.swings)
         if (s.amplitude != 0)
-          add(k, fmt::format("{}*sin({}*{}+{})", axis[k] * s.amplitude, turn * s.frequency, time,
-                             turn * s.phase));
+          sums[k] += fmt::format("{}*sin({}*{}+{})", axis[k] * s.amplitude, turn * s.frequency, time,
+                                 turn * s.phase);
     }
   }
   for (auto& sum : sums)
-    if (sum.empty()) sum = "0.0";
+    if (sum.text.empty()) sum.text = "0.0";
   return sums;
 }
 
@@ -191,15 +211,14 @@ std::string region_of(const DeckCase& c, const std::string& moves) {
                   c.file));
 }
 
-std::string contact_of(const DeckCase& c, const SoftLaw& law) {
+/// What its `damping tsuji` wants for a law.
+double tsuji_of(const DeckCase& c, const SoftLaw& law) {
   if (law.damping > 1.2728)
     throw InputError(
         fmt::format("{}: key 'contact.restitution': found {}, expected {:.2g} or more: LAMMPS's damping "
                     "tsuji goes no lower",
                     c.file, law.restitution, restitution_of(1.2728, c.options.steps) + 0.005));
-  return fmt::format(
-      "hertz/material {:.12g} {:.9g} {:g} tangential mindlin NULL 0.0 {:.12g} damping tsuji limit_damping",
-      c.young, lammps_restitution(law.damping), poisson, law.friction);
+  return lammps_restitution(law.damping);
 }
 
 /// The states as seen from the vessel, and fictitious forces and torques with the velocity of the step, not
@@ -229,14 +248,14 @@ Deck lammps_deck(DeckCase& c) {
     const auto formulas = displacement_formulas(c, "v_t");
     vessel = fmt::format("variable t equal {}+step*dt\n", c.begin);
     for (std::size_t k = 0; k < 3; ++k)
-      vessel += fmt::format("variable move{} equal {}\n", "xyz"[k], formulas[k]);
+      vessel += fmt::format("variable move{} equal {}\n", "xyz"[k], formulas[k].text);
   }
   const bool moves = !in_vessel && c.mill.motion.wall_speed(0) > 0;
   c.add("frame", in_vessel ? "vessel" : "laboratory");
   c.add("balls", atoms_of(c, "omega {} {} {}", true));
-  c.add("contacts", contact_of(c, c.of_balls));
+  c.add("tsuji", tsuji_of(c, c.of_balls));
   c.add("vessel", vessel + region_of(c, moves ? " move v_movex v_movey v_movez" : ""));
-  c.add("wall_contacts", contact_of(c, c.of_walls));
+  c.add("wall_tsuji", tsuji_of(c, c.of_walls));
   c.add("weight", in_vessel ? "" : weight_of(c.mill.gravity));
   Deck deck{
       {{c.options.name + ".in", c.filled(lammps_in)}}, fmt::format("lmp -in {}.in", c.options.name), {}};
@@ -250,29 +269,6 @@ Deck lammps_deck(DeckCase& c) {
 // LIGGGHTS 3.8: walls as triangles that several moves carry along: turns about fixed axes through the origin,
 // and the velocity that is left. The formulas of both are written by joints, in its own variables.
 
-/// The text of a formula; empty for zero.
-struct Formula {
-  std::string text;
-
-  Formula(double x = 0) : text(x == 0 ? "" : x == 1 ? "1" : fmt::format("({})", x)) {}
-  Formula(std::string written) : text(std::move(written)) {}
-
-  Formula operator-() const { return text.empty() ? text : "(-1)*(" + text + ")"; }
-  Formula operator+(const Formula& b) const {
-    return text.empty() || b.text.empty() ? text + b.text : text + "+" + b.text;
-  }
-  Formula operator-(const Formula& b) const { return *this + -b; }
-  Formula operator*(const Formula& b) const {
-    if (text.empty() || b.text.empty()) return {};
-    if (text == "1") return b;
-    return b.text == "1" ? text : text + "*" + b.text;
-  }
-};
-using FormulaVector = Vec3<Formula>;
-using FormulaMatrix = Eigen::Matrix<Formula, 3, 3>;
-
-FormulaVector numbers(const std::array<double, 3>& x) { return {x[0], x[1], x[2]}; }
-
 /// Orientation, angular velocity, and place and velocity of the vessel as variables of LIGGGHTS.
 class Chain {
  public:
@@ -282,11 +278,10 @@ class Chain {
     lines = fmt::format("variable t equal {}+(step-0.5)*dt\n", c.begin);
     for (const auto& joint : c.joints.list) joint.rotates ? add_rotation(joint) : add_translation(joint);
     // The velocity that the material point at the origin has.
-    for (int i = 0; i < 3; ++i)
-      velocity[i] = named(velocity[i] - named(FormulaVector(spin.cross(centre_)))[i]);
+    for (int i = 0; i < 3; ++i) velocity[i] = named(velocity[i] - named(spin.cross(centre_))[i]);
     // A turn carries the vessel from where it is at the beginning of a step, before it is shifted.
-    const auto turned_shift = named(FormulaVector(spin.cross(velocity)));
-    velocity = named(FormulaVector(velocity + Formula("(0.5*dt)"s) * turned_shift));
+    const auto turned_shift = named(spin.cross(velocity));
+    velocity = named(velocity + Formula("(0.5*dt)"s) * turned_shift);
   }
 
   std::string lines;             ///< that define the variables
@@ -294,6 +289,7 @@ class Chain {
 
  private:
   using Joint = model::Joint<double>;
+  using Matrix = Eigen::Matrix<Formula, 3, 3>;
 
   /// A variable for what is longer than a variable.
   Formula named(const Formula& formula) {
@@ -304,46 +300,45 @@ class Chain {
     lines += fmt::format("variable {} equal {}\n", name, text);
     return "v_" + name;
   }
-  template <int columns>
-  Eigen::Matrix<Formula, 3, columns> named(Eigen::Matrix<Formula, 3, columns> formulas) {
-    for (auto& formula : formulas.reshaped()) formula = named(formula);
-    return formulas;
+  template <class Formulas>
+  typename Formulas::PlainObject named(const Eigen::MatrixBase<Formulas>& formulas) {
+    typename Formulas::PlainObject variables = formulas;
+    for (auto& variable : variables.reshaped()) variable = named(variable);
+    return variables;
   }
   /// The joint's own coordinate and its rate.
   std::pair<Formula, Formula> coordinate(const Joint& joint, double unit) {
     Formula value = joint.rotates ? unit * joint.angle : 0, rate = unit * joint.speed;
-    if (joint.speed != 0) value = value + rate * "v_t"s;
+    if (joint.speed != 0) value += rate * "v_t"s;
     for (const auto& s : joint.swings) {
       const auto phase = fmt::format("({}*v_t+{})", turn * s.frequency, turn * s.phase);
-      value = value + Formula(unit * s.amplitude) * ("sin" + phase);
-      rate = rate + Formula(unit * s.amplitude * turn * s.frequency) * ("cos" + phase);
+      value += Formula(unit * s.amplitude) * ("sin" + phase);
+      rate += Formula(unit * s.amplitude * turn * s.frequency) * ("cos" + phase);
     }
     return {named(value), named(rate)};
   }
   void add_rotation(const Joint& joint) {
     const auto [angle, rate] = coordinate(joint, turn);
-    const auto n = numbers(axis_of(joint)), axis = named(FormulaVector(orientation_ * n));
-    spin = named(FormulaVector(spin + axis * rate));
+    const auto n = numbers(axis_of(joint)), axis = named(orientation_ * n);
+    spin = named(spin + axis * rate);
     if (angle.text.empty()) return;
     // Rodrigues: cos + (1 - cos) n n + sin [n].
     const auto cosine = named("cos(" + angle.text + ")"), sine = named("sin(" + angle.text + ")"),
                rest = named("1-" + cosine.text);
-    FormulaMatrix turned;
+    Matrix turned;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
         const Formula across = i == j ? cosine : n[3 - i - j] * sine;
         turned(i, j) = named(n[i] * n[j] * rest + (j == (i + 1) % 3 ? -across : across));
       }
-    orientation_ = named(FormulaMatrix(orientation_ * turned));
+    orientation_ = named(orientation_ * turned);
   }
 
   void add_translation(const Joint& joint) {
     const auto [way, rate] = coordinate(joint, 1);
     const auto axis = numbers(axis_of(joint)),
-               placed = named(
-                   FormulaVector(orientation_ * named(FormulaVector(numbers(joint.shift) + axis * way)))),
-               moving = named(FormulaVector(orientation_ * FormulaVector(axis * rate))),
-               carried = named(FormulaVector(spin.cross(placed)));
+               placed = named(orientation_ * named(numbers(joint.shift) + axis * way)),
+               moving = named(orientation_ * (axis * rate)), carried = named(spin.cross(placed));
     for (int i = 0; i < 3; ++i) {
       centre_[i] = named(centre_[i] + placed[i]);
       velocity[i] = named(velocity[i] + moving[i] + carried[i]);
@@ -351,7 +346,7 @@ class Chain {
   }
 
   int count_ = 0;
-  FormulaMatrix orientation_ = FormulaMatrix::Identity();
+  Matrix orientation_ = Matrix::Identity();
   FormulaVector centre_;
 };
 
@@ -444,8 +439,9 @@ Deck yade_deck(DeckCase& c) {
   c.add("facts", facts_of(meshes, c.options.facets));
   c.add("balls", balls);
   if (planes) {
+    const auto place = displacement_formulas(c, "t");
     c.add("half", fmt::format("{}", fmt::join(box->half, ", ")));
-    c.add("place", fmt::format("{}", fmt::join(displacement_formulas(c, "t"), ", ")));
+    c.add("place", fmt::format("{}, {}, {}", place[0].text, place[1].text, place[2].text));
     c.add("walls", c.filled(yade_planes_in));
   } else {
     c.add("pose", pose_in_python(c));
