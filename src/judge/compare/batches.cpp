@@ -6,7 +6,6 @@
 #include <random>
 
 #include "base/student.hpp"
-#include "logs/event_log.hpp"
 
 namespace edmill::compare {
 

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
 #include "base/errors.hpp"
 #include "base/statistics.hpp"
-#include "logs/event_log.hpp"
 #include "model/parts/partners.hpp"
 
 namespace edmill::compare {
@@ -113,7 +113,7 @@ EventComparison compare_events(const Comparison& c) {
 template <class Get>
 BatchValues values_of(const std::vector<Batch>& batches, const Get& get) {
   BatchValues values;
-  for (const auto& batch : batches) values.push_back(get(batch));
+  for (const auto& batch : batches) values.push_back(std::invoke(get, batch));
   return values;
 }
 
@@ -125,11 +125,15 @@ class Quantities {
 
   /// A mean over the batches. @param reason  why it cannot be compared, or empty
   /// @param events  that it rests on, in A and B together
-  /// @param values_in  gives its values of a log's batches
-  template <class ValuesIn>
+  /// @param get        its value in a batch
+  /// @param per_event  whether that is a sum over the events, of which the mean is asked for
   void mean(const std::string& name, const std::string& unit, const std::string& reason, double events,
-            const ValuesIn& values_in) {
+            const auto& get, bool per_event = false) {
     if (!reason.empty()) return skip(name, unit, reason);
+    const auto values_in = [&](const std::vector<Batch>& batches) {
+      const auto values = values_of(batches, get);
+      return per_event ? ratio_values(values, values_of(batches, &Batch::all_events)) : values;
+    };
     const BatchValues a = values_in(a_), b = values_in(b_);
     BatchValues differences(a.size());
     std::transform(b.begin(), b.end(), a.begin(), differences.begin(), std::minus());
@@ -208,38 +212,31 @@ std::vector<Quantity> judge(const Comparison& c) {
   Quantities quantities(a, b, c.options.event_tolerance());
   const auto sum_of = [](const std::vector<Batch>& batches, const auto& get) {
     double sum = 0;
-    for (const auto& batch : batches) sum += get(batch);
+    for (const double value : values_of(batches, get)) sum += value;
     return sum;
   };
-  const auto events = [](const Batch& batch) { return batch.all_events(); };
-  const double length = c.times.length, of_a = sum_of(a, events), of_b = sum_of(b, events), all = of_a + of_b;
+  const double length = c.times.length, of_a = sum_of(a, &Batch::all_events),
+               of_b = sum_of(b, &Batch::all_events), all = of_a + of_b;
 
   double between_balls = 0;  // after the loop: they are the last partner
   for (int k = 0; k <= walls; ++k) {
     const auto with_partner = [k](const Batch& batch) { return batch.events[k]; };
     between_balls = sum_of(a, with_partner) + sum_of(b, with_partner);
     quantities.mean("collision_rate_" + model::partner_key(k, walls), "1/s",
-                    between_balls > 0 ? "" : "no such collisions", between_balls, [&](const auto& batches) {
-                      return values_of(batches, [&](const Batch& batch) { return batch.events[k] / length; });
-                    });
+                    between_balls > 0 ? "" : "no such collisions", between_balls,
+                    [&](const Batch& batch) { return batch.events[k] / length; });
   }
   const auto missing = [&](std::size_t v) {
     if (c.a.has[v] && c.b.has[v]) return std::string();
     return "no " + std::string(model::logged_quantities[v].name) + (c.a.has[v] ? " in B" : " in A");
   };
   const auto power = [&](std::size_t v, const std::string& name, double Batch::*energy) {
-    quantities.mean(name, "W", missing(v), all, [&](const auto& batches) {
-      return values_of(batches, [&](const Batch& batch) { return batch.*energy / length; });
-    });
+    quantities.mean(name, "W", missing(v), all, [&](const Batch& batch) { return batch.*energy / length; });
   };
   power(model::milling_dose, "milling_dose_rate", &Batch::milling_dose);
   power(model::wall_work, "wall_work_rate", &Batch::wall_work);
   quantities.mean("mean_approach_speed", "m/s", of_a > 0 && of_b > 0 ? "" : "no collisions in one log", all,
-                  [&](const auto& batches) {
-                    return ratio_values(
-                        values_of(batches, [](const Batch& batch) { return batch.approach_speed; }),
-                        values_of(batches, events));
-                  });
+                  &Batch::approach_speed, true);
   quantities.spectrum("wall_approach_speed_spectrum", "", wall_speeds, all - between_balls);
   quantities.spectrum("ball_approach_speed_spectrum", "", ball_speeds, between_balls);
   quantities.spectrum("milling_dose_spectrum", missing(model::milling_dose), doses, all);
