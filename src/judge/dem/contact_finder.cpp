@@ -169,15 +169,15 @@ void ContactFinder::find_jumps() {
 
 void ContactFinder::watch_overlaps(const std::vector<bool>& flies) {
   const Frame &before = window_[window_.size() - 2], &now = window_.back();
+  std::map<BodyPair, Overlap> present;
   const auto watch = [&](const BodyPair& bodies, double depth) {
     if (!(depth > 0)) return;
-    auto& overlap = overlaps_.try_emplace(bodies, Overlap{before.time}).first->second;
+    const auto known = overlaps_.extract(bodies);
+    auto& overlap = present[bodies] = known ? known.mapped() : Overlap{before.time};
     overlap.growth = std::max(overlap.growth, (depth - overlap.last) / (now.time - before.time));
     overlap.depth = std::max(overlap.depth, depth);
     overlap.last = depth;
-    overlap.seen = true;
   };
-  for (auto& [bodies, overlap] : overlaps_) overlap.seen = false;
   const auto pose = vessel_.at(now.time);
   const int count = static_cast<int>(open_of_.size());
   for (int ball = 0; ball < count; ++ball)
@@ -194,12 +194,12 @@ void ContactFinder::watch_overlaps(const std::vector<bool>& flies) {
       const double touch = vessel_.ball(*one).radius + vessel_.ball(*two).radius;
       watch({std::min(*one, *two), std::max(*one, *two)}, touch - norm<double>(apart));
     }
-  for (auto& [bodies, overlap] : overlaps_) {
-    for (std::size_t k = 0; k < 2; ++k)
-      overlap.flies[k] = overlap.flies[k] && bodies[k] >= 0 && flies[static_cast<std::size_t>(bodies[k])];
-    if (!overlap.seen) end_overlap(bodies, overlap);
-  }
-  std::erase_if(overlaps_, [](const auto& entry) { return !entry.second.seen; });
+  for (auto* list : {&present, &overlaps_})
+    for (auto& [bodies, overlap] : *list)
+      for (std::size_t k = 0; k < 2; ++k)
+        overlap.flies[k] = overlap.flies[k] && bodies[k] >= 0 && flies[static_cast<std::size_t>(bodies[k])];
+  for (const auto& [bodies, overlap] : overlaps_) end_overlap(bodies, overlap);
+  overlaps_ = std::move(present);
 }
 
 /// A contact changes the velocity of both balls. Its depth is less than a third of its duration times the

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "base/clean_text.hpp"
 #include "base/errors.hpp"
 #include "dem/contacts.hpp"
 #include "io/input_file.hpp"

@@ -78,7 +78,6 @@ class ContactFinder {
     double last = 0;                        ///< depth in the last frame [m]
     double depth = 0, growth = 0;           ///< largest so far [m], [m/s]
     std::array<bool, 2> flies{true, true};  ///< the ball, or its partner, all the while
-    bool seen = true;                       ///< in the last frame
   };
   using BodyPair = std::array<int, 2>;  ///< the ball, and the other one or -1 - wall
 

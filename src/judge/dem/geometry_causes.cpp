@@ -151,12 +151,14 @@ class Geometry {
   std::vector<std::vector<double>> reaches_of_walls_;  ///< way of the ball in half a frame [m]
 };
 
-Candidate of_number(const Parameter& p) {
-  Candidate c{p};
-  for (const double share : {0.001, 0.003, 0.01, 0.03, 0.05, 0.1, 0.2, 0.5})
-    for (const double sign : {-1.0, 1.0}) c.first_values.push_back(p.value * (1 + sign * share));
-  c.first_values.push_back(2 * p.value);
-  return c;
+void add_numbers(const Assumptions& nominal, std::vector<Candidate>& list) {
+  for (const auto& p : identify::parameters_of(nominal)) {
+    if (!(p.key.starts_with("mill.") || p.key.starts_with("vessel.") || p.is_diameter)) continue;
+    auto& starts = list.emplace_back(Candidate{p}).first_values;
+    for (const double share : {0.001, 0.003, 0.01, 0.03, 0.05, 0.1, 0.2, 0.5})
+      for (const double sign : {-1.0, 1.0}) starts.push_back(p.value * (1 + sign * share));
+    starts.push_back(2 * p.value);
+  }
 }
 
 void add_phases(const Assumptions& nominal, std::vector<Candidate>& list) {
@@ -215,9 +217,7 @@ void judge_places(const casefile::CaseSpec& spec, const std::vector<Contact>& co
   const auto agrees = [](const Judged& j) { return j.of != Judged::Of::walls || j.agrees(); };
   if (met && std::ranges::all_of(audit.judged, agrees)) return;
   std::vector<Candidate> candidates;
-  for (const auto& p : identify::parameters_of(geometry.nominal()))
-    if (p.key.starts_with("mill.") || p.key.starts_with("vessel.") || p.is_diameter)
-      candidates.push_back(of_number(p));
+  add_numbers(geometry.nominal(), candidates);
   add_phases(geometry.nominal(), candidates);
   add_walls(spec, candidates);
   for (const auto& candidate : candidates) {

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 #include <sstream>
 
-#include "base/clean_text.hpp"
 #include "base/errors.hpp"
 #include "casefile/build_case.hpp"
 #include "dem/contacts.hpp"
@@ -127,18 +125,6 @@ ContactClass class_of(const std::vector<ListedContact>& list, std::size_t k, dou
   return c.end - c.begin > 3 * usual ? ContactClass::lasting : ContactClass::wall;
 }
 
-/// Completes a contact from what its list has.
-Contact contact_of(Contact c, const MovingVessel& vessel, const FlatWalls& walls, int wall) {
-  const auto ball = static_cast<std::size_t>(c.ball);
-  c.free_until = c.begin;
-  c.free_from = c.end;
-  c.partner = wall;
-  c.before.position = walls.touching(c.begin, ball, wall);
-  c.after.position = walls.touching(c.end, ball, wall);
-  c.dose = vessel.energy(vessel.at(c.begin), ball, c.before) - vessel.energy(vessel.at(c.end), ball, c.after);
-  return c;
-}
-
 /// A list of contacts with walls has no places. Its contacts can be judged where the velocity of a wall and
 /// its normal are the same at all places: flat walls that do not turn. The log has no frames, and no contacts
 /// between balls.
@@ -173,11 +159,19 @@ Imported import_contact_list(const casefile::CaseSpec& spec, const ImportOptions
   facts.first = list.front().begin;
   facts.last = list.back().end;
   for (std::size_t k = 0; k < list.size(); ++k) {
-    auto contact = contact_of(list[k], vessel, walls, wall_of.at(list[k].boundary));
-    contact.kind = class_of(list, k, facts.statistics.contact_time);
-    facts.first = std::min(facts.first, contact.begin);
-    result.count(contact);
-    log.add(contact);
+    auto& c = list[k];
+    const auto ball = static_cast<std::size_t>(c.ball);
+    c.kind = class_of(list, k, facts.statistics.contact_time);
+    c.free_until = c.begin;
+    c.free_from = c.end;
+    c.partner = wall_of.at(c.boundary);
+    c.before.position = walls.touching(c.begin, ball, c.partner);
+    c.after.position = walls.touching(c.end, ball, c.partner);
+    c.dose =
+        vessel.energy(vessel.at(c.begin), ball, c.before) - vessel.energy(vessel.at(c.end), ball, c.after);
+    facts.first = std::min(facts.first, c.begin);
+    result.count(c);
+    log.add(c);
   }
   return result;
 }

@@ -23,8 +23,6 @@ MovingVessel::MovingVessel(const model::Mill<double>& mill,
   }
 }
 
-MovingVessel::Pose MovingVessel::at(double time) const { return mill_.motion.pose(clock_.at(time)); }
-
 const model::Tube<double>* MovingVessel::prism(int wall) const {
   return facets_ > 0 ? std::get_if<model::Tube<double>>(&surfaces_[static_cast<std::size_t>(wall)].kind())
                      : nullptr;
@@ -44,10 +42,6 @@ Vector MovingVessel::normal(const Pose& pose, std::size_t ball, int wall, const 
   const auto* tube = prism(wall);
   return mill_.motion.direction_to_inertial(
       pose, tube ? Vector(-facet_normal(*tube, facets_, p)) : inset(ball).normal(wall, p));
-}
-
-Vector MovingVessel::wall_velocity(const Pose& pose, const Vector& place) const {
-  return mill_.motion.wall_velocity(pose, place);
 }
 
 double MovingVessel::energy(const Pose& pose, std::size_t ball, const BallState& state) const {

@@ -19,14 +19,16 @@ class MovingVessel {
                int facets = 0);
 
   using Pose = model::AnyPose<double>;
-  Pose at(double time) const;
+  Pose at(double time) const { return mill_.motion.pose(clock_.at(time)); }
 
   /// Gap of a ball's surface from a wall; negative for an overlap [m].
   double gap(const Pose& pose, std::size_t ball, int wall, const Vector& position) const;
   /// Unit, into the vessel, inertial, of the wall at the place of a ball.
   Vector normal(const Pose& pose, std::size_t ball, int wall, const Vector& position) const;
   /// Of the vessel's material at an inertial place [m/s].
-  Vector wall_velocity(const Pose& pose, const Vector& place) const;
+  Vector wall_velocity(const Pose& pose, const Vector& place) const {
+    return mill_.motion.wall_velocity(pose, place);
+  }
   int walls() const { return mill_.vessel.wall_count(); }
 
   /// Kinetic energy of a ball relative to the vessel [J].
