@@ -186,18 +186,16 @@ double FrameReader::finite(const std::string& text) const {
   return value;
 }
 
-void FrameReader::set_units(const std::string& units) {
+/// The units, which are known by now, and the columns of the rows that follow.
+void FrameReader::set_columns(const std::vector<std::string>& columns) {
   static constexpr Units known[] = {{"si", 1, 1, 1},
                                     {"cgs", 1e-2, 1, 1e-3},
                                     {"mm", 1e-3, 1, 1},
                                     {"micro", 1e-6, 1e-6, 1e-15},
                                     {"nano", 1e-9, 1e-9, 1e-21}};
-  const auto* found = std::ranges::find(known, units, &Units::name);
-  if (found == std::end(known)) fail("units '" + units + "'", "si, cgs, mm, micro or nano");
-  units_ = *found;
-}
-
-void FrameReader::read_columns(const std::vector<std::string>& columns) {
+  const auto* units = std::ranges::find(known, format_.units, &Units::name);
+  if (units == std::end(known)) fail("units '" + format_.units + "'", "si, cgs, mm, micro or nano");
+  units_ = *units;
   if (!columns.empty() && columns == names_) return;
   names_ = columns;
   places_.assign(count, -1);
@@ -324,8 +322,7 @@ bool FrameReader::next_of_binary(Frame& frame) try {
   const auto values = read_values(in, count_ * static_cast<std::size_t>(columns));
   ++line_number_;  // of the frame
   if (!units.empty()) format_.units = units;
-  set_units(format_.units);
-  read_columns(words(titles));
+  set_columns(words(titles));
   if (names_.size() != static_cast<std::size_t>(columns))
     fail(fmt::format("{} names for {} columns", names_.size(), columns), "one for each");
   std::vector<FrameRow> rows;
@@ -343,8 +340,7 @@ bool FrameReader::next_of_table(Frame& frame) {
   while (names_.empty()) {
     if (!line()) return false;
     if (words(line_).empty() || line_.starts_with("#")) continue;
-    set_units(format_.units);
-    read_columns(words(line_));
+    set_columns(words(line_));
     if (places_[moment] < 0) fail("no column time", "time id x y z vx vy vz omegax omegay omegaz");
   }
   std::vector<FrameRow> rows;
@@ -372,10 +368,9 @@ bool FrameReader::next_of_dump(Frame& frame) {
       fail(fmt::format("'{}'", line_.substr(0, 40)), "a line that begins with ITEM:");
     const std::string item = line_.substr(6);
     if (item.starts_with("ATOMS")) {
-      set_units(format_.units);
       auto columns = words(line_);
       columns.erase(columns.begin(), columns.begin() + 2);
-      read_columns(columns);
+      set_columns(columns);
       const double at = time_of(time, step);
       std::vector<FrameRow> rows;
       while (rows.size() < count_) {

@@ -71,8 +71,7 @@ class FrameReader {
   bool next_of_table(Frame& frame);
   bool line();
   [[noreturn]] void fail(const std::string& found, const std::string& expected) const;
-  void set_units(const std::string& units);
-  void read_columns(const std::vector<std::string>& columns);
+  void set_columns(const std::vector<std::string>& columns);
   void read_bounds(std::size_t axis);
   FrameRow row() const;
   FrameRow row_of(const std::vector<double>& values) const;
