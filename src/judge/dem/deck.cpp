@@ -192,6 +192,18 @@ std::string atoms_of(const DeckCase& c, const char* spin, bool also_at_rest) {
   return text + sets;
 }
 
+/// Says in the deck, for `facts_of_deck`, and to the user what stands for a round wall.
+void tell_facets(DeckCase& c, const std::vector<WallMesh>& meshes, Deck& deck) {
+  const int facets = c.options.facets;
+  const bool is_round =
+      std::ranges::any_of(meshes, [](const WallMesh& mesh) { return mesh.smooth_angle > 0; });
+  c.add("facets", is_round ? fmt::format("# facets {}\n", facets) : "");
+  if (is_round)
+    deck.notes.push_back(
+        fmt::format("the cylinder is a prism of {} facets around it, {:.2g} % wider at its corners", facets,
+                    100 * (1 / std::cos(numerics::pi<double>() / facets) - 1)));
+}
+
 // LAMMPS of 2021 and later: exact regions. Regions turn about one axis at most, so a vessel that turns is at
 // rest and the fictitious forces and torques come from Python.
 
@@ -376,7 +388,7 @@ Deck liggghts_deck(DeckCase& c) {
         fmt::format("{}: key 'vessel.type': found a vessel with walls that are round in two ways, expected "
                     "flat walls or a cylinder, which LIGGGHTS can have as triangles",
                     c.file));
-  Deck deck{{{}}, fmt::format("liggghts -in {}.in", c.options.name), notes_on(meshes, c.options.facets)};
+  Deck deck{{{}}, fmt::format("liggghts -in {}.in", c.options.name), {}};
   std::string walls, names;
   for (const auto& mesh : meshes) {
     const auto file = fmt::format("{}_{}.stl", c.options.name, mesh.name);
@@ -387,7 +399,7 @@ Deck liggghts_deck(DeckCase& c) {
     names += " " + mesh.name;
   }
   const Chain chain(c);
-  c.add("facts", facts_of(meshes, c.options.facets));
+  tell_facets(c, meshes, deck);
   c.add("balls", atoms_of(c, "omegax {} omegay {} omegaz {}", false));
   c.add("rates", chain.lines);
   c.add("walls", walls);
@@ -436,7 +448,7 @@ Deck yade_deck(DeckCase& c) {
                          c.density(k), fmt::join(v, ", "), fmt::join(w, ", "));
   }
   Deck deck{{{}}, fmt::format("yade -n -x -j1 {}.py", c.options.name), {}};
-  c.add("facts", facts_of(meshes, c.options.facets));
+  tell_facets(c, meshes, deck);
   c.add("balls", balls);
   if (planes) {
     const auto place = displacement_formulas(c, "t");
@@ -447,7 +459,6 @@ Deck yade_deck(DeckCase& c) {
     c.add("pose", pose_in_python(c));
     c.add("walls", c.filled(yade_triangles_in));
     deck.files.push_back({c.options.name + "_walls.stl", stl_text(meshes, c.mill.motion, c.pose)});
-    deck.notes = notes_on(meshes, c.options.facets);
   }
   deck.files.front() = {c.options.name + ".py", c.filled(yade_in)};
   return deck;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace edmill::dem {
@@ -28,10 +27,6 @@ std::vector<Vec3<double>> square_of(const model::Disc<double>& disc, int facets)
   for (const auto& [x, z] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}})
     corners.push_back(disc.frame.outside({x * half, 0.0, z * half}));
   return corners;
-}
-
-bool any_round(const std::vector<WallMesh>& meshes) {
-  return std::ranges::any_of(meshes, [](const WallMesh& mesh) { return mesh.smooth_angle > 0; });
 }
 
 }  // namespace
@@ -61,17 +56,6 @@ std::vector<WallMesh> meshes_of(const model::AnyVessel<double>& vessel, int face
   for (auto* mesh : {&flat, &round})
     if (!mesh->triangles.empty()) meshes.push_back(std::move(*mesh));
   return meshes;
-}
-
-std::vector<std::string> notes_on(const std::vector<WallMesh>& meshes, int facets) {
-  if (!any_round(meshes)) return {};
-  const double beyond = 1 / std::cos(numerics::pi<double>() / facets) - 1;
-  return {fmt::format("the cylinder is a prism of {} facets around it, {:.2g} % wider at its corners", facets,
-                      100 * beyond)};
-}
-
-std::string facts_of(const std::vector<WallMesh>& meshes, int facets) {
-  return "# frame laboratory\n" + (any_round(meshes) ? fmt::format("# facets {}\n", facets) : "");
 }
 
 Vec3<double> facet_normal(const model::Tube<double>& tube, int facets, const Vec3<double>& place) {

@@ -24,11 +24,6 @@ struct WallMesh {
 /// vessel's x axis. Empty for a vessel that has none.
 std::vector<WallMesh> meshes_of(const model::AnyVessel<double>& vessel, int facets);
 
-/// What `facts_of_deck` reads of walls in the laboratory's frame that are triangles.
-std::string facts_of(const std::vector<WallMesh>& meshes, int facets);
-/// For the user; none where all walls are flat.
-std::vector<std::string> notes_on(const std::vector<WallMesh>& meshes, int facets);
-
 /// Unit, out of the vessel: of the facet of that prism that is nearest to a place.
 Vec3<double> facet_normal(const model::Tube<double>& tube, int facets, const Vec3<double>& place);
 
