@@ -28,21 +28,6 @@ std::string sentence(const Judged& j) {
                      j.unit.empty() ? "" : " ", j.unit, j.expected);
 }
 
-void put_values(io::JsonText& json, const std::vector<Judged>& values) {
-  json.groups("values", values, &Judged::name, [&](const Judged& j) {
-    json.add("found", j.found.value);
-    json.add("low", j.found.low);
-    json.add("high", j.found.high);
-    json.add("contacts", j.found.count);
-    json.add("dose_share", j.dose_share);
-    json.add("expected", j.expected);
-    json.add("allowed", j.allowed);
-    json.add("judged", j.known());
-    json.add("agrees", j.agrees());
-    if (!j.equation.empty()) json.add("equation", j.equation);
-  });
-}
-
 }  // namespace
 
 std::string table(const ContactAudit& a) {
@@ -106,7 +91,18 @@ std::string to_json(const ContactAudit& a) {
   json.end();
   json.add("milling_dose_rate", a.dose_rate);
   json.add("milling_dose_rate_half_width", a.dose_rate_half_width);
-  put_values(json, a.judged);
+  json.groups("values", a.judged, &Judged::name, [&](const Judged& j) {
+    json.add("found", j.found.value);
+    json.add("low", j.found.low);
+    json.add("high", j.found.high);
+    json.add("contacts", j.found.count);
+    json.add("dose_share", j.dose_share);
+    json.add("expected", j.expected);
+    json.add("allowed", j.allowed);
+    json.add("judged", j.known());
+    json.add("agrees", j.agrees());
+    if (!j.equation.empty()) json.add("equation", j.equation);
+  });
   json.add("wall_distance", a.wall_distance);
   json.add("wall_resolution", a.wall_resolution);
   const auto ratio_of = [](const auto& s) { return fmt::format("{:.4g}", s.ratio); };
