@@ -85,20 +85,18 @@ constexpr const char* boundary_column = "boundary_id";
 constexpr const char* begin_column = "start_time";
 constexpr const char* end_column = "end_time";
 
-using Places = std::array<std::size_t, 3>;
-
-/// The columns of a vector: start_particle_velocity_x and so on.
-Places vector_columns(io::CsvReader& csv, const std::string& when, const std::string& what) {
-  Places places{};
-  for (std::size_t k = 0; k < 3; ++k)
-    places[k] = csv.needed_column(fmt::format("{}_particle_{}_{}", when, what, "xyz"[k])).value_or(0);
-  return places;
-}
-
-void take(io::CsvReader& csv, const Places& places, Vec3<double>& vector) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (const auto value = csv.finite(places[k])) vector[static_cast<Eigen::Index>(k)] = *value;
-}
+/// A vector, in columns start_particle_velocity_x and so on.
+struct ListedVector {
+  const char *when, *what;
+  BallState Contact::*state;
+  Vector BallState::*value;
+};
+constexpr ListedVector listed_vectors[] = {
+    {"start", "velocity", &Contact::before, &BallState::velocity},
+    {"end", "velocity", &Contact::after, &BallState::velocity},
+    {"start", "angular_velocity", &Contact::before, &BallState::spin},
+    {"end", "angular_velocity", &Contact::after, &BallState::spin},
+};
 
 }  // namespace
 
@@ -234,10 +232,11 @@ std::vector<ListedContact> read_contact_list(const std::string& file) {
   const auto id = csv.needed_column(id_column), boundary = csv.needed_column(boundary_column),
              begin = csv.needed_column(begin_column), end = csv.needed_column(end_column);
   const auto mass = csv.column("mass"), diameter = csv.column("diameter");
-  const auto v_before = vector_columns(csv, "start", "velocity"),
-             v_after = vector_columns(csv, "end", "velocity"),
-             w_before = vector_columns(csv, "start", "angular_velocity"),
-             w_after = vector_columns(csv, "end", "angular_velocity");
+  std::vector<std::size_t> components;
+  for (const auto& vector : listed_vectors)
+    for (const char axis : {'x', 'y', 'z'})
+      components.push_back(
+          csv.needed_column(fmt::format("{}_particle_{}_{}", vector.when, vector.what, axis)).value_or(0));
   csv.throw_problems();
   constexpr int most = std::numeric_limits<int>::max();
   std::vector<ListedContact> list;
@@ -248,10 +247,9 @@ std::vector<ListedContact> read_contact_list(const std::string& file) {
     c.begin = csv.finite(*begin).value_or(0);
     c.end = csv.finite(*end).value_or(0);
     if (c.end < c.begin) csv.bad_field(*end, "a time after the begin of the contact");
-    take(csv, v_before, c.before.velocity);
-    take(csv, v_after, c.after.velocity);
-    take(csv, w_before, c.before.spin);
-    take(csv, w_after, c.after.spin);
+    auto component = components.begin();
+    for (const auto& vector : listed_vectors)
+      for (double& part : c.*vector.state.*vector.value) part = csv.finite(*component++).value_or(0);
     if (mass) c.mass = csv.finite(*mass);
     if (diameter) c.diameter = csv.finite(*diameter);
     list.push_back(c);
