@@ -117,14 +117,10 @@ void judge(ContactComparison& c) {
   c.ratio = b.dose_rate / a.dose_rate;
   c.half_width = c.ratio * std::hypot(a.half_width / a.dose_rate, b.half_width / b.dose_rate);
   const double off = std::abs(c.ratio - 1);
-  if (c.within)
-    c.verdict = off + c.half_width <= *c.within  ? Verdict::agree
-                : off - c.half_width > *c.within ? Verdict::differ
-                                                 : Verdict::too_few;
-  else
-    c.verdict = off > c.half_width       ? Verdict::differ
-                : c.half_width <= widest ? Verdict::agree
-                                         : Verdict::too_few;
+  const bool agrees = c.within ? off + c.half_width <= *c.within : c.half_width <= widest;
+  c.verdict = off - c.half_width > c.within.value_or(0) ? Verdict::differ
+              : agrees                                  ? Verdict::agree
+                                                        : Verdict::too_few;
 }
 
 }  // namespace
