@@ -27,7 +27,6 @@ namespace {
 using namespace std::string_literals;
 
 const double turn = 2 * numerics::pi<double>();  ///< [rad]
-constexpr double poisson = 0.3;
 
 /// A law of contacts as a DEM code has it.
 struct SoftLaw {
@@ -44,9 +43,8 @@ struct DeckCase {
   SoftLaw of_balls, of_walls;
   model::Mill<double> mill;
   model::Joints<double> joints;  ///< of the vessel
-  double begin, period;          ///< time of the states, period of the drive [s]
+  double begin;                  ///< time of the states [s]
   model::AnyPose<double> pose;   ///< of the vessel at the begin
-  double young;                  ///< [Pa]
   /// By the names under which the texts have them.
   fmt::dynamic_format_arg_store<fmt::format_context> fields = {};
 
@@ -420,7 +418,7 @@ bool turns_about_a_point(const DeckCase& c) {
   const auto& motion = c.mill.motion;
   const DriveClock<double> clock(motion.period());
   for (int k = 0; k < 64; ++k) {
-    const auto pose = motion.pose(clock.at(c.begin + c.period * k / 64));
+    const auto pose = motion.pose(clock.at(c.begin + c.joints.period * k / 64));
     const Vec3<double> spin = motion.angular_velocity(pose);
     const Vec3<double> centre = motion.to_inertial(pose, Vec3<double>::Zero());
     const Vec3<double> velocity = motion.wall_velocity(pose, centre);
@@ -490,9 +488,7 @@ Deck make_deck(const casefile::CaseSpec& spec, const DeckOptions& options) {
           model::Joints<casefile::Quantity>{casefile::joints_of(spec.mill), casefile::period_of(spec.mill)},
           [](const casefile::Quantity& q) { return q.to<double>(); }),
       .begin = begin,
-      .period = casefile::period_of(spec.mill).to<double>(),
-      .pose = mill.motion.pose(clock.at(begin)),
-      .young = young_for(options.contact_time, options.speed, largest.radius, largest.mass, poisson)};
+      .pose = mill.motion.pose(clock.at(begin))};
   if (!(duration > 0))
     throw InputError(spec.file + ": found no run.end_time and no --duration, expected one of them");
   // A ball at an edge between two triangles of YADE touches both, so that they must be few.
@@ -510,7 +506,8 @@ Deck make_deck(const casefile::CaseSpec& spec, const DeckOptions& options) {
   c.add("wall_en", formula_restitution(c.of_walls.damping));
   c.add("friction", c.of_balls.friction);
   c.add("wall_friction", c.of_walls.friction);
-  c.add("young", c.young);
+  constexpr double poisson = 0.3;
+  c.add("young", young_for(options.contact_time, options.speed, largest.radius, largest.mass, poisson));
   c.add("poisson", poisson);
   c.add("gravity", fmt::format("{}", fmt::join(mill.gravity, ", ")));
   c.add("reach", 1.5 * mill.motion.reach(mill.vessel.reach()));
