@@ -69,11 +69,9 @@ double MovingVessel::work(const Pose& from, const BallState& before, const Pose&
 
 BallState MovingVessel::inertial(const Pose& pose, const BallState& seen) const {
   const auto& m = mill_.motion;
-  BallState state;
-  state.position = m.to_inertial(pose, seen.position);
-  state.velocity = m.direction_to_inertial(pose, seen.velocity) + m.wall_velocity(pose, state.position);
-  state.spin = m.direction_to_inertial(pose, seen.spin) + m.angular_velocity(pose);
-  return state;
+  const Vector place = m.to_inertial(pose, seen.position);
+  return {place, m.direction_to_inertial(pose, seen.velocity) + m.wall_velocity(pose, place),
+          m.direction_to_inertial(pose, seen.spin) + m.angular_velocity(pose)};
 }
 
 Vector in_axes(const model::AnyMotion<double>& m, const model::AnyPose<double>& pose, const Vector& v) {

@@ -1,6 +1,6 @@
 #include "dem/wall_mesh.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -71,10 +71,8 @@ std::string stl_text(std::span<const WallMesh> meshes, const model::AnyMotion<do
   for (const auto& mesh : meshes)
     for (const auto& triangle : mesh.triangles) {
       text += " facet normal 0 0 0\n  outer loop\n";
-      for (const auto& corner : triangle) {
-        const auto p = motion.to_inertial(pose, corner);
-        text += fmt::format("   vertex {} {} {}\n", p[0], p[1], p[2]);
-      }
+      for (const auto& corner : triangle)
+        text += fmt::format("   vertex {}\n", fmt::join(motion.to_inertial(pose, corner), " "));
       text += "  endloop\n endfacet\n";
     }
   return text + "endsolid walls\n";
