@@ -8,23 +8,13 @@ namespace edmill::prove {
 
 thread_local slong Precision::current = 64;
 
-namespace {
-
-Enclosure integer(const boost::multiprecision::cpp_int& value) {
-  Enclosure result;
-  fmpz_t whole;
-  fmpz_init(whole);
-  fmpz_set_str(whole, value.str().c_str(), 10);
-  arb_set_fmpz(result.arb(), whole);
-  fmpz_clear(whole);
-  return result;
-}
-
-}  // namespace
-
 Enclosure enclosure_of(const casefile::Quantity& quantity) {
-  Enclosure result =
-      integer(numerator(casefile::rational(quantity))) / integer(denominator(casefile::rational(quantity)));
+  Enclosure result;
+  fmpq_t ratio;
+  fmpq_init(ratio);
+  fmpq_set_str(ratio, casefile::rational(quantity).str().c_str(), 10);
+  arb_set_fmpq(result.arb(), ratio, Precision::bits());
+  fmpq_clear(ratio);
   if (quantity.pi_power == 0) return result;
   Enclosure pi;
   arb_const_pi(pi.arb(), Precision::bits());
@@ -33,16 +23,10 @@ Enclosure enclosure_of(const casefile::Quantity& quantity) {
   return result;
 }
 
-Vector enclosure_of(const std::array<casefile::Quantity, 3>& exact) {
-  return {enclosure_of(exact[0]), enclosure_of(exact[1]), enclosure_of(exact[2])};
-}
-
 Enclosure rounded_out(const Enclosure& value, slong bits) {
   if (arb_is_exact(value.arb()) && arb_bits(value.arb()) <= bits) return value;
-  Enclosure result;
-  const slong kept =
-      arb_is_exact(value.arb()) ? bits : std::max<slong>(arb_rel_accuracy_bits(value.arb()) + 22, 22);
-  arb_set_round(result.arb(), value.arb(), kept);  // what the midpoint loses is added to the radius
+  Enclosure result = rounded(
+      value, arb_is_exact(value.arb()) ? bits : std::max<slong>(arb_rel_accuracy_bits(value.arb()) + 22, 22));
   const auto radius = result.radius();
   Enclosure more;
   arb_mul_2exp_si(more.arb(), radius.arb(), -20);

@@ -119,9 +119,21 @@ namespace edmill::prove {
 using Vector = Vec3<Enclosure>;
 using Matrix = Eigen::Matrix<Enclosure, 3, 3>;
 
+/// The vector of what `change` makes of each component.
+Vector each(const auto& v, const auto& change) { return {change(v[0]), change(v[1]), change(v[2])}; }
+
 /// Encloses an exact quantity, to the bits in force.
 Enclosure enclosure_of(const casefile::Quantity& quantity);
-Vector enclosure_of(const std::array<casefile::Quantity, 3>& exact);
+inline Vector enclosure_of(const std::array<casefile::Quantity, 3>& exact) {
+  return each(exact, [](const auto& component) { return enclosure_of(component); });
+}
+
+/// With a midpoint of `bits` bits.
+inline Enclosure rounded(const Enclosure& value, slong bits) {
+  Enclosure result;
+  arb_set_round(result.arb(), value.arb(), bits);  // what the midpoint loses is added to the radius
+  return result;
+}
 
 /// A slightly wider enclosure with few digits: the midpoint goes 20 bits beyond the radius, one of an exact
 /// number to `bits`; the radius grows by 2^-20 and is rounded up to ten bits.

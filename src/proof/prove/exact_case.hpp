@@ -22,13 +22,15 @@ struct ExactWall {
   Quantity size;                     ///< distance of the plane from the point, or radius [m]
 };
 
-struct ExactLaw {
-  bool coulomb = true;        ///< Walton and Braun's; else constant
-  Quantity restitution;       ///< e_n
-  Quantity tangential;        ///< least e_t with friction, e_t without
-  Quantity friction;          ///< mu
-  Quantity least_separation;  ///< v_s [m/s]
+template <class Number>
+struct ContactLaw {
+  bool coulomb = true;      ///< Walton and Braun's; else constant
+  Number restitution;       ///< e_n
+  Number tangential;        ///< least e_t with friction, e_t without
+  Number friction;          ///< mu
+  Number least_separation;  ///< v_s [m/s]
 };
+using ExactLaw = ContactLaw<Quantity>;
 
 struct ExactBall {
   Quantity radius, density, reduced_inertia;

@@ -12,32 +12,113 @@
 
 namespace edmill::prove {
 
-/// At a time, or during a bracket of times.
-struct Pose {
-  Matrix axes;                            ///< R: its columns are the axes of the vessel frame
-  Vector centre, velocity, acceleration;  ///< of its origin [m], [m/s], [m/s^2]
-  Vector omega, omega_rate;               ///< [rad/s], [rad/s^2]
-};
+inline Vector turned(const Matrix& m, const Vector& v) {
+  const auto row = [&](int k) { return m(k, 0) * v[0] + m(k, 1) * v[1] + m(k, 2) * v[2]; };
+  return {row(0), row(1), row(2)};
+}
 
-Vector turned(const Matrix& m, const Vector& v);
 /// By the transposed matrix.
-Vector turned_back(const Matrix& m, const Vector& v);
+inline Vector turned_back(const Matrix& m, const Vector& v) {
+  const auto column = [&](int k) { return m(0, k) * v[0] + m(1, k) * v[1] + m(2, k) * v[2]; };
+  return {column(0), column(1), column(2)};
+}
 
 /// Place, velocity and acceleration of a ball in the vessel frame.
 struct InVessel {
   Vector place, velocity, acceleration;
 };
 
+/// At a time, or during a bracket of times.
+struct Pose {
+  Matrix axes = Matrix::Identity();       ///< R: its columns are the axes of the vessel frame
+  Vector centre, velocity, acceleration;  ///< of its origin [m], [m/s], [m/s^2]
+  Vector omega, omega_rate;               ///< [rad/s], [rad/s^2]
+
+  /// About an axis of the frame so far, the unit vector e: E_kk = e_k^2 + cos (1 - e_k^2),
+  /// E_kl = e_k e_l (1 - cos) -/+ e_m sin.
+  /// @param turns  the angle
+  /// @param speed, acceleration  [rad/s], [rad/s^2]
+  void rotate(const Vector& e, const Enclosure& turns, const Enclosure& speed,
+              const Enclosure& acceleration) {
+    const Vector axis = turned(axes, e);
+    const Vector relative = axis * speed;
+    omega_rate += axis * acceleration + cross<Enclosure>(omega, relative);
+    omega += relative;
+    Matrix rotation;
+    const auto angle = sin_cos_turns(turns);
+    const Enclosure rest = 1 - angle.cos;
+    for (int k = 0; k < 3; ++k) {
+      const int l = (k + 1) % 3, m = (k + 2) % 3;
+      const Enclosure square = e[k] * e[k], product = e[k] * e[l] * rest, along = e[m] * angle.sin;
+      rotation(k, k) = square + angle.cos * (1 - square);
+      rotation(k, l) = product - along;
+      rotation(l, k) = product + along;
+    }
+    const Matrix a = axes;
+    for (int k = 0; k < 3; ++k)
+      for (int l = 0; l < 3; ++l)
+        axes(k, l) = a(k, 0) * rotation(0, l) + a(k, 1) * rotation(1, l) + a(k, 2) * rotation(2, l);
+  }
+
+  /// By a vector of the frame so far, which has these derivatives in it.
+  void shift(const Vector& by, const Vector& by_rate, const Vector& by_second) {
+    const Vector d = turned(axes, by), rate = turned(axes, by_rate), second = turned(axes, by_second);
+    const Vector carried = cross<Enclosure>(omega, d);
+    acceleration += second + cross<Enclosure>(omega, Vector(rate * Enclosure(2))) +
+                    cross<Enclosure>(omega_rate, d) + cross<Enclosure>(omega, carried);
+    velocity += rate + carried;
+    centre += d;
+  }
+
+  /// @param r, v, gravity  inertial position and velocity of a ball in flight
+  InVessel seen(const Vector& r, const Vector& v, const Vector& gravity) const {
+    const Vector d = r - centre, carried = cross<Enclosure>(omega, d);
+    const Vector u = v - (velocity + carried);
+    const Vector frame = acceleration + cross<Enclosure>(omega_rate, d) + cross<Enclosure>(omega, carried) +
+                         cross<Enclosure>(omega, Vector(u * Enclosure(2)));
+    return {turned_back(axes, d), turned_back(axes, u), turned_back(axes, gravity - frame)};
+  }
+};
+
 /// The joints of a case, at the precision in force when it is made.
 class Motion {
  public:
-  explicit Motion(const ExactCase& exact);
+  explicit Motion(const ExactCase& exact) : start_(enclosure_of(exact.start)) {
+    arb_const_pi(turn_.arb(), Precision::bits());
+    turn_ = turn_ + turn_;
+    const auto to_enclosure = [](const Quantity& number) { return enclosure_of(number); };
+    for (const auto& given : exact.joints) {
+      const Vector axis = enclosure_of(given.axis);
+      joints_.push_back({.rotates = given.rotates,
+                         .axis = axis / norm<Enclosure>(axis),
+                         .shift = enclosure_of(given.shift),
+                         .angle = enclosure_of(given.angle),
+                         .speed = enclosure_of(given.speed),
+                         .swings = model::converted_swings<Enclosure>(given.swings, to_enclosure)});
+    }
+  }
 
   /// @param time  [s] after the start of the case
-  Pose pose(const Enclosure& time) const;
-  /// @param position, velocity, gravity  inertial, of a ball in flight
-  static InVessel in_vessel(const Pose& pose, const Vector& position, const Vector& velocity,
-                            const Vector& gravity);
+  Pose pose(const Enclosure& time) const {
+    Pose pose;
+    const Enclosure clock = start_ + time;
+    for (const auto& joint : joints_) {
+      // [turns] or [m]
+      Enclosure value = joint.angle + joint.speed * clock, rate = joint.speed, second;
+      for (const auto& swing : joint.swings) {
+        const auto phase = sin_cos_turns(swing.frequency * clock + swing.phase);
+        const Enclosure speed = turn_ * swing.frequency, fastest = swing.amplitude * speed;
+        value += swing.amplitude * phase.sin;
+        rate += fastest * phase.cos;
+        second -= fastest * speed * phase.sin;
+      }
+      if (joint.rotates)
+        pose.rotate(joint.axis, value, rate * turn_, second * turn_);
+      else
+        pose.shift(joint.shift + joint.axis * value, joint.axis * rate, joint.axis * second);
+    }
+    return pose;
+  }
 
  private:
   struct Joint {
@@ -64,10 +145,15 @@ struct Flight {
   Vector velocity_at(const Enclosure& time, const Vector& gravity) const {
     return velocity + gravity * Enclosure(time - reference);
   }
+  /// In the vessel, which has this pose then.
+  InVessel seen(const Pose& pose, const Enclosure& time, const Vector& gravity) const {
+    return pose.seen(position_at(time, gravity), velocity_at(time, gravity), gravity);
+  }
+  /// With each component as `change` makes it.
+  Flight with_each(const auto& change) const {
+    return {reference, each(position, change), each(velocity, change), each(spin, change)};
+  }
 };
-
-/// With components of `bits` bits, each enclosing that of `flight`.
-Flight rounded(const Flight& flight, slong bits);
 
 /// A gap function: positive inside, zero in contact. [m] or [m^2]
 struct Gap {
@@ -78,12 +164,36 @@ struct Gap {
 class Walls {
  public:
   /// At the precision in force.
-  Walls(const ExactCase& exact, const ExactBall& ball);
+  Walls(const ExactCase& exact, const ExactBall& ball) {
+    const Enclosure radius = enclosure_of(ball.radius);
+    for (const auto& given : exact.walls) {
+      Wall& wall = walls_.emplace_back(Wall{given.kind, enclosure_of(given.normal), {}, {}, {}});
+      const Enclosure size = enclosure_of(given.size);
+      if (given.kind == ExactWall::plane) {
+        wall.length = norm<Enclosure>(wall.outward);
+        wall.offset = wall.length * (size - radius) + dot<Enclosure>(wall.outward, enclosure_of(given.point));
+      } else {
+        wall.room = size - radius;
+        wall.offset = wall.room * wall.room;
+      }
+    }
+  }
 
-  Gap gap(std::size_t wall, const InVessel& ball) const;
-  Enclosure value(std::size_t wall, const Vector& place) const;
+  Gap gap(std::size_t wall, const InVessel& ball) const {
+    const Wall& w = walls_[wall];
+    if (w.kind == ExactWall::plane)
+      return {w.offset - dot<Enclosure>(w.outward, ball.place), -dot<Enclosure>(w.outward, ball.velocity),
+              -dot<Enclosure>(w.outward, ball.acceleration)};
+    const Vector p = w.across(ball.place), u = w.across(ball.velocity), a = w.across(ball.acceleration);
+    return {w.offset - squared_norm<Enclosure>(p), -2 * dot<Enclosure>(p, u),
+            -2 * (squared_norm<Enclosure>(u) + dot<Enclosure>(p, a))};
+  }
   /// Unit, into the vessel, where the ball touches the wall with its centre at `place`.
-  Vector normal(std::size_t wall, const Vector& place) const;
+  Vector normal(std::size_t wall, const Vector& place) const {
+    const Wall& w = walls_[wall];
+    if (w.kind == ExactWall::plane) return -w.outward / w.length;
+    return -w.across(place) / w.room;
+  }
 
  private:
   struct Wall {
@@ -92,17 +202,14 @@ class Walls {
     Enclosure length;  ///< |n|
     Enclosure offset;  ///< |n| (distance - R) + n.point
     Enclosure room;    ///< R_v - R of round walls
+
+    /// Takes off what a round wall does not see: the component along a cylinder's axis, y.
+    Vector across(Vector v) const {
+      if (kind == ExactWall::cylinder) v[1] = Enclosure();
+      return v;
+    }
   };
   std::vector<Wall> walls_;
-};
-
-/// |r_i - r_j|^2 - (R_i + R_j)^2 of two balls in flight: a convex parabola, since both fall alike.
-struct PairGap {
-  Vector between, relative;  ///< r_i - r_j at a time, v_i - v_j
-  Enclosure square;          ///< (R_i + R_j)^2
-
-  Enclosure value() const { return squared_norm<Enclosure>(between) - square; }
-  Enclosure half_rate() const { return dot<Enclosure>(between, relative); }
 };
 
 /// A flight between two impacts.
@@ -120,7 +227,10 @@ class WallExclusion {
       : motion_(motion), walls_(walls), gravity_(gravity), span_(span) {}
 
   /// The windows: "r2p2p1". Empty when a bisection this deep does not prove it.
-  std::string windows(std::size_t wall);
+  std::string windows(std::size_t wall) {
+    std::string text;
+    return bisect(wall, 0, 0, text) ? text : "";
+  }
 
  private:
   static constexpr int deepest = 14;
@@ -129,8 +239,44 @@ class WallExclusion {
     Enclosure length_from_middle;
     InVessel middle, all;
   };
-  const Window& window(int depth, long index);
-  bool bisect(std::size_t wall, int depth, long index, std::string& text);
+
+  const Window& window(int depth, long index) {
+    const auto found = windows_.find({depth, index});
+    if (found != windows_.end()) return found->second;
+    const auto at = [&](long k) {
+      Enclosure share(static_cast<double>(k));
+      arb_mul_2exp_si(share.arb(), share.arb(), -depth);
+      return span_.begin + (span_.end - span_.begin) * share;
+    };
+    const Enclosure from = at(index), to = at(index + 1), middle = (from + to) / 2;
+    Enclosure all;
+    arb_union(all.arb(), from.arb(), to.arb(), Precision::bits());
+    const auto seen = [&](const Enclosure& time) {
+      return span_.flight.seen(motion_.pose(time), time, gravity_);
+    };
+    return windows_.emplace(std::pair(depth, index), Window{all - middle, seen(middle), seen(all)})
+        .first->second;
+  }
+
+  bool bisect(std::size_t wall, int depth, long index, std::string& text) {
+    const Window& w = window(depth, index);
+    const Gap middle = walls_.gap(wall, w.middle);
+    const Enclosure second = walls_.gap(wall, w.all).second, &s = w.length_from_middle;
+    Enclosure square;
+    arb_sqr(square.arb(), s.arb(), Precision::bits());
+    const Enclosure value = middle.value + middle.rate * s + second * square / 2,
+                    rate = middle.rate + second * s;
+    const bool first = index == 0, last = index + 1 == 1L << depth;
+    const auto leaf = [&](char kind) {
+      text += kind + std::to_string(depth);
+      return true;
+    };
+    if (value.is_positive()) return leaf('p');
+    if (first && span_.begin_wall == static_cast<int>(wall) && rate.is_positive()) return leaf('r');
+    if (last && span_.end_wall == static_cast<int>(wall) && rate.is_negative()) return leaf('f');
+    if (depth == deepest) return false;
+    return bisect(wall, depth + 1, 2 * index, text) && bisect(wall, depth + 1, 2 * index + 1, text);
+  }
 
   const Motion& motion_;
   const Walls& walls_;
@@ -139,8 +285,31 @@ class WallExclusion {
   std::map<std::pair<int, long>, Window> windows_;
 };
 
+/// |r_i - r_j|^2 - (R_i + R_j)^2 of two balls in flight: a convex parabola, since both fall alike.
+struct PairGap {
+  Vector between, relative;  ///< r_i - r_j at a time, v_i - v_j
+  Enclosure square;          ///< (R_i + R_j)^2
+
+  /// @param reach  R_i + R_j
+  PairGap(const Flight& one, const Flight& two, const Enclosure& reach, const Vector& gravity,
+          const Enclosure& time)
+      : between(one.position_at(time, gravity) - two.position_at(time, gravity)),
+        relative(one.velocity_at(time, gravity) - two.velocity_at(time, gravity)),
+        square(reach * reach) {}
+  Enclosure value() const { return squared_norm<Enclosure>(between) - square; }
+  Enclosure half_rate() const { return dot<Enclosure>(between, relative); }
+};
+
 /// Whether two flights are proven not to touch from `begin` to `end`.
-bool apart(const Flight& one, const Flight& two, const Enclosure& reach, const Vector& gravity,
-           const Enclosure& begin, const Enclosure& end);
+inline bool apart(const Flight& one, const Flight& two, const Enclosure& reach, const Vector& gravity,
+                  const Enclosure& begin, const Enclosure& end) {
+  const PairGap at_begin(one, two, reach, gravity, begin), at_end(one, two, reach, gravity, end);
+  const Enclosure value = at_begin.value(), half_rate = at_begin.half_rate();
+  if (value.is_positive() && half_rate.is_not_negative()) return true;
+  if (at_end.value().is_positive() && at_end.half_rate().is_not_positive()) return true;
+  // The tangent of a convex function lies below it.
+  if (value.is_positive() && (value + 2 * half_rate * (end - begin)).is_positive()) return true;
+  return less(half_rate * half_rate, squared_norm<Enclosure>(at_begin.relative) * value);
+}
 
 }  // namespace edmill::prove

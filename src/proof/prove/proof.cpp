@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 
 #include "base/errors.hpp"
 #include "model/mill.hpp"
@@ -26,12 +25,11 @@ Enclosure blurred(Enclosure value, slong bits, bool may_vanish) {
   return value;
 }
 Vector blurred(const Vector& v, slong bits, bool may_vanish) {
-  return {blurred(v[0], bits, may_vanish), blurred(v[1], bits, may_vanish), blurred(v[2], bits, may_vanish)};
+  return each(v, [&](const Enclosure& component) { return blurred(component, bits, may_vanish); });
 }
 
-Vector rounded_out(const Vector& v, slong bits) {
-  return {rounded_out(v[0], bits), rounded_out(v[1], bits), rounded_out(v[2], bits)};
-}
+/// A contact law at the precision in force.
+using Law = ContactLaw<Enclosure>;
 
 /// max(e_n a, v_s)
 Enclosure separation_speed(const Law& law, const Enclosure& approach) {
@@ -84,268 +82,309 @@ Impulse impulse(const Law& law, const Vector& normal, const Vector& contact, con
   return {normal * change - slip * gain, cross<Enclosure>(normal, slip) * gain, approach, slip_speed};
 }
 
-}  // namespace
-
-auto Prover::tools(const ExactCase& exact, slong bits) -> Tools {
-  const Precision scope(bits);
-  Tools result{bits, Motion(exact), enclosure_of(exact.gravity), {}, {}};
-  for (const auto& ball : exact.balls)
-    result.balls.push_back({Walls(exact, ball), enclosure_of(ball.radius), enclosure_of(ball.density),
-                            enclosure_of(ball.reduced_inertia)});
-  for (const auto& law : exact.laws)
-    result.laws.push_back({law.coulomb, enclosure_of(law.restitution), enclosure_of(law.tangential),
-                           enclosure_of(law.friction), enclosure_of(law.least_separation)});
-  return result;
-}
-
-Prover::Prover(const ExactCase& exact, slong bits)
-    : exact_(exact), bits_(bits), coarse_(tools(exact, coarse_bits)), fine_(tools(exact, bits + guard_bits)) {
-  const Precision scope(fine_.bits);
-  const Pose pose = fine_.motion.pose(Enclosure());
-  for (const auto& ball : exact.balls) {
-    Vector position = enclosure_of(ball.position);
-    if (ball.in_vessel) position = pose.centre + turned(pose.axes, position);
-    Track track;
-    track.flight = {Enclosure(), blurred(position, bits, false),
-                    blurred(enclosure_of(ball.velocity), bits, true),
-                    blurred(enclosure_of(ball.spin), bits, true)};
-    track.coarse = rounded(track.flight, coarse_bits);
-    tracks_.push_back(std::move(track));
-  }
-}
-
-slong Prover::accuracy() const {
-  slong least = bits_;
-  for (const auto& track : tracks_)
-    for (int k = 0; k < 3; ++k) {
-      const auto& component = track.flight.velocity[k];
-      if (!arb_is_exact(component.arb()))
-        least = std::min(least, -arf_abs_bound_lt_2exp_si(arb_midref(component.radius().arb())));
+/// The state of a proof after some events: all balls in flights that enclose the true ones.
+class Prover {
+ public:
+  /// @param bits  of the numbers that are kept; arithmetic has 64 more
+  Prover(const ExactCase& exact, slong bits)
+      : exact_(exact),
+        bits_(bits),
+        coarse_(tools(exact, coarse_bits)),
+        fine_(tools(exact, bits + guard_bits)) {
+    const Precision scope(fine_.bits);
+    const Pose pose = fine_.motion.pose(Enclosure());
+    for (const auto& ball : exact.balls) {
+      Vector position = enclosure_of(ball.position);
+      if (ball.in_vessel) position = pose.centre + turned(pose.axes, position);
+      Track track;
+      track.flight = {Enclosure(), blurred(position, bits, false),
+                      blurred(enclosure_of(ball.velocity), bits, true),
+                      blurred(enclosure_of(ball.spin), bits, true)};
+      track.coarse = coarse(track.flight);
+      tracks_.push_back(std::move(track));
     }
-  return least;
-}
-
-Gap Prover::gap_at(const Meeting& next, const Enclosure& time) const {
-  const Flight& one = tracks_[next.ball].flight;
-  if (next.with_wall) {
-    const auto seen = Motion::in_vessel(fine_.motion.pose(time), one.position_at(time, fine_.gravity),
-                                        one.velocity_at(time, fine_.gravity), fine_.gravity);
-    return fine_.balls[next.ball].walls.gap(next.partner, seen);
   }
-  const Flight& two = tracks_[next.partner].flight;
-  // The motion against each other is uniform: from the middle of a bracket without gravity.
-  const Enclosure middle = time.middle();
-  const Vector relative = one.velocity_at(middle, fine_.gravity) - two.velocity_at(middle, fine_.gravity);
-  PairGap pair{one.position_at(middle, fine_.gravity) - two.position_at(middle, fine_.gravity) +
-                   relative * Enclosure(time - middle),
-               relative, Enclosure()};
-  const Enclosure reach = fine_.balls[next.ball].radius + fine_.balls[next.partner].radius;
-  pair.square = reach * reach;
-  return {pair.value(), 2 * pair.half_rate(), 2 * squared_norm<Enclosure>(pair.relative)};
-}
 
-bool Prover::brackets(const Meeting& next, const Enclosure& time) const {
-  return gap_at(next, time.low()).value.is_positive() && gap_at(next, time.high()).value.is_negative() &&
-         gap_at(next, time).rate.is_negative();
-}
-
-/// Newton's method to the width of the flights, then an interval that is proven to hold the contact.
-Enclosure Prover::bracket(const Meeting& next) const {
-  Enclosure time = next.time, wide;
-  for (slong bits = 256;; bits = std::min(2 * bits, fine_.bits)) {
-    const Precision scope(std::min(bits, fine_.bits));
-    const Gap gap = gap_at(next, time);
-    const Enclosure step = gap.value / gap.rate;
-    if (!arb_is_finite(step.arb()) || !gap.rate.is_negative())
-      throw Undecided{"whether " + name_of(next) + " meet"};
-    time = Enclosure(time - step).middle();
-    wide = step;
-    if (bits >= fine_.bits && less(wide.middle() * wide.middle(), wide.radius() * wide.radius())) break;
-    if (bits >= fine_.bits && arb_is_exact(wide.arb())) break;
-  }
-  // The last step went to the middle; what is left is its radius.
-  Enclosure half = wide.radius() * Enclosure(1 + 0x1p-7);
-  for (const double factor : {1.0, 1.25, 2.0}) {
-    Enclosure found;
-    const auto room = half * Enclosure(factor);
-    const slong kept = arf_abs_bound_lt_2exp_si(arb_midref(time.arb())) -
-                       arf_abs_bound_lt_2exp_si(arb_midref(room.arb())) + 14;
-    arb_set_round(found.arb(), time.arb(), std::max<slong>(kept, 8));
-    found = found.middle();
-    arb_add_error(found.arb(), room.arb());
-    found = rounded_out(found, fine_.bits);
-    if (brackets(next, found)) return found;
-  }
-  throw Undecided{"when " + name_of(next) + " meet"};
-}
-
-std::vector<std::string> Prover::exclude_walls(int ball, const Enclosure& end, int end_wall) const {
-  const Track& track = tracks_[ball];
-  const Span quick{track.coarse, track.begin, end, track.wall, end_wall};
-  const Span exact{track.flight, track.begin, end, track.wall, end_wall};
-  WallExclusion first(coarse_.motion, coarse_.balls[ball].walls, coarse_.gravity, quick),
-      second(fine_.motion, fine_.balls[ball].walls, fine_.gravity, exact);
-  std::vector<std::string> texts;
-  for (std::size_t wall = 0; wall < exact_.walls.size(); ++wall) {
-    {
-      const Precision scope(coarse_.bits);
-      texts.push_back(first.windows(wall));
+  /// Proves that this is the next event, and goes on to its other side.
+  /// @throws Undecided
+  ProvenEvent take(const Meeting& next) {
+    const Precision scope(fine_.bits);
+    const Enclosure time = bracket(next);
+    if (!less(last_end_, time.low()))
+      throw Undecided{"whether " + name_of(next) + " meet after the event before"};
+    const Enclosure end = time.high();
+    std::vector<std::vector<std::string>> windows;
+    windows.push_back(exclude_walls(next.ball, end, next.with_wall ? next.partner : -1));
+    exclude_balls(next.ball, next.with_wall ? -1 : next.partner, end, events_);
+    if (!next.with_wall) {
+      windows.push_back(exclude_walls(next.partner, end, -1));
+      exclude_balls(next.partner, next.ball, end, events_);
     }
-    if (texts.back().empty()) texts.back() = second.windows(wall);
-    if (texts.back().empty())
-      throw Undecided{fmt::format("whether ball {} meets wall {} before", ball, wall)};
+    ProvenEvent event = next.with_wall ? impact_on_wall(next, time) : impact_of_balls(next, time);
+    event.windows = std::move(windows);
+    for (auto& flight : event.after)
+      flight = flight.with_each([&](const Enclosure& component) { return rounded_out(component, bits_); });
+    follow(event);
+    return event;
   }
-  return texts;
-}
 
-/// All flights of other balls that have not ended: those that end earlier asked for this one then.
-void Prover::exclude_balls(int ball, int partner, const Enclosure& end, long through) const {
-  const Track& track = tracks_[ball];
-  for (int k = 0; k < static_cast<int>(tracks_.size()); ++k) {
-    const Track& other = tracks_[k];
-    if (k == ball || k == partner) continue;
-    if (std::max(track.event, other.event) >= through) continue;
-    // Balls that have just left each other: their distance grows for ever.
-    if (track.with == k && other.with == ball && track.event == other.event) continue;
-    const Enclosure& begin = track.event > other.event ? track.begin : other.begin;
-    const auto proven_in = [&](const Tools& tools, Flight Track::*flight) {
-      const Precision scope(tools.bits);
-      return apart(track.*flight, other.*flight, tools.balls[ball].radius + tools.balls[k].radius,
-                   tools.gravity, begin, end);
+  /// Proves that the flights that have not ended meet nothing up to the end of the last bracket.
+  /// @return by ball, the windows by wall; none for the balls of the last event
+  std::vector<std::vector<std::string>> finish() {
+    const Precision scope(fine_.bits);
+    std::vector<std::vector<std::string>> windows(tracks_.size());
+    for (int k = 0; k < static_cast<int>(tracks_.size()); ++k) {
+      if (tracks_[k].event + 1 == events_ && events_ > 0) continue;
+      windows[k] = exclude_walls(k, last_end_, -1);
+      exclude_balls(k, -1, last_end_, events_ - 1);
+    }
+    return windows;
+  }
+
+  /// Bits that the radii leave of the least known velocity.
+  slong accuracy() const {
+    slong least = bits_;
+    for (const auto& track : tracks_)
+      for (int k = 0; k < 3; ++k) {
+        const auto& component = track.flight.velocity[k];
+        if (!arb_is_exact(component.arb()))
+          least = std::min(least, -arf_abs_bound_lt_2exp_si(arb_midref(component.radius().arb())));
+      }
+    return least;
+  }
+
+ private:
+  /// What arithmetic at one precision needs.
+  struct Tools {
+    struct Ball {
+      Walls walls;
+      Enclosure radius, density, inertia;
     };
-    if (!proven_in(coarse_, &Track::coarse) && !proven_in(fine_, &Track::flight))
-      throw Undecided{fmt::format("whether balls {} and {} meet before", ball, k)};
+    slong bits;
+    Motion motion;
+    Vector gravity;
+    std::vector<Ball> balls;
+    std::vector<Law> laws;
+  };
+  struct Track {
+    Flight flight, coarse;
+    Enclosure begin;           ///< lower end of the bracket of its first event
+    long event = -1;           ///< its number; -1 for the start
+    int wall = -1, with = -1;  ///< that it was an impact with
+    Enclosure since;           ///< when the flight began
+    int unmoved = 0;           ///< impacts in a row before which the ball had no time to move
+  };
+
+  static Tools tools(const ExactCase& exact, slong bits) {
+    const Precision scope(bits);
+    Tools result{bits, Motion(exact), enclosure_of(exact.gravity), {}, {}};
+    for (const auto& ball : exact.balls)
+      result.balls.push_back({Walls(exact, ball), enclosure_of(ball.radius), enclosure_of(ball.density),
+                              enclosure_of(ball.reduced_inertia)});
+    for (const auto& law : exact.laws)
+      result.laws.push_back({law.coulomb, enclosure_of(law.restitution), enclosure_of(law.tangential),
+                             enclosure_of(law.friction), enclosure_of(law.least_separation)});
+    return result;
   }
-}
 
-/// Counts the ball's impacts that came without time to move, for the rule on stalls.
-bool Prover::friction_rests(int ball, const Law& law, const Enclosure& time) {
-  Track& track = tracks_[ball];
-  if (has_moved(law, time - track.since)) {
-    track.unmoved = 0;
-    return false;
+  static Flight coarse(const Flight& flight) {
+    return flight.with_each([](const Enclosure& component) { return rounded(component, coarse_bits); });
   }
-  return ++track.unmoved > model::StallRule().impacts;
-}
 
-ProvenEvent Prover::impact_on_wall(const Meeting& next, const Enclosure& time) {
-  const int own = next.ball, wall = next.partner;
-  const Flight& flight = tracks_[own].flight;
-  const Tools::Ball& ball = fine_.balls[own];
-  const Enclosure middle = time.middle(), d = time - middle;
-  const Vector position = flight.position_at(middle, fine_.gravity),
-               velocity = flight.velocity_at(middle, fine_.gravity);
-  const Vector fast = velocity + fine_.gravity * d;
-  const Pose pose = fine_.motion.pose(time);
-  const auto seen = Motion::in_vessel(pose, position + fast * d, fast, fine_.gravity);
-  const Pose pose_at_middle = fine_.motion.pose(middle);
-  const Vector place = turned_back(pose_at_middle.axes, position - pose_at_middle.centre) + seen.velocity * d;
-  const Vector inward = ball.walls.normal(wall, place);
-  const Vector normal = turned(pose.axes, inward);
-  const Vector arm = turned(pose.axes, place - inward * ball.radius);
-  const Vector wall_velocity = pose.velocity + cross<Enclosure>(pose.omega, arm);
-  const Vector contact = fast - wall_velocity - cross<Enclosure>(flight.spin * ball.radius, normal);
-  const Law& law = fine_.laws[exact_.law_of_walls[own][wall]];
-  const auto hit = impulse(law, normal, contact, 1 + 1 / ball.inertia, friction_rests(own, law, time));
-  const Flight after{middle, position - hit.push * d, velocity + hit.push,
-                     flight.spin + hit.turn * Enclosure(1 / (ball.radius * ball.inertia))};
-  return {{next.ball, true, next.partner, time}, hit.approach_speed, hit.slip_speed, {after}, {}};
-}
-
-ProvenEvent Prover::impact_of_balls(const Meeting& next, const Enclosure& time) {
-  const int i = next.ball, j = next.partner;
-  const Flight &one = tracks_[i].flight, &two = tracks_[j].flight;
-  const Enclosure middle = time.middle(), d = time - middle;
-  const Vector g = fine_.gravity;
-  const Vector position[2] = {one.position_at(middle, g), two.position_at(middle, g)};
-  const Vector velocity[2] = {one.velocity_at(middle, g), two.velocity_at(middle, g)};
-  const Vector relative = velocity[0] - velocity[1];
-  const Tools::Ball &ball = fine_.balls[i], &partner = fine_.balls[j];
-  const Enclosure &R_i = ball.radius, &R_j = partner.radius, &J_i = ball.inertia, &J_j = partner.inertia;
-  const Vector normal = (position[0] - position[1] + relative * d) / Enclosure(R_i + R_j);
-  // Masses without 4/3 pi: only their ratios count.
-  const Enclosure m_i = ball.density * (R_i * R_i * R_i), m_j = partner.density * (R_j * R_j * R_j);
-  const Enclosure share_i = m_j / (m_i + m_j), share_j = m_i / (m_i + m_j);
-  const Enclosure compliance = 1 + share_i / J_i + share_j / J_j;
-  const Vector contact = relative - cross<Enclosure>(one.spin * R_i + two.spin * R_j, normal);
-  const Law& law = fine_.laws[exact_.law_of_balls[i][j]];
-  const bool rests_for_i = friction_rests(i, law, time), rests_for_j = friction_rests(j, law, time);
-  const auto hit = impulse(law, normal, contact, compliance, rests_for_i || rests_for_j);
-  const Vector push_i = hit.push * share_i, push_j = hit.push * share_j;
-  const Flight after_i{middle, position[0] - push_i * d, velocity[0] + push_i,
-                       one.spin + hit.turn * Enclosure(share_i / (R_i * J_i))};
-  const Flight after_j{middle, position[1] + push_j * d, velocity[1] - push_j,
-                       two.spin + hit.turn * Enclosure(share_j / (R_j * J_j))};
-  return {{next.ball, false, next.partner, time}, hit.approach_speed, hit.slip_speed, {after_i, after_j}, {}};
-}
-
-void Prover::follow(const ProvenEvent& event) {
-  const Enclosure begin = event.time.low();
-  for (std::size_t k = 0; k < event.after.size(); ++k) {
-    Track& track = tracks_[k == 0 ? event.ball : event.partner];
-    track.flight = event.after[k];
-    track.coarse = rounded(track.flight, coarse_bits);
-    track.begin = begin;
-    track.since = event.time;
-    track.event = events_;
-    track.wall = event.with_wall ? event.partner : -1;
-    track.with = event.with_wall ? -1 : k == 0 ? event.partner : event.ball;
+  Gap gap_at(const Meeting& next, const Enclosure& time) const {
+    const Flight& one = tracks_[next.ball].flight;
+    if (next.with_wall)
+      return fine_.balls[next.ball].walls.gap(next.partner,
+                                              one.seen(fine_.motion.pose(time), time, fine_.gravity));
+    const Flight& two = tracks_[next.partner].flight;
+    // The motion against each other is uniform: from the middle of a bracket without gravity.
+    const Enclosure middle = time.middle();
+    const Enclosure reach = fine_.balls[next.ball].radius + fine_.balls[next.partner].radius;
+    PairGap pair(one, two, reach, fine_.gravity, middle);
+    pair.between += pair.relative * Enclosure(time - middle);
+    return {pair.value(), 2 * pair.half_rate(), 2 * squared_norm<Enclosure>(pair.relative)};
   }
-  if (!event.with_wall && !gap_at({event.ball, false, event.partner, {}}, event.time).rate.is_positive())
-    throw Undecided{fmt::format("whether balls {} and {} leave each other", event.ball, event.partner)};
-  last_end_ = event.time.high();
-  ++events_;
-}
 
-ProvenEvent Prover::take(const Meeting& next) {
-  const Precision scope(fine_.bits);
-  const Enclosure time = bracket(next);
-  if (!less(last_end_, time.low()))
-    throw Undecided{"whether " + name_of(next) + " meet after the event before"};
-  const Enclosure end = time.high();
-  std::vector<std::vector<std::string>> windows;
-  windows.push_back(exclude_walls(next.ball, end, next.with_wall ? next.partner : -1));
-  exclude_balls(next.ball, next.with_wall ? -1 : next.partner, end, events_);
-  if (!next.with_wall) {
-    windows.push_back(exclude_walls(next.partner, end, -1));
-    exclude_balls(next.partner, next.ball, end, events_);
+  bool brackets(const Meeting& next, const Enclosure& time) const {
+    return gap_at(next, time.low()).value.is_positive() && gap_at(next, time.high()).value.is_negative() &&
+           gap_at(next, time).rate.is_negative();
   }
-  ProvenEvent event = next.with_wall ? impact_on_wall(next, time) : impact_of_balls(next, time);
-  event.windows = std::move(windows);
-  for (auto& flight : event.after)
-    for (auto* vector : {&flight.position, &flight.velocity, &flight.spin})
-      *vector = rounded_out(*vector, bits_);
-  follow(event);
-  return event;
-}
 
-std::vector<std::vector<std::string>> Prover::finish() {
-  const Precision scope(fine_.bits);
-  std::vector<std::vector<std::string>> windows(tracks_.size());
-  for (int k = 0; k < static_cast<int>(tracks_.size()); ++k) {
-    if (tracks_[k].event + 1 == events_ && events_ > 0) continue;
-    windows[k] = exclude_walls(k, last_end_, -1);
-    exclude_balls(k, -1, last_end_, events_ - 1);
+  /// Newton's method to the width of the flights, then an interval that is proven to hold the contact.
+  Enclosure bracket(const Meeting& next) const {
+    Enclosure time = next.time, wide;
+    for (slong bits = 256;; bits = std::min(2 * bits, fine_.bits)) {
+      const Precision scope(std::min(bits, fine_.bits));
+      const Gap gap = gap_at(next, time);
+      const Enclosure step = gap.value / gap.rate;
+      if (!arb_is_finite(step.arb()) || !gap.rate.is_negative())
+        throw Undecided{"whether " + name_of(next) + " meet"};
+      time = Enclosure(time - step).middle();
+      wide = step;
+      if (bits >= fine_.bits && less(wide.middle() * wide.middle(), wide.radius() * wide.radius())) break;
+      if (bits >= fine_.bits && arb_is_exact(wide.arb())) break;
+    }
+    // The last step went to the middle; what is left is its radius.
+    Enclosure half = wide.radius() * Enclosure(1 + 0x1p-7);
+    for (const double factor : {1.0, 1.25, 2.0}) {
+      const auto room = half * Enclosure(factor);
+      const slong kept = arf_abs_bound_lt_2exp_si(arb_midref(time.arb())) -
+                         arf_abs_bound_lt_2exp_si(arb_midref(room.arb())) + 14;
+      Enclosure found = rounded(time, std::max<slong>(kept, 8)).middle();
+      arb_add_error(found.arb(), room.arb());
+      found = rounded_out(found, fine_.bits);
+      if (brackets(next, found)) return found;
+    }
+    throw Undecided{"when " + name_of(next) + " meet"};
   }
-  return windows;
-}
 
-namespace {
+  std::vector<std::string> exclude_walls(int ball, const Enclosure& end, int end_wall) const {
+    const Track& track = tracks_[ball];
+    const Span quick{track.coarse, track.begin, end, track.wall, end_wall};
+    const Span exact{track.flight, track.begin, end, track.wall, end_wall};
+    WallExclusion first(coarse_.motion, coarse_.balls[ball].walls, coarse_.gravity, quick),
+        second(fine_.motion, fine_.balls[ball].walls, fine_.gravity, exact);
+    std::vector<std::string> texts;
+    for (std::size_t wall = 0; wall < exact_.walls.size(); ++wall) {
+      {
+        const Precision scope(coarse_.bits);
+        texts.push_back(first.windows(wall));
+      }
+      if (texts.back().empty()) texts.back() = second.windows(wall);
+      if (texts.back().empty())
+        throw Undecided{fmt::format("whether ball {} meets wall {} before", ball, wall)};
+    }
+    return texts;
+  }
+
+  /// All flights of other balls that have not ended: those that end earlier asked for this one then.
+  void exclude_balls(int ball, int partner, const Enclosure& end, long through) const {
+    const Track& track = tracks_[ball];
+    for (int k = 0; k < static_cast<int>(tracks_.size()); ++k) {
+      const Track& other = tracks_[k];
+      if (k == ball || k == partner) continue;
+      if (std::max(track.event, other.event) >= through) continue;
+      // Balls that have just left each other: their distance grows for ever.
+      if (track.with == k && other.with == ball && track.event == other.event) continue;
+      const Enclosure& begin = track.event > other.event ? track.begin : other.begin;
+      const auto proven_in = [&](const Tools& tools, Flight Track::*flight) {
+        const Precision scope(tools.bits);
+        return apart(track.*flight, other.*flight, tools.balls[ball].radius + tools.balls[k].radius,
+                     tools.gravity, begin, end);
+      };
+      if (!proven_in(coarse_, &Track::coarse) && !proven_in(fine_, &Track::flight))
+        throw Undecided{fmt::format("whether balls {} and {} meet before", ball, k)};
+    }
+  }
+
+  /// Counts the ball's impacts that came without time to move, for the rule on stalls.
+  bool friction_rests(int ball, const Law& law, const Enclosure& time) {
+    Track& track = tracks_[ball];
+    if (has_moved(law, time - track.since)) {
+      track.unmoved = 0;
+      return false;
+    }
+    return ++track.unmoved > model::StallRule().impacts;
+  }
+
+  ProvenEvent impact_on_wall(const Meeting& next, const Enclosure& time) {
+    const int own = next.ball, wall = next.partner;
+    const Flight& flight = tracks_[own].flight;
+    const Tools::Ball& ball = fine_.balls[own];
+    const Enclosure middle = time.middle(), d = time - middle;
+    const Vector position = flight.position_at(middle, fine_.gravity),
+                 velocity = flight.velocity_at(middle, fine_.gravity);
+    const Vector fast = velocity + fine_.gravity * d;
+    const Pose pose = fine_.motion.pose(time);
+    const auto seen = pose.seen(position + fast * d, fast, fine_.gravity);
+    const Pose pose_at_middle = fine_.motion.pose(middle);
+    const Vector place =
+        turned_back(pose_at_middle.axes, position - pose_at_middle.centre) + seen.velocity * d;
+    const Vector inward = ball.walls.normal(wall, place);
+    const Vector normal = turned(pose.axes, inward);
+    const Vector arm = turned(pose.axes, place - inward * ball.radius);
+    const Vector wall_velocity = pose.velocity + cross<Enclosure>(pose.omega, arm);
+    const Vector contact = fast - wall_velocity - cross<Enclosure>(flight.spin * ball.radius, normal);
+    const Law& law = fine_.laws[exact_.law_of_walls[own][wall]];
+    const auto hit = impulse(law, normal, contact, 1 + 1 / ball.inertia, friction_rests(own, law, time));
+    const Flight after{middle, position - hit.push * d, velocity + hit.push,
+                       flight.spin + hit.turn * Enclosure(1 / (ball.radius * ball.inertia))};
+    return {{next.ball, true, next.partner, time}, hit.approach_speed, hit.slip_speed, {after}, {}};
+  }
+
+  ProvenEvent impact_of_balls(const Meeting& next, const Enclosure& time) {
+    const int i = next.ball, j = next.partner;
+    const Flight &one = tracks_[i].flight, &two = tracks_[j].flight;
+    const Enclosure middle = time.middle(), d = time - middle;
+    const Vector g = fine_.gravity;
+    const Vector position[2] = {one.position_at(middle, g), two.position_at(middle, g)};
+    const Vector velocity[2] = {one.velocity_at(middle, g), two.velocity_at(middle, g)};
+    const Vector relative = velocity[0] - velocity[1];
+    const Tools::Ball &ball = fine_.balls[i], &partner = fine_.balls[j];
+    const Enclosure &R_i = ball.radius, &R_j = partner.radius, &J_i = ball.inertia, &J_j = partner.inertia;
+    const Vector normal = (position[0] - position[1] + relative * d) / Enclosure(R_i + R_j);
+    // Masses without 4/3 pi: only their ratios count.
+    const Enclosure m_i = ball.density * (R_i * R_i * R_i), m_j = partner.density * (R_j * R_j * R_j);
+    const Enclosure share_i = m_j / (m_i + m_j), share_j = m_i / (m_i + m_j);
+    const Enclosure compliance = 1 + share_i / J_i + share_j / J_j;
+    const Vector contact = relative - cross<Enclosure>(one.spin * R_i + two.spin * R_j, normal);
+    const Law& law = fine_.laws[exact_.law_of_balls[i][j]];
+    const bool rests_for_i = friction_rests(i, law, time), rests_for_j = friction_rests(j, law, time);
+    const auto hit = impulse(law, normal, contact, compliance, rests_for_i || rests_for_j);
+    const Vector push_i = hit.push * share_i, push_j = hit.push * share_j;
+    const Flight after_i{middle, position[0] - push_i * d, velocity[0] + push_i,
+                         one.spin + hit.turn * Enclosure(share_i / (R_i * J_i))};
+    const Flight after_j{middle, position[1] + push_j * d, velocity[1] - push_j,
+                         two.spin + hit.turn * Enclosure(share_j / (R_j * J_j))};
+    return {
+        {next.ball, false, next.partner, time}, hit.approach_speed, hit.slip_speed, {after_i, after_j}, {}};
+  }
+
+  void follow(const ProvenEvent& event) {
+    const Enclosure begin = event.time.low();
+    for (std::size_t k = 0; k < event.after.size(); ++k) {
+      Track& track = tracks_[k == 0 ? event.ball : event.partner];
+      track.flight = event.after[k];
+      track.coarse = coarse(track.flight);
+      track.begin = begin;
+      track.since = event.time;
+      track.event = events_;
+      track.wall = event.with_wall ? event.partner : -1;
+      track.with = event.with_wall ? -1 : k == 0 ? event.partner : event.ball;
+    }
+    if (!event.with_wall && !gap_at({event.ball, false, event.partner, {}}, event.time).rate.is_positive())
+      throw Undecided{fmt::format("whether balls {} and {} leave each other", event.ball, event.partner)};
+    last_end_ = event.time.high();
+    ++events_;
+  }
+
+  const ExactCase& exact_;
+  slong bits_;
+  Tools coarse_, fine_;
+  std::vector<Track> tracks_;
+  Enclosure last_end_;  ///< upper end of the last bracket
+  long events_ = 0;
+};
 
 constexpr slong first_bits = 128, spare_bits = 96;
 
-bool stopped(const ProofOptions& options) {
-  return options.interrupt && options.interrupt->load(std::memory_order_relaxed);
+/// Why there is no proof: no number of bits would help, or too many.
+struct Impossible {
+  std::string why;
+};
+
+void stop_if_asked(const ProofOptions& options) {
+  if (options.interrupt && options.interrupt->load(std::memory_order_relaxed)) throw InterruptedError();
 }
 
-/// All events at this number of bits, or as many as it decides.
-Attempt attempt(Proof& proof, const std::vector<Meeting>& next, slong bits, const ProofOptions& options) {
+/// All events at this number of bits, or as many as it decides. @return whether it decides all
+bool attempt(Proof& proof, const std::vector<Meeting>& next, slong bits, const ProofOptions& options) {
   Prover prover(proof.exact, bits);
-  Attempt result{bits, 0, ""};
+  Attempt& result = proof.attempts.emplace_back(Attempt{bits, 0, ""});
   proof.events.clear();
   try {
     for (const auto& candidate : next) {
-      if (stopped(options)) break;
+      stop_if_asked(options);
       proof.events.push_back(prover.take(candidate));
       ++result.events;
       if (options.progress) options.progress(bits, result.events);
@@ -356,22 +395,22 @@ Attempt attempt(Proof& proof, const std::vector<Meeting>& next, slong bits, cons
   } catch (const Undecided& undecided) {
     result.undecided = undecided.what;
   }
-  return result;
+  stop_if_asked(options);
+  return result.undecided.empty();
 }
 
-/// Where to look for each event: the first ones of a run in the widest scalar; none when it is interrupted.
+/// Where to look for each event: the first ones of a run in the widest scalar.
 /// @throws InputError when the case ends before
-std::vector<Meeting> candidates(const casefile::CaseSpec& spec, const ProofOptions& options,
-                                std::string& impossible) {
+std::vector<Meeting> candidates(const casefile::CaseSpec& spec, const ProofOptions& options) {
   const std::size_t collisions = options.collisions;
   const auto source = run::make_source("mpfr:" + std::to_string(placing_digits), spec, false);
   std::vector<run::Event> events;
-  while (events.size() < collisions && !stopped(options)) {
-    auto more = source->next(std::min<std::size_t>(64, collisions - events.size()));
-    if (more.empty()) break;
-    std::move(more.begin(), more.end(), std::back_inserter(events));
+  for (bool more = true; more && events.size() < collisions;) {
+    stop_if_asked(options);
+    const auto taken = source->next(std::min<std::size_t>(64, collisions - events.size()));
+    events.insert(events.end(), taken.begin(), taken.end());
+    more = !taken.empty();
   }
-  if (stopped(options)) return {};
   if (events.size() < collisions)
     throw InputError(fmt::format("{}: the case ends after {} collisions, {} are requested", spec.file,
                                  events.size(), collisions));
@@ -379,13 +418,11 @@ std::vector<Meeting> candidates(const casefile::CaseSpec& spec, const ProofOptio
   const Enclosure start = enclosure_of(spec.initial_time);
   std::vector<Meeting> list;
   for (const auto& event : events) {
-    if (event.by_rule) {
-      impossible = fmt::format(
+    if (event.by_rule)
+      throw Impossible{fmt::format(
           "event {}, ball {} and {} {} at {} s, has another contact of its ball at the same time: the "
           "equations do not say what comes next",
-          list.size(), event.ball, event.with_wall ? "wall" : "ball", event.partner, event.time.str(17));
-      return {};
-    }
+          list.size(), event.ball, event.with_wall ? "wall" : "ball", event.partner, event.time.str(17))};
     Enclosure time;
     arf_set_mpfr(arb_midref(time.arb()), event.time.data());
     list.push_back({event.ball, event.with_wall, event.partner, Enclosure(time - start).middle()});
@@ -398,30 +435,22 @@ std::vector<Meeting> candidates(const casefile::CaseSpec& spec, const ProofOptio
 Proof prove(const casefile::CaseSpec& spec, const ProofOptions& options) {
   Proof proof;
   proof.exact = exact_case(spec);
-  const auto next = candidates(spec, options, proof.impossible);
-  if ((proof.interrupted = stopped(options))) return proof;
-  if (!proof.impossible.empty()) return proof;
-  for (slong bits = first_bits;; bits *= 2) {
-    proof.attempts.push_back(attempt(proof, next, bits, options));
-    if ((proof.interrupted = stopped(options))) return proof;
-    if (proof.attempts.back().undecided.empty()) break;
-    if (2 * bits > options.most_bits) {
-      proof.impossible = fmt::format(
-          "event {}: {} bits do not tell {}; the contacts may be simultaneous, or the widest scalar has lost "
-          "the sequence",
-          proof.attempts.back().events, bits, proof.attempts.back().undecided);
-      return proof;
-    }
-  }
-  // A certificate need not be longer than the proof asks for.
-  const slong enough = (proof.bits - proof.accuracy + spare_bits + 31) / 32 * 32;
-  if (enough < proof.bits && enough > first_bits) {
-    const slong sure = proof.bits;
-    proof.attempts.push_back(attempt(proof, next, enough, options));
-    if ((proof.interrupted = stopped(options))) return proof;
-    if (!proof.attempts.back().undecided.empty())
-      proof.attempts.push_back(attempt(proof, next, sure, options));
-    proof.interrupted = stopped(options);
+  try {
+    const auto next = candidates(spec, options);
+    for (slong bits = first_bits; !attempt(proof, next, bits, options); bits *= 2)
+      if (2 * bits > options.most_bits)
+        throw Impossible{
+            fmt::format("event {}: {} bits do not tell {}; the contacts may be simultaneous, or the widest "
+                        "scalar has lost the sequence",
+                        proof.attempts.back().events, bits, proof.attempts.back().undecided)};
+    // A certificate need not be longer than the proof asks for.
+    const slong sure = proof.bits, enough = (sure - proof.accuracy + spare_bits + 31) / 32 * 32;
+    if (enough < sure && enough > first_bits && !attempt(proof, next, enough, options))
+      attempt(proof, next, sure, options);
+  } catch (const InterruptedError&) {
+    proof.interrupted = true;
+  } catch (const Impossible& found) {
+    proof.impossible = found.why;
   }
   return proof;
 }
