@@ -1,11 +1,16 @@
 #include "io/atomic_file.hpp"
 
 #include <fcntl.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <fstream>
+#include <random>
 
-#include "base/errors.hpp"
 #include "io/output_folder.hpp"
 
 namespace edmill::io {
@@ -13,6 +18,38 @@ namespace edmill::io {
 namespace fs = std::filesystem;
 
 namespace {
+
+bool all_digits(const std::string& text) {
+  return !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string::npos;
+}
+
+/// Calls visit(path) for a path and for what links make of it, until it answers true or no link is left.
+/// @return false when the links do not end
+bool follow(fs::path path, const auto& visit) {
+  std::error_code error;
+  for (int link = 0; link < 40; ++link) {
+    if (visit(path) || !fs::is_symlink(fs::symlink_status(path, error))) return true;
+    const auto target = fs::read_symlink(path, error);
+    if (error) return true;
+    path = target.is_absolute() ? target : path.parent_path() / target;
+  }
+  return false;
+}
+
+const std::string partial = ".partial-";
+
+/// A name in the same folder that no other file has.
+fs::path temporary_name(const fs::path& place) {
+  // Not the process id: runs in containers may share it.
+  static const std::string mark = partial + std::to_string(std::random_device()());
+  static std::atomic<int> count = 0;  // two files of one run can have the same path
+  return place.string() + mark + "-" + std::to_string(count++);
+}
+
+/// @return the new number, or -1 with errno
+int open_for_writing(const fs::path& file, int more_flags) {
+  return ::open(file.c_str(), O_WRONLY | O_CLOEXEC | more_flags, 0666);
+}
 
 /// The digest of `size` bytes of a file from `begin` on, which can go on; nothing where it is shorter.
 /// @param copy  where they are copied to, if anywhere
@@ -37,6 +74,174 @@ std::optional<Sha256> digest_of(const fs::path& file, std::uint64_t begin, std::
 }
 
 }  // namespace
+
+std::runtime_error not_written(const fs::path& place, int error) {
+  std::string why = "; the disk may be full";
+  if (error == EFBIG)
+    why = ": the file size limit is reached (ulimit -f)";
+  else if (error != 0 && error != ENOSPC && error != EDQUOT)
+    why = ": " + std::string(std::strerror(error));
+  return std::runtime_error(place.string() + ": could not be written" + why);
+}
+
+void throw_not_written(const fs::path& place, int error) {
+  if (error == EPIPE) throw PipeClosed(place.string() + ": nobody reads the pipe any more");
+  throw not_written(place, error);
+}
+
+FileBuffer::~FileBuffer() { drop(); }
+
+void FileBuffer::open(int descriptor, std::uint64_t size, Sha256 digest) {
+  drop();
+  descriptor_ = descriptor;
+  size_ = size;
+  error_ = 0;
+  digest_ = std::move(digest);
+  bytes_.resize(size_of_buffer);
+  setp(bytes_.data(), bytes_.data() + bytes_.size());
+}
+
+bool FileBuffer::close() {
+  sync();
+  if (descriptor_ >= 0 && ::close(descriptor_) != 0 && error_ == 0) error_ = errno;
+  descriptor_ = -1;
+  drop();
+  return error_ == 0;
+}
+
+void FileBuffer::drop() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  descriptor_ = -1;
+  setp(nullptr, nullptr);
+  std::vector<char>().swap(bytes_);
+}
+
+FileBuffer::int_type FileBuffer::overflow(int_type c) {
+  if (descriptor_ < 0 || sync() != 0) return traits_type::eof();
+  if (traits_type::eq_int_type(c, traits_type::eof())) return traits_type::not_eof(c);
+  return sputc(traits_type::to_char_type(c));
+}
+
+int FileBuffer::sync() {
+  if (error_ != 0) return -1;
+  for (const char* at = pbase(); at != pptr();) {
+    const auto written = ::write(descriptor_, at, static_cast<std::size_t>(pptr() - at));
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) {
+      error_ = errno;
+      return -1;
+    }
+    digest_.add({at, static_cast<std::size_t>(written)});
+    size_ += static_cast<std::uint64_t>(written);
+    at += written;
+  }
+  if (pbase()) setp(bytes_.data(), bytes_.data() + bytes_.size());
+  return 0;
+}
+
+std::optional<int> descriptor_named(const fs::path& path) {
+  std::optional<int> number;
+  const auto own = "/proc/" + std::to_string(::getpid()) + "/fd";
+  follow(path, [&](const fs::path& p) {
+    const auto folder = p.parent_path(), name = p.filename();
+    if (all_digits(name.string()) && (folder == "/dev/fd" || folder == "/proc/self/fd" ||
+                                      folder == "/proc/thread-self/fd" || folder == own))
+      number = std::stoi(name.string());
+    return number.has_value();
+  });
+  return number;
+}
+
+bool is_temporary(const std::string& name) {
+  const auto mark = name.rfind(partial);
+  const auto number = mark + partial.size();
+  return mark != std::string::npos && mark > 0 && number < name.size() &&
+         name.find_first_not_of("0123456789-", number) == std::string::npos;
+}
+
+Destination::Destination(fs::path given, fs::path beside) : named(std::move(given)), place(named) {
+  std::error_code error;
+  through = descriptor_named(named).has_value();
+  if (!through) {
+    const auto status = fs::status(named, error);
+    if (fs::is_directory(status))
+      throw InputError(named.string() + ": found a folder, expected a place for a file");
+    through = fs::exists(status) && !fs::is_regular_file(status);
+  }
+  const auto note = [&](const fs::path& path) {
+    place = path;
+    return false;
+  };
+  if (!through && !follow(named, note))
+    throw InputError(named.string() + ": found links that lead to each other, expected a place for a file");
+  beside_ = through ? fs::temp_directory_path(error) / "edmill" : beside.empty() ? place : std::move(beside);
+  temporary = temporary_name(beside_);
+}
+
+Destination::~Destination() {
+  std::error_code ignored;
+  if (!kept) fs::remove(temporary, ignored);  // absent after a commit
+}
+
+std::vector<fs::path> Destination::places() const {
+  if (through) return {};
+  return {named};
+}
+
+int Destination::open_through() const {
+  const auto number = descriptor_named(named);
+  if (!number) return open_for_writing(named, 0);
+  // The descriptor itself: a file that is opened again would be written from its beginning.
+  if (*number == STDOUT_FILENO) std::fflush(stdout);
+  return ::fcntl(*number, F_DUPFD_CLOEXEC, 3);
+}
+
+void Destination::commit() const {
+  if (!through) {
+    std::error_code error;
+    fs::rename(temporary, place, error);
+    if (error) throw not_written(place, error.value());
+    return;
+  }
+  FileBuffer out;
+  const int descriptor = open_through();
+  if (descriptor < 0) throw not_written(named, errno);
+  out.open(descriptor);
+  std::ifstream in(temporary, std::ios::binary);
+  std::ostream stream(&out);
+  if (in.peek() != std::ifstream::traits_type::eof()) stream << in.rdbuf();
+  if (!out.close() || in.bad()) throw_not_written(named, out.error());
+}
+
+void Destination::require_file() const {
+  if (through)
+    throw InputError(named.string() +
+                     ": found a device or a pipe, expected a file, since a resumed run continues it");
+}
+
+fs::path Destination::archive(Archive& a) {
+  std::string name = temporary.filename().string();
+  a(name);
+  kept = kept || !a.loading();
+  const std::string begin = beside_.filename().string() + partial;
+  if (!name.starts_with(begin) || !is_temporary(name))
+    throw InputError(beside_.string() + ": found '" + name +
+                     "' as the name of its temporary file, expected " + begin + "...");
+  return temporary.parent_path() / name;
+}
+
+void Destination::continue_with(const fs::path& left, bool is_kept) {
+  std::error_code ignored;
+  fs::remove(temporary, ignored);
+  temporary = left;
+  kept = is_kept;
+}
+
+InputError Destination::another_file() const {
+  return InputError(named.string() +
+                    ": found another file than the checkpoint was made with, expected the files as the run "
+                    "left them");
+}
 
 AtomicFile::AtomicFile(const fs::path& place, bool append, const fs::path& beside)
     : destination_(place, beside), append_(append) {

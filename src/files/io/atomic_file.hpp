@@ -1,19 +1,110 @@
-// Files that appear whole or not at all, alone or several together.
+// Files that appear whole or not at all, alone or several together; devices and pipes are written through.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <list>
 #include <optional>
 #include <ostream>
+#include <stdexcept>
+#include <streambuf>
 #include <string>
 #include <vector>
 
 #include "base/archive.hpp"
 #include "base/digest.hpp"
-#include "io/destination.hpp"
+#include "base/errors.hpp"
 
 namespace edmill::io {
+
+/// @param error  errno; 0 when it is not known
+std::runtime_error not_written(const std::filesystem::path& place, int error = 0);
+
+/// Nobody reads a pipe any more. What was to be written there is not wanted.
+class PipeClosed : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Throws PipeClosed, or what `not_written` returns.
+[[noreturn]] void throw_not_written(const std::filesystem::path& place, int error);
+
+/// Why it failed is known, and what was written is digested on the way.
+class FileBuffer : public std::streambuf {
+ public:
+  FileBuffer() = default;
+  FileBuffer(const FileBuffer&) = delete;
+  FileBuffer& operator=(const FileBuffer&) = delete;
+  /// Closes without writing what is still in the buffer.
+  ~FileBuffer() override;
+
+  /// Takes over a descriptor positioned after `size` bytes with this digest.
+  void open(int descriptor, std::uint64_t size = 0, Sha256 digest = {});
+  /// @return whether everything was written
+  bool close();
+  /// Discards the buffer and closes.
+  void drop();
+
+  int error() const { return error_; }  ///< errno of the first failure
+  /// Number of all bytes that were flushed, those before it was opened among them.
+  std::uint64_t size() const { return size_; }
+  std::string digest() const { return digest_.hex(); }
+
+ protected:
+  int_type overflow(int_type c) override;
+  int sync() override;
+
+ private:
+  static constexpr std::size_t size_of_buffer = 1 << 16;
+
+  std::vector<char> bytes_;
+  int descriptor_ = -1, error_ = 0;
+  std::uint64_t size_ = 0;
+  Sha256 digest_;
+};
+
+/// The number of this process's descriptor that a path names: /dev/stdout, /dev/fd/63, a link to one of them.
+std::optional<int> descriptor_named(const std::filesystem::path& path);
+
+/// Whether a name ends as those of temporary files do.
+bool is_temporary(const std::string& name);
+
+/// Where a file goes, and the temporary name under which it is made. A device, a pipe or a socket is written
+/// through. Anything else, also what a symbolic link points to, is replaced by a complete file.
+struct Destination {
+  std::filesystem::path named, place;  ///< as given; with links followed
+  bool through = false;
+  std::filesystem::path temporary;  ///< beside the place, or among the system's temporary files
+  bool kept = false;                ///< a checkpoint names the temporary file; else it is removed at the end
+
+  /// @param beside  where the temporary file is made, if not beside the place
+  /// @throws InputError for a folder and for links that lead nowhere
+  explicit Destination(std::filesystem::path given, std::filesystem::path beside = {});
+  Destination(const Destination&) = delete;
+  Destination& operator=(const Destination&) = delete;
+  ~Destination();
+
+  /// As it was given; nothing of what is written through.
+  std::vector<std::filesystem::path> places() const;
+  /// A descriptor of what is written through, or -1 with errno.
+  int open_through() const;
+  /// Moves the complete temporary file into place, or copies it through. @throws std::runtime_error
+  void commit() const;
+
+  /// @throws InputError for what is written through: a resumed run could not continue it
+  void require_file() const;
+  /// Saves the name of the temporary file. @return loading: the one that the run left, which may be gone
+  /// @throws InputError unless it is such a name: no other file is opened, changed or removed for it
+  std::filesystem::path archive(Archive& a);
+  /// Continues with the file that a run left, in place of its own. @param is_kept  a checkpoint names it
+  /// still
+  void continue_with(const std::filesystem::path& left, bool is_kept);
+  /// For a file that a run left with other bytes than its checkpoint says.
+  InputError another_file() const;
+
+ private:
+  std::filesystem::path beside_;
+};
 
 /// A file that is written under a temporary name in the same folder and moved into place by `commit`. Without
 /// it, the old file stays unchanged. Devices and pipes are written through.

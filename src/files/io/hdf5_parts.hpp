@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/destination.hpp"
+#include "io/atomic_file.hpp"
 #include "io/table.hpp"
 
 namespace edmill::io {

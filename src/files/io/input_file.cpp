@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "base/errors.hpp"
-#include "io/destination.hpp"
+#include "io/atomic_file.hpp"
 
 namespace edmill::io {
 

@@ -5,7 +5,7 @@
 
 #include "base/digest.hpp"
 #include "base/errors.hpp"
-#include "io/destination.hpp"
+#include "io/atomic_file.hpp"
 #include "io/hdf5_parts.hpp"
 #include "io/output_folder.hpp"
 
