@@ -11,23 +11,14 @@ namespace edmill::io {
 
 namespace {
 
-/// Lists every field of summary.json, a group of them a function, in the order of the file: with its unit and
-/// meaning. `Visit` is called with key, unit, meaning and value; its `group` has a group visited.
+/// Lists every field of summary.json in the order of the file: with its unit and meaning. `Visit` is called
+/// with key, unit, meaning and value; its `group` has a group visited.
 template <class Real, class Visit>
 struct FieldList {
   const Summary<Real>& s;
   Visit& v;
 
   void visit() {
-    visit_run();
-    visit_amounts();
-    visit_energy();
-    visit_intervals();
-    visit_ends();
-    visit_engine();
-  }
-
-  void visit_run() {
     const auto& p = s.provenance;
     v("format", "", "", "edmill summary 1");
     v("version", "", "of the program", p.version);
@@ -53,9 +44,7 @@ struct FieldList {
     v("start_time", "s", "of the statistics", s.start_time);
     v("end_time", "s", "of the statistics", s.end_time);
     v("duration", "s", "of the statistics", s.duration());
-  }
 
-  void visit_amounts() {
     v.group("collisions", "number", [&] {
       by_partner("1", [&](std::size_t k) { return s.collisions[k]; });
       v("total", "1", "of all", s.total_collisions());
@@ -79,9 +68,7 @@ struct FieldList {
       v("specific_milling_dose", "J/kg", "dose over the mass of the powder", dose);
       v("specific_milling_dose_rate", "W/kg", "", per_second(dose));
     }
-  }
 
-  void visit_energy() {
     v("wall_work", "J", "work of the walls on the balls", s.wall_work);
     v("wall_work_rate", "W", "", per_second(s.wall_work));
     v.group("energy", "of all balls", [&] {
@@ -102,15 +89,7 @@ struct FieldList {
     v.group("stalls",
             "impacts without friction since a ball was in a stall ([theory.md](theory.md), section 6)",
             [&] { visit_impacts(s.stall_impacts, s.stall_dose); });
-  }
-  void visit_impacts(std::uint64_t count, const Real& dose) {
-    v("impacts", "1", "number", count);
-    v("impact_share", "1", "of all impacts", ratio(number(count), number(s.total_collisions())));
-    v("milling_dose", "J", "of these impacts", dose);
-    v("milling_dose_share", "1", "of the whole dose", ratio(dose, s.milling_dose));
-  }
 
-  void visit_intervals() {
     const auto& i = s.intervals;
     v.group(
         "intervals",
@@ -146,9 +125,7 @@ struct FieldList {
             [&] {
               for (const auto& warning : s.warnings) v(warning.kind, "", "", warning.text);
             });
-  }
 
-  void visit_ends() {
     if (s.target)
       v.group("target", "if the case has `powder.target_dose`", [&] {
         v("dose", "J/kg", "wanted", s.target->dose);
@@ -174,9 +151,7 @@ struct FieldList {
         v("walls", "", "numbers", s.stall->walls);
         v("impacts", "1", "of these bodies at that time", s.stall->impacts);
       });
-  }
 
-  void visit_engine() {
     if (!s.notes.empty())
       v.group("notes",
               "numbers of further observers of every run "
@@ -215,6 +190,12 @@ struct FieldList {
   template <class Number>
   static Number ratio(const Number& part, const Number& whole) {
     return whole > 0 ? Number(part / whole) : Number(0);
+  }
+  void visit_impacts(std::uint64_t count, const Real& dose) {
+    v("impacts", "1", "number", count);
+    v("impact_share", "1", "of all impacts", ratio(number(count), number(s.total_collisions())));
+    v("milling_dose", "J", "of these impacts", dose);
+    v("milling_dose_share", "1", "of the whole dose", ratio(dose, s.milling_dose));
   }
   void by_partner(const char* unit, const auto& value_of) {
     for (int k = 0; k < s.partners.count(); ++k)
