@@ -1,7 +1,6 @@
 // What the readers need in double.
 #include "base/scalar_text.hpp"
 #include "casefile/build_case_impl.hpp"
-#include "io/final_state_impl.hpp"
 
 namespace edmill {
 template std::string to_text<double>(const double&);
@@ -10,5 +9,4 @@ template double casefile::Quantity::to<double>() const;
 template model::Mill<double> casefile::build_mill<double>(const casefile::CaseSpec&);
 template casefile::InitialCase<double> casefile::build_case_in<double>(const model::Mill<double>&,
                                                                        const casefile::CaseSpec&, bool);
-template io::SavedState<double> io::read_final_state<double>(const std::string&);
 }  // namespace edmill
