@@ -17,7 +17,7 @@ namespace {
 }  // namespace
 
 namespace io {
-Table<double>::Cells stored_texts(const std::vector<std::string>&) { refuse("a table as .h5", "HDF5"); }
+Table<double>::Cells stored(const std::vector<std::string>&) { refuse("a table as .h5", "HDF5"); }
 std::string hdf5_columns(const std::vector<StoredColumn>&, const std::vector<std::string>&,
                          const std::vector<FileNote>&) {
   refuse("a table as .h5", "HDF5");

@@ -104,7 +104,7 @@ void add_compound(hid_t file, const std::string& name, const DoubleTable& table)
 
 }  // namespace
 
-Table<double>::Cells stored_texts(const std::vector<std::string>& texts) {
+Table<double>::Cells stored(const std::vector<std::string>& texts) {
   if (auto integers = numbers_in<std::int64_t>(texts)) return std::move(*integers);
   if (const auto doubles = numbers_in<double>(texts)) return Numbers(doubles->begin(), doubles->end());
   return texts;

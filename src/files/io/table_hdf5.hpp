@@ -14,9 +14,12 @@ struct StoredColumn {
   Table<double>::Cells cells;
 };
 
+/// A column of texts that are all numbers, such as flags shown as 1 and 0, holds numbers.
+Table<double>::Cells stored(const std::vector<std::string>& texts);
+inline Table<double>::Cells stored(const std::vector<std::int64_t>& integers) { return integers; }
 /// Numbers in double, or as integers when all of them are whole.
 template <class Real>
-Table<double>::Cells stored_numbers(const std::vector<std::optional<Real>>& numbers) {
+Table<double>::Cells stored(const std::vector<std::optional<Real>>& numbers) {
   const auto whole = [](const std::optional<Real>& number) {
     using std::floor;
     return number && *number == floor(*number) && *number > Real(-1e16) && *number < Real(1e16);
@@ -32,9 +35,6 @@ Table<double>::Cells stored_numbers(const std::vector<std::optional<Real>>& numb
   return doubles;
 }
 
-/// A column of texts that are all numbers, such as flags shown as 1 and 0, holds numbers.
-Table<double>::Cells stored_texts(const std::vector<std::string>& texts);
-
 /// Bytes of an HDF5 file with a dataset for each column. No number is nan. Attributes of a dataset are its
 /// `title`, `unit` and `description`; those of the file are the notes, and the comments as `comment`.
 std::string hdf5_columns(const std::vector<StoredColumn>& columns, const std::vector<std::string>& comments,
@@ -42,20 +42,12 @@ std::string hdf5_columns(const std::vector<StoredColumn>& columns, const std::ve
 
 template <class Real>
 std::string hdf5_columns(const Table<Real>& table, const std::vector<FileNote>& notes) {
-  using Cells = Table<Real>;
-  std::vector<StoredColumn> stored;
+  std::vector<StoredColumn> columns;
   for (std::size_t k = 0; k < table.columns().size(); ++k) {
-    stored.push_back({table.columns()[k], Table<double>::Numbers{}});
-    if (table.rows() == 0) continue;
-    const auto& cells = table.cells(k);
-    if (const auto* texts = std::get_if<typename Cells::Texts>(&cells))
-      stored.back().cells = stored_texts(*texts);
-    else if (const auto* integers = std::get_if<typename Cells::Integers>(&cells))
-      stored.back().cells = *integers;
-    else
-      stored.back().cells = stored_numbers<Real>(std::get<typename Cells::Numbers>(cells));
+    const auto cells = std::visit([](const auto& values) { return stored(values); }, table.cells(k));
+    columns.push_back({table.columns()[k], table.rows() == 0 ? Table<double>::Numbers{} : cells});
   }
-  return hdf5_columns(stored, table.comments(), notes);
+  return hdf5_columns(columns, table.comments(), notes);
 }
 
 /// Bytes of an HDF5 file with a compound dataset for each table.
