@@ -111,23 +111,19 @@ FolderLock::~FolderLock() {
 }
 
 NamedFile::NamedFile(fs::path place) : place_(std::move(place)) {
-  if (Destination(place_).through) return;
+  if (place_.empty() || Destination(place_).through) return;
   folder_ = place_.has_parent_path() ? place_.parent_path() : ".";
   std::error_code ignored;
   if (fs::is_directory(folder_, ignored)) lock_.emplace(folder_, FolderLock::Kind::shared);
 }
 
 void NamedFile::write(const std::function<void(std::ostream&)>& put) {
+  if (place_.empty()) return;
   if (!folder_.empty() && place_.has_parent_path()) prepare_folder(folder_);
   if (!folder_.empty() && !lock_) lock_.emplace(folder_, FolderLock::Kind::shared);
   AtomicFile file(place_);
   put(file.stream());
   file.commit();
-}
-
-std::optional<NamedFile> file_for(const std::string& name) {
-  if (name.empty()) return std::nullopt;
-  return std::make_optional<NamedFile>(name);
 }
 
 void remove_temporaries(const fs::path& folder) {

@@ -36,6 +36,7 @@ class FolderLock {
 
 /// A file whose name a user has given, for one result: `--out`, `--json`, `--draw`, `--certificate`.
 /// To be made before the work whose result it takes: a folder that a run writes into is refused early.
+/// Without a name there is no file.
 class NamedFile {
  public:
   /// @throws InputError when a run is being written into its folder
@@ -44,14 +45,14 @@ class NamedFile {
   /// Writes the whole file, and makes the folders above it when they are absent.
   /// @throws InputError when it cannot be made, std::runtime_error when anything was not written
   void write(const std::function<void(std::ostream&)>& put);
+  void write(const std::string& text) {
+    write([&](std::ostream& out) { out << text; });
+  }
 
  private:
   std::filesystem::path place_, folder_;  ///< no folder where the place is written through
   std::optional<FolderLock> lock_;
 };
-
-/// The file of that name; none where it is empty.
-std::optional<NamedFile> file_for(const std::string& name);
 
 /// Removes temporary files of killed processes from a folder.
 /// @pre the caller holds the folder's lock

@@ -288,7 +288,7 @@ void write_comparison(const std::vector<std::string>& folders, const std::filesy
   std::vector<RunFolder> runs;
   for (const auto& folder : folders) runs.push_back(read_run_folder(folder));
   name_runs(runs);
-  io::NamedFile(file).write([&](std::ostream& out) { out << page_of_runs(runs); });
+  io::NamedFile(file).write(page_of_runs(runs));
 }
 
 std::string study_page(const study::Study& study, const std::string& kind, const std::string& finding) {

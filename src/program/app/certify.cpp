@@ -267,12 +267,12 @@ unsigned wider_than(unsigned digits) { return digits + std::max(20u, digits / 20
 Certification certify(const casefile::CaseSpec& spec, const CertifyOptions& options) try {
   if (options.collisions == 0 && !spec.end_time)
     throw InputError(spec.file + ": found no run.end_time, expected one, or a number of collisions");
-  auto file = io::file_for(options.file);
+  io::NamedFile file(options.file);
   Certifier certifier(spec, options);
   if (!certifier.by_fixed_scalars()) certifier.by_chosen_digits();
   auto result = std::move(certifier.result);
-  if (file && !result.events.empty())
-    file->write([&](std::ostream& out) { write_reference(out, spec, options, result); });
+  if (!result.events.empty())
+    file.write([&](std::ostream& out) { write_reference(out, spec, options, result); });
   return result;
 } catch (const InterruptedError&) {
   return {.interrupted = true};
@@ -343,15 +343,15 @@ std::size_t right_events(const std::string& precision, const casefile::CaseSpec&
 }
 
 Proven prove(const casefile::CaseSpec& spec, const ProveOptions& options) {
-  auto events = io::file_for(options.file), certificate = io::file_for(options.certificate);
+  io::NamedFile events(options.file), certificate(options.certificate);
   const auto begin = std::chrono::steady_clock::now();
   Proven result{prove::prove(spec, options)};
   result.proof.exact.name = one_line(result.proof.exact.name);
   const auto& proof = result.proof;
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (proof.interrupted || !proof.impossible.empty()) return result;
-  if (events) events->write([&](auto& out) { prove::write_events(out, proof, 27); });
-  if (certificate) certificate->write([&](auto& out) { prove::write_certificate(out, proof); });
+  events.write([&](auto& out) { prove::write_events(out, proof, 27); });
+  certificate.write([&](auto& out) { prove::write_certificate(out, proof); });
   return result;
 }
 

@@ -136,8 +136,8 @@ Bifurcation bifurcation(const casefile::CaseSpec& spec, const BifurcationOptions
   if (place.has_extension() && place.extension() != ".svg")
     throw InputError("--out: found \"" + options.file +
                      "\", expected the name of a drawing, .svg: its points stand beside it as .csv");
-  std::optional<io::NamedFile> table;
-  if (place.has_extension()) table.emplace(std::filesystem::path(place).replace_extension(".csv").string());
+  io::NamedFile table(place.has_extension() ? std::filesystem::path(place).replace_extension(".csv")
+                                            : "");  // none beside a device
   for (std::size_t step = 0; step < options.steps; ++step) {
     const double last = static_cast<double>(std::max<std::size_t>(options.steps - 1, 1));
     const double value = std::lerp(options.from, options.to, static_cast<double>(step) / last);  // exact ends
@@ -148,8 +148,7 @@ Bifurcation bifurcation(const casefile::CaseSpec& spec, const BifurcationOptions
     options.progress(step + 1);
   }
   drawing.write([&](std::ostream& out) { write_drawing(out, options, found); });
-  if (!table) return found;  // to a device
-  table->write([&](std::ostream& out) {
+  table.write([&](std::ostream& out) {
     out << "# case digest " << spec.digest << "\nvalue,phase,wall\n";
     for (const auto& point : found.points)
       out << fmt::format("{},{},{}\n", point.value, point.phase, point.wall);

@@ -369,7 +369,7 @@ Sensitivities sensitivity(const casefile::CaseSpec& spec, const SensitivityOptio
   if (options.digits > most_digits)
     throw InputError(fmt::format("--digits: found {}, expected at most {}: a derivative has no more",
                                  options.digits, most_digits));
-  auto file = io::file_for(options.file);
+  io::NamedFile file(options.file);
   Differentiator differentiator(spec, options);
   double digits = options.digits + 60.0;
   for (;;) {
@@ -379,7 +379,7 @@ Sensitivities sensitivity(const casefile::CaseSpec& spec, const SensitivityOptio
     digits = 1.1 * needed;
   }
   auto found = std::move(differentiator.result);
-  if (file && !found.interrupted) file->write([&](std::ostream& out) { write(out, spec, options, found); });
+  if (!found.interrupted) file.write([&](std::ostream& out) { write(out, spec, options, found); });
   return found;
 }
 

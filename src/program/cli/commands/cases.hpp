@@ -56,7 +56,7 @@ struct New {
     if (file_.empty())
       io::print("{}", text);
     else
-      io::NamedFile(file_).write([&](std::ostream& out) { out << text; });
+      io::NamedFile(file_).write(text);
     return ok;
   }
 

@@ -17,11 +17,6 @@
 
 namespace edmill::cli {
 
-/// Writes a text into a file; into none where the name is empty.
-inline void write_to(const std::string& name, const std::string& text) {
-  if (auto file = io::file_for(name)) file->write([&](std::ostream& out) { out << text; });
-}
-
 /// The value of an option that is a quantity with a unit, "50 us", in SI.
 inline double quantity_from(const std::string& name, const std::string& text, casefile::Dimension dimension) {
   const auto read = casefile::parse_quantity(text, dimension);
@@ -78,7 +73,7 @@ struct Export : CaseCommand<dem::DeckOptions> {
     const auto spec = given_.read();
     const auto deck = dem::make_deck(spec, options_);
     const std::filesystem::path folder(folder_);
-    for (const auto& file : deck.files) write_to((folder / file.name).string(), file.text);
+    for (const auto& file : deck.files) io::NamedFile(folder / file.name).write(file.text);
     if (quiet_) return ok;
     for (const auto& file : deck.files) io::print("wrote {}\n", (folder / file.name).string());
     for (const auto& note : deck.notes) io::print("note: {}\n", note);
@@ -128,6 +123,7 @@ struct Import : CaseCommand<dem::ImportOptions> {
   }
   int run() {
     options_.in_vessel = frame_ == "vessel";
+    if (out_.empty()) out_ = "contacts.csv";
     if (!axes_.empty()) options_.axes = dem::axes_from(axes_);
     for (std::size_t k = 0; k < shift_.size(); ++k)
       options_.origin[static_cast<Eigen::Index>(k)] =
@@ -149,7 +145,7 @@ struct Import : CaseCommand<dem::ImportOptions> {
   }
 
  private:
-  std::string out_ = "contacts.csv", frame_, axes_;
+  std::string out_, frame_, axes_;
   std::vector<std::string> shift_;
 };
 
@@ -173,8 +169,8 @@ struct Limit {
     std::optional<double> within;
     if (!within_.empty()) within = part_of_one("--within", within_);
     const auto limit = dem::limit_of(logs_, run_, from_, within);
-    write_to(json_, dem::to_json(limit));
-    write_to(svg_, dem::to_svg(limit));
+    io::NamedFile(json_).write(dem::to_json(limit));
+    io::NamedFile(svg_).write(dem::to_svg(limit));
     if (!quiet_) io::print("{}", dem::table(limit));
     return code_of(limit.to_edmill ? limit.to_edmill->verdict : compare::Verdict::not_compared);
   }

@@ -27,10 +27,10 @@ class Judgement {
   }
   /// Makes the files, then judges. @return the exit code
   int of(const auto& judge) const {
-    auto json = io::file_for(json_), junit = io::file_for(junit_);
+    io::NamedFile json(json_), junit(junit_);
     const app::Judged judged = judge();
-    if (json) json->write([&](std::ostream& out) { out << judged.json; });
-    if (junit) junit->write([&](std::ostream& out) { out << judged.junit; });
+    json.write(judged.json);
+    junit.write(judged.junit);
     if (!quiet) io::print("{}", judged.table);
     return code_of(judged.verdict);
   }
