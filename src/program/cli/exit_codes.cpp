@@ -15,7 +15,7 @@
 
 #include "base/errors.hpp"
 #include "casefile/memory_for.hpp"
-#include "io/destination.hpp"
+#include "io/atomic_file.hpp"
 #include "io/input_file.hpp"
 #include "io/terminal.hpp"
 
@@ -60,14 +60,8 @@ void note_hangup(int, char**, char**) { hangup_is_ignored = is_ignored(SIGHUP); 
 [[gnu::section(".preinit_array"), gnu::used]] void (*const before_libraries)(int, char**,
                                                                              char**) = note_hangup;
 
-}  // namespace
-
-void grow_stack() {
-  std::array<volatile char, 1 << 20> room;
-  const std::vector<char> as_much(2 * room.size());  // throws where the stack would end the program
-  for (std::size_t k = room.size(); k >= 4096; k -= 4096) room[k - 1] = as_much[k];
-}
-
+/// GMP ends the program when there is no memory; from here on it throws `std::bad_alloc`. Its functions are
+/// those of the whole process, so that the program may set them and the library may not.
 void throw_for_lack_of_memory() {
   mp_set_memory_functions(
       [](std::size_t size) { return or_throw(std::malloc(size)); },
@@ -75,20 +69,57 @@ void throw_for_lack_of_memory() {
       [](void* memory, std::size_t) { std::free(memory); });
 }
 
-void print_problem(const std::string& problem) {
-  std::string line;
-  for (const char c : problem)
-    line += std::iscntrl(static_cast<unsigned char>(c))
-                ? fmt::format("\\x{:02x}", static_cast<unsigned char>(c))
-                : std::string(1, c);
-  io::tell("edmill: {}\n", line);
+/// Gives the stack its size: one that cannot grow ends the program without a word.
+/// @throws std::bad_alloc
+[[gnu::noinline]] void grow_stack() {
+  std::array<volatile char, 1 << 20> room;
+  const std::vector<char> as_much(2 * room.size());  // throws where the stack would end the program
+  for (std::size_t k = room.size(); k >= 4096; k -= 4096) room[k - 1] = as_much[k];
 }
 
-int tell_undecided(const std::string& why) {
-  io::tell("edmill: {}; nothing is written\n", why);
-  return undecided;
+/// A standard descriptor that is closed is opened on /dev/null, so that no file gets its number. Using it
+/// fails all the same.
+void open_standard_descriptors() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) continue;
+    // The other way round, so that reading or writing fails; the lowest free number is this one.
+    if (::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) return;
+  }
 }
 
+/// From now on a write to a file that is too large, or to a pipe that nobody reads, fails in place of
+/// killing; a SIGHUP that the program was started with ignored, as by nohup, stays so, whatever libraries do.
+void begin_with_signals() {
+  if (hangup_is_ignored) std::signal(SIGHUP, SIG_IGN);
+  pipes_end_us = !is_ignored(SIGPIPE);
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+/// Ends the program as a pipe that nobody reads ends others; returns if it was ignored at the start.
+void end_by_pipe_signal() {
+  if (!pipes_end_us) return;
+  std::signal(SIGPIPE, SIG_DFL);
+  std::raise(SIGPIPE);
+}
+
+/// Whether all of standard output was written. When not, one message says why, unless its reader did not want
+/// more, which ends the program by SIGPIPE.
+/// @param code  of the command
+/// @return the exit code
+int after_output(int code) {
+  const int error = io::output_error();
+  // These have said what is wrong.
+  if (error == 0 || code == internal_error || code == bad_input || code == undecided) return code;
+  if (error == EPIPE) end_by_pipe_signal();
+  io::tell("edmill: standard output could not be written: {}\n", error == EBADF ? "it is closed"
+                                                                 : error == EFBIG
+                                                                     ? "file size limit (ulimit -f)"
+                                                                     : std::strerror(error));
+  return internal_error;
+}
+
+/// Does a command, and prints what it throws. @return the exit code
 int exit_code_of(const std::function<int()>& command) {
   const std::string no_memory = "found too little memory, expected more";
   try {
@@ -114,37 +145,30 @@ int exit_code_of(const std::function<int()>& command) {
   }
 }
 
-void open_standard_descriptors() {
-  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    if (::fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) continue;
-    // The other way round, so that reading or writing fails; the lowest free number is this one.
-    if (::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) return;
-  }
+}  // namespace
+
+void print_problem(const std::string& problem) {
+  std::string line;
+  for (const char c : problem)
+    line += std::iscntrl(static_cast<unsigned char>(c))
+                ? fmt::format("\\x{:02x}", static_cast<unsigned char>(c))
+                : std::string(1, c);
+  io::tell("edmill: {}\n", line);
 }
 
-int after_output(int code) {
-  const int error = io::output_error();
-  // These have said what is wrong.
-  if (error == 0 || code == internal_error || code == bad_input || code == undecided) return code;
-  if (error == EPIPE) end_by_pipe_signal();
-  io::tell("edmill: standard output could not be written: {}\n", error == EBADF ? "it is closed"
-                                                                 : error == EFBIG
-                                                                     ? "file size limit (ulimit -f)"
-                                                                     : std::strerror(error));
-  return internal_error;
+int tell_undecided(const std::string& why) {
+  io::tell("edmill: {}; nothing is written\n", why);
+  return undecided;
 }
 
-void begin_with_signals() {
-  if (hangup_is_ignored) std::signal(SIGHUP, SIG_IGN);
-  pipes_end_us = !is_ignored(SIGPIPE);
-  std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);
-}
-
-void end_by_pipe_signal() {
-  if (!pipes_end_us) return;
-  std::signal(SIGPIPE, SIG_DFL);
-  std::raise(SIGPIPE);
+int as_program(const std::function<int()>& command) {
+  throw_for_lack_of_memory();
+  open_standard_descriptors();
+  begin_with_signals();
+  return after_output(exit_code_of([&] {
+    grow_stack();
+    return command();
+  }));
 }
 
 std::atomic<bool>& interrupt_flag() { return flag; }

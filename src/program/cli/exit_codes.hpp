@@ -57,38 +57,15 @@ inline constexpr ExitCodeText exit_codes[] = {
      "interrupted by SIGHUP, SIGINT, SIGUSR1, SIGTERM or SIGXCPU: 128 and its number; the results so far are "
      "on disk, unless it came before the first event"}};
 
-/// GMP ends the program when there is no memory; from here on it throws `std::bad_alloc`. Its functions are
-/// those of the whole process, so that the program may set them and the library may not.
-void throw_for_lack_of_memory();
-/// Gives the stack its size: one that cannot grow ends the program without a word.
-/// @throws std::bad_alloc
-[[gnu::noinline]] void grow_stack();
-
 /// In one line; control characters are escaped.
 void print_problem(const std::string& problem);
 
 /// Says why a command has no result. @return the exit code
 int tell_undecided(const std::string& why);
 
-/// Does a command, and prints what it throws. @return the exit code
-int exit_code_of(const std::function<int()>& command);
-
-/// At the start: a standard descriptor that is closed is opened on /dev/null, so that no file gets its
-/// number. Using it fails all the same.
-void open_standard_descriptors();
-
-/// At the end: whether all of standard output was written. When not, one message says why, unless its reader
-/// did not want more, which ends the program by SIGPIPE.
-/// @param code  of the command
-/// @return the exit code
-int after_output(int code);
-
-/// At the start of the program: a write to a file that is too large, or to a pipe that nobody reads, fails in
-/// place of killing; a SIGHUP that the program was started with ignored, as by nohup, stays so, whatever
-/// libraries do.
-void begin_with_signals();
-/// Ends the program as a pipe that nobody reads ends others; returns if it was ignored at the start.
-void end_by_pipe_signal();
+/// Does a command as all that the program does: with its errors printed, and standard streams and signals as
+/// the program wants them. @return the exit code
+int as_program(const std::function<int()>& command);
 
 /// Becomes true at the first signal after `listen_for_signals`, or when another rank has seen one; a second
 /// SIGINT or SIGTERM ends the program at once.

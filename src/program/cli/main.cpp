@@ -150,12 +150,6 @@ class CommandLine {
 
 int main(int argc, char** argv) {
   const StandardArithmetic scope;
-  cli::throw_for_lack_of_memory();
-  cli::open_standard_descriptors();
-  cli::begin_with_signals();
   const io::Spool pipes;
-  return cli::after_output(cli::exit_code_of([&] {
-    cli::grow_stack();
-    return CommandLine().run(argc, argv);
-  }));
+  return cli::as_program([&] { return CommandLine().run(argc, argv); });
 }
