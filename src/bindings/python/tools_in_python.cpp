@@ -168,7 +168,7 @@ py::tuple prove(const Case& the_case, std::size_t collisions, long most_bits,
   options.collisions = collisions;
   options.most_bits = most_bits;
   options.certificate = certificate;
-  const auto proof = with_interrupt(options, app::prove, CaseAccess::spec(the_case)).proof;
+  const auto proof = with_interrupt(options, app::prove, CaseAccess::spec(the_case));
   if (!proof.impossible.empty()) throw UndecidedError(proof.impossible);
   std::ostringstream events;
   prove::write_events(events, proof, 40);

@@ -1,20 +1,24 @@
 #include "app/certify.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <future>
 
 #include "base/clean_text.hpp"
 #include "base/errors.hpp"
+#include "base/interruption.hpp"
 #include "base/version.hpp"
 #include "casefile/precisions.hpp"
 #include "io/input_file.hpp"
 #include "io/output_folder.hpp"
 #include "output/collision_log.hpp"
 #include "prove/proof.hpp"
+#include "run/watches.hpp"
 
 namespace edmill::app {
 
@@ -26,6 +30,11 @@ auto of_both(const auto& work) {
   auto later = std::async(std::launch::async, work, 1);
   auto first = work(0);
   return std::array{std::move(first), later.get()};
+}
+
+/// Name of a scalar.
+std::string chosen(double digits) {
+  return fmt::format("mpfr:{}", static_cast<unsigned>(std::clamp(digits, 60.0, double{most_digits})));
 }
 
 using run::Agreement;
@@ -44,27 +53,25 @@ Sequence first_events(const std::string& precision, const casefile::CaseSpec& sp
                       const CertifyOptions& options) {
   Sequence sequence{precision, {}};
   const auto begin = std::chrono::steady_clock::now();
-  const bool to_end = options.collisions == 0;
-  const auto source = run::make_source(precision, spec, to_end, options.interrupt);
-  while ((to_end || sequence.events.size() < options.collisions) && !stop_asked(options.interrupt)) {
-    const auto more =
-        source->next(to_end ? 64 : std::min<std::size_t>(64, options.collisions - sequence.events.size()));
+  auto& events = sequence.events;
+  const auto source = run::make_source(precision, spec, options.collisions == 0, options.interrupt);
+  while (const std::size_t left = options.left_after(events.size())) {
+    const auto more = source->next(std::min<std::size_t>(64, left));
+    Interruption::check();
     if (more.empty()) break;
-    sequence.events.insert(sequence.events.end(), more.begin(), more.end());
-    options.progress(precision, sequence.events.size());
+    events.insert(events.end(), more.begin(), more.end());
+    options.progress(precision, events.size());
   }
   sequence.collapsed = source->has_collapsed();
   sequence.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return sequence;
 }
 
-Agreement compare(const Sequence& one, const Sequence& two) {
-  Agreement agreement;
-  const std::size_t count = std::min(one.events.size(), two.events.size());
-  while (agreement.events() < count &&
-         agreement.take(one.events[agreement.events()], two.events[agreement.events()])) {
-  }
-  return agreement;
+/// Takes events of two runs as long as these have the same bodies. @return how many
+std::size_t take(Agreement& agreement, const std::vector<Event>& one, const std::vector<Event>& two) {
+  std::size_t same = 0;
+  while (same < std::min(one.size(), two.size()) && agreement.take(one[same], two[same])) ++same;
+  return same;
 }
 
 std::string digits_text(double digits) {
@@ -73,12 +80,12 @@ std::string digits_text(double digits) {
 
 void write_reference(std::ostream& out, const casefile::CaseSpec& spec, const CertifyOptions& options,
                      const Certification& found) {
-  out << "# edmill certified events 1\n"
-      << fmt::format("# case {}, digest {}\n", one_line(std::filesystem::path(spec.file).filename().string()),
-                     spec.digest)
-      << fmt::format("# edmill {} ({}), {}\n", version(), commit(), compiler())
-      << fmt::format("# {} events, each value correct to {} digits of the quantity's largest size\n",
-                     found.events.size(), options.digits);
+  out << fmt::format(
+      "# edmill certified events 1\n# case {}, digest {}\n# edmill {} ({}), {}\n# {} events, each value "
+      "correct "
+      "to {} digits of the quantity's largest size\n",
+      one_line(std::filesystem::path(spec.file).filename().string()), spec.digest, version(), commit(),
+      compiler(), found.events.size(), options.digits);
   for (const auto& pair : found.evidence) out << "# " << pair.text() << '\n';
   out << output::collision_log_header(false) << '\n';
   for (std::size_t k = 0; k < found.events.size(); ++k) {
@@ -101,14 +108,14 @@ class Certifier {
  public:
   Certifier(const casefile::CaseSpec& spec, const CertifyOptions& options) : spec_(spec), options_(options) {}
 
-  /// @return whether the matter is settled: certain, impossible, or interrupted
+  /// @return whether the matter is settled: certain or impossible
   bool by_fixed_scalars() {
     const auto& precisions = casefile::precisions();
     Sequence narrow = first_events(precisions.front(), spec_, options_);
     for (std::size_t k = 1; k < precisions.size(); ++k) {
       Sequence wide = first_events(precisions[k], spec_, options_);
-      if (is_interrupted()) return true;
-      const Agreement agreement = compare(narrow, wide);
+      Agreement agreement;
+      take(agreement, narrow.events, wide.events);
       tell({narrow.precision, wide.precision, agreement, narrow.seconds + wide.seconds});
       // A wider scalar follows a collapse for some events more.
       const bool collapsed = narrow.collapsed || wide.collapsed;
@@ -139,7 +146,6 @@ class Certifier {
   Certification result;
 
  private:
-  bool is_interrupted() { return result.interrupted = stop_asked(options_.interrupt); }
   void tell(Evidence evidence) {
     result.evidence.push_back(std::move(evidence));
     options_.found(result.evidence.back());
@@ -157,26 +163,24 @@ class Certifier {
   }
 
   bool side_by_side(unsigned digits, unsigned more) {
-    const auto name = [](unsigned n) { return fmt::format("mpfr:{}", n); };
     const auto begin = std::chrono::steady_clock::now();
-    SideBySide runs(spec_, name(digits), name(more), options_.collisions == 0, options_.interrupt);
+    SideBySide runs(spec_, chosen(digits), chosen(more), options_.collisions == 0, options_.interrupt);
     std::vector<Event> events;
     // The sequence is written with so many; each number of a long one with all its digits would fill the
     // memory.
     const mpfr::Digits kept(static_cast<unsigned>(options_.digits) + 10);
-    while (options_.collisions == 0 || events.size() < options_.collisions) {
-      if (is_interrupted()) return true;
-      const std::size_t left = options_.collisions == 0 ? 256 : options_.collisions - events.size();
+    while (const std::size_t left = options_.left_after(events.size())) {
       auto taken = runs.next(std::min<std::size_t>(256, left));
+      Interruption::check();
       if (taken.empty()) break;
       for (auto& event : taken) {
         for (std::size_t k = 0; k < model::logged_count; ++k) event[k] = event[k].rounded();
         events.push_back(std::move(event));
       }
-      options_.progress(name(more), events.size());
+      options_.progress(chosen(more), events.size());
     }
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-    tell({name(digits), name(more), runs.agreement(), took.count()});
+    tell({chosen(digits), chosen(more), runs.agreement(), took.count()});
     const bool all = !runs.diverged() && !runs.uneven();
     if (all) expected_ = events.size();
     return settles(all, runs.agreement(), events);
@@ -221,10 +225,8 @@ std::vector<run::Event> SideBySide::next(std::size_t count) {
   if (diverged_ || uneven_) return {};
   auto [one, two] = of_both([&](int k) { return sources_[k]->next(count); });
   if (interrupt_ && *interrupt_) return {};
-  const std::size_t shared = std::min(one.size(), two.size());
-  std::size_t same = 0;
-  while (same < shared && agreement_.take(one[same], two[same])) ++same;
-  if (same < shared)
+  const std::size_t same = take(agreement_, one, two);
+  if (same < std::min(one.size(), two.size()))
     diverged_ = {one[same], two[same]};
   else  // a wider scalar follows a collapse for some events more
     uneven_ = one.size() != two.size() && !sources_[0]->has_collapsed() && !sources_[1]->has_collapsed();
@@ -268,6 +270,7 @@ Certification certify(const casefile::CaseSpec& spec, const CertifyOptions& opti
   if (options.collisions == 0 && !spec.end_time)
     throw InputError(spec.file + ": found no run.end_time, expected one, or a number of collisions");
   io::NamedFile file(options.file);
+  const Interruption scope(options.interrupt);
   Certifier certifier(spec, options);
   if (!certifier.by_fixed_scalars()) certifier.by_chosen_digits();
   auto result = std::move(certifier.result);
@@ -287,14 +290,14 @@ void require_wider(const std::string& precision, const std::string& wider, const
 Shadow shadow(const casefile::CaseSpec& spec, const std::string& precision, const std::string& wider,
               const std::atomic<bool>* interrupt) {
   SideBySide runs(spec, precision, wider, true, interrupt);
-  while (!stop_asked(interrupt) && !runs.next(64).empty()) {
+  while (!runs.next(64).empty()) {
   }
   return {.narrow = precision,
           .wide = wider,
           .agreement = runs.agreement(),
           .diverged = runs.diverged(),
           .uneven = runs.uneven(),
-          .interrupted = stop_asked(interrupt),
+          .interrupted = interrupt && *interrupt,
           .balls = spec.ball_count()};
 }
 
@@ -325,6 +328,225 @@ std::string Shadow::text() const {
   return out;
 }
 
+namespace {
+
+/// Events to the end of the case: a run in double has about as many as the true motion.
+double count_events(const casefile::CaseSpec& spec, const DigitsOptions& options) {
+  constexpr double longest = 5;  // [s] of processor time
+  const auto source = run::make_source("double", spec, true, options.interrupt);
+  const double begin = run::cpu_seconds(), first = source->reached();
+  double events = 0;
+  for (;;) {
+    const auto more = source->pass(1024);
+    Interruption::check();
+    if (more == 0) return events;
+    events += static_cast<double>(more);
+    if (spec.end_time && run::cpu_seconds() - begin > longest)
+      return events * (spec.end_time->to<double>() - first) / (source->reached() - first);
+    options.progress("double", static_cast<std::size_t>(events), events);
+  }
+}
+
+std::string by_rule(const run::Event& event) {
+  return fmt::format(
+      "a rule and not the equations orders two contacts of ball {} at {} s: no number of digits decides it",
+      event.ball, event.time.str(17));
+}
+
+/// Finds the decimal digits that an event costs, by two runs with many digits: up to where they are lost, or
+/// where `enough` of them are.
+void find_lost_digits(RunEstimate& e, double enough, const casefile::CaseSpec& spec,
+                      const DigitsOptions& options) try {
+  constexpr unsigned digits = 200;
+  constexpr std::size_t most = 30000;
+  SideBySide runs(spec, chosen(digits), chosen(wider_than(digits)), true, options.interrupt);
+  const auto& agreement = runs.agreement();
+  const auto lost = [&] {
+    return runs.diverged() ? digits : std::max(0.0, digits - agreement.least_digits());
+  };
+  bool all = false;
+  std::vector<double> times;
+  while (agreement.events() < most && lost() < enough) {
+    const auto events = runs.next(256);
+    Interruption::check();
+    all = events.empty() && !runs.diverged();
+    if (events.empty()) break;
+    for (const auto& event : events) {
+      if (event.by_rule && e.undecided.empty()) e.undecided = by_rule(event);
+      times.push_back(static_cast<double>(event.time));
+    }
+    options.progress(chosen(digits), agreement.events(), double{most});
+  }
+  const auto events = static_cast<double>(agreement.events());
+  if (!(events > 0)) return;
+  e.lost_per_event = lost() / events;
+  if (e.precision == "double") return;
+  // Few balls can rest longer, and hop more often, in the true motion than in double: it goes on as in the
+  // later half of the time so far.
+  const double first = times.front(), reached = times.back(), half = (first + reached) / 2;
+  if (all) {
+    e.events = events;
+  } else if (spec.end_time && reached > first) {
+    const double end = spec.end_time->to<double>();
+    const auto later = times.end() - std::upper_bound(times.begin(), times.end(), half);
+    const double rate = std::max(static_cast<double>(later) / (reached - half), e.events / (end - first));
+    e.events = events + rate * std::max(0.0, end - reached);
+  }
+} catch (const UndecidedError& error) {
+  e.undecided = error.what();
+}
+
+/// The part of an estimate that a run in right digits needs: how many.
+RunEstimate estimate_digits(const casefile::CaseSpec& spec, const std::string& precision,
+                            const DigitsOptions& options) {
+  RunEstimate e;
+  const std::clock_t begin = std::clock();
+  e.precision = precision;
+  e.events = count_events(spec, options);
+  find_lost_digits(e, precision.empty() ? 200 : 40, spec, options);
+  if (precision.empty()) {
+    e.digits = *spec.digits;
+    // A twentieth more, since events differ, and the first bits are lost at once.
+    e.precision = chosen(static_cast<double>(e.digits) + 1.05 * e.lost_per_event * e.events + 15);
+  }
+  e.right_events = e.lost_per_event > 0 ? casefile::digits_of(e.precision) / e.lost_per_event : 1e300;
+  e.trials = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  return e;
+}
+
+/// Processor time of an event [s], when the balls have begun to collide.
+double time_per_event(const std::string& precision, const casefile::CaseSpec& spec,
+                      const DigitsOptions& options) {
+  constexpr double longest = 2;  // [s] of processor time
+  const auto source = run::make_source(precision, spec, true, options.interrupt);
+  source->pass(64);
+  const double begin = run::cpu_seconds();
+  double took = 0;
+  std::size_t events = 0;
+  while (took < longest) {
+    const auto more = source->pass(64);
+    Interruption::check();
+    if (more == 0) break;
+    events += more;
+    took = run::cpu_seconds() - begin;
+    options.progress(precision, events, static_cast<double>(events));
+  }
+  return events == 0 ? 0 : took / static_cast<double>(events);
+}
+
+/// Processor time of a run that drops the digits that it has lost, relative to one that keeps all: by
+/// Simpson's rule.
+double share_of_verifying(const RunEstimate& e, const casefile::CaseSpec& spec,
+                          const DigitsOptions& options) {
+  const double first = casefile::digits_of(e.precision), last = first - e.lost_per_event * e.events;
+  const auto time_with = [&](double digits) { return time_per_event(chosen(digits), spec, options); };
+  return (e.seconds_per_event + 4 * time_with((first + last) / 2) + time_with(last)) /
+         (6 * e.seconds_per_event);
+}
+
+std::uint64_t most_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024 * static_cast<std::uint64_t>(usage.ru_maxrss);
+}
+
+std::string duration(double seconds) {
+  if (seconds < 60) return fmt::format("{:.1f} s", seconds);
+  if (seconds < 3600) return fmt::format("{:.1f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+}  // namespace
+
+RunEstimate estimate_run(const casefile::CaseSpec& spec, const std::string& precision,
+                         const DigitsOptions& options) try {
+  const Interruption scope(options.interrupt);
+  RunEstimate e = estimate_digits(spec, precision, options);
+  // A run in right digits is made in the wider of the two that agree.
+  const auto made_in = precision.empty()
+                           ? chosen(wider_than(static_cast<unsigned>(casefile::digits_of(e.precision))))
+                           : precision;
+  e.seconds_per_event = time_per_event(made_in, spec, options);
+  if (precision.empty() && e.seconds_per_event > 0) e.verifying = 2 * share_of_verifying(e, spec, options);
+  e.bytes = most_memory();
+  e.outputs = !spec.outputs.empty();
+  return e;
+} catch (const InterruptedError&) {
+  return {.interrupted = true};
+}
+
+std::string RunEstimate::text() const {
+  std::string out;
+  const auto row = [&](const char* name, const std::string& value) {
+    out += fmt::format("{:<15} {}\n", name, value);
+  };
+  row("events", fmt::format("about {:.0f}", events));
+  row("digits lost", fmt::format("{:.4f} per event", lost_per_event));
+  if (digits > 0)
+    row("precision", fmt::format("{}, for {} right digits at the end", precision, digits));
+  else
+    row("precision", precision + (right_events > events
+                                      ? ", which lasts to the end"
+                                      : fmt::format(", used up after about {:.0f} events", right_events)));
+  row("processor time",
+      duration(cpu_seconds()) + (verifying > 0 || outputs ? " for the run" : "") +
+          (outputs ? " without its outputs" : "") +
+          (verifying > 0 ? fmt::format(", and {} before it to find the digits and verify them",
+                                       duration(trials + verifying * cpu_seconds()))
+                         : ""));
+  row("memory", fmt::format("{:.0f} MB", static_cast<double>(bytes) / 1e6));
+  if (!undecided.empty()) row("undecided", undecided);
+  return out;
+}
+
+double FoundDigits::left() const { return std::min(agreement.least_digits(), states); }
+
+std::uint64_t FoundDigits::right() const {
+  return static_cast<std::uint64_t>(std::min(left(), casefile::digits_of(narrow)));
+}
+
+std::string FoundDigits::text() const {
+  return fmt::format("{} and {}: all {} events and the states at their end agree to {} digits ({:.1f} s)\n",
+                     narrow, precision, agreement.events(), right(), seconds);
+}
+
+FoundDigits find_digits(const casefile::CaseSpec& spec, const DigitsOptions& options) try {
+  const Interruption scope(options.interrupt);
+  const auto begin = std::chrono::steady_clock::now();
+  FoundDigits found;
+  const auto estimate = estimate_digits(spec, "", options);
+  found.undecided = estimate.undecided;
+  const double asked = static_cast<double>(*spec.digits);
+  for (double digits = casefile::digits_of(estimate.precision);
+       digits < most_digits && found.undecided.empty();) {
+    found.narrow = chosen(digits);
+    found.precision = chosen(wider_than(static_cast<unsigned>(digits)));
+    SideBySide runs(spec, found.narrow, found.precision, true, options.interrupt);
+    for (bool more = true; more;) {
+      const auto events = runs.next(256);
+      Interruption::check();
+      for (const auto& event : events)
+        if (event.by_rule && found.undecided.empty()) found.undecided = by_rule(event);
+      more = !events.empty() && found.undecided.empty();
+      options.progress(found.precision, runs.agreement().events(), estimate.events);
+    }
+    found.agreement = runs.agreement();
+    found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const bool all = !runs.diverged() && !runs.uneven();
+    found.states = all ? runs.digits_of_states() : 0;
+    if (!found.undecided.empty()) break;
+    if (all && found.left() >= asked) return found;
+    const double events = std::max(1.0, static_cast<double>(found.agreement.events()));
+    const double lost = all ? digits - found.left() : digits * std::max(1.0, estimate.events / events);
+    digits = std::max(1.2 * digits, asked + 1.05 * lost + 15);
+  }
+  if (found.undecided.empty()) found.undecided = fmt::format("{} digits do not suffice", most_digits);
+  found.precision.clear();
+  return found;
+} catch (const InterruptedError&) {
+  return {.interrupted = true};
+}
+
 std::size_t right_events(const std::string& precision, const casefile::CaseSpec& spec,
                          const prove::Proof& proof) {
   const auto source = run::make_source(precision, spec, false);
@@ -342,17 +564,13 @@ std::size_t right_events(const std::string& precision, const casefile::CaseSpec&
   return right;
 }
 
-Proven prove(const casefile::CaseSpec& spec, const ProveOptions& options) {
+prove::Proof prove(const casefile::CaseSpec& spec, const ProveOptions& options) {
   io::NamedFile events(options.file), certificate(options.certificate);
-  const auto begin = std::chrono::steady_clock::now();
-  Proven result{prove::prove(spec, options)};
-  result.proof.exact.name = one_line(result.proof.exact.name);
-  const auto& proof = result.proof;
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  if (proof.interrupted || !proof.impossible.empty()) return result;
+  auto proof = prove::prove(spec, options);
+  if (proof.interrupted || !proof.impossible.empty()) return proof;
   events.write([&](auto& out) { prove::write_events(out, proof, 27); });
   certificate.write([&](auto& out) { prove::write_certificate(out, proof); });
-  return result;
+  return proof;
 }
 
 std::vector<std::string> check_certificate(const casefile::CaseSpec& spec, const std::string& certificate) {

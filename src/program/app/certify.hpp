@@ -18,10 +18,6 @@
 
 namespace edmill::app {
 
-inline bool stop_asked(const std::atomic<bool>* interrupt) {
-  return interrupt && interrupt->load(std::memory_order_relaxed);
-}
-
 /// Two runs that advance together, each on a thread of its own. Where their digits are chosen, both keep as
 /// many as the narrower one has right, by their agreement so far, and some more: the error that this adds to
 /// it is small beside its own.
@@ -76,6 +72,11 @@ struct CertifyOptions {
   const std::atomic<bool>* interrupt = nullptr;
   std::function<void(const std::string& precision, std::size_t events)> progress = [](const auto&, auto) {};
   std::function<void(const Evidence&)> found = [](const auto&) {};  ///< called with each pair of scalars
+
+  /// How many more are wanted.
+  std::size_t left_after(std::size_t events) const {
+    return collisions == 0 ? SIZE_MAX : collisions - events;
+  }
 };
 
 struct Certification {
@@ -171,13 +172,8 @@ struct ProveOptions : prove::ProofOptions {
   std::string file, certificate;  ///< of the events and of the certificate; none when empty
 };
 
-struct Proven {
-  prove::Proof proof;
-  double seconds = 0;
-};
-
 /// Nothing is written where the events cannot be proven, or the proof is interrupted.
-Proven prove(const casefile::CaseSpec& spec, const ProveOptions& options);
+prove::Proof prove(const casefile::CaseSpec& spec, const ProveOptions& options);
 
 /// How many of the proven events a scalar gets right, from the first on.
 std::size_t right_events(const std::string& precision, const casefile::CaseSpec& spec,

@@ -6,7 +6,6 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "base/archive.hpp"
 #include "casefile/case_spec.hpp"

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "base/clean_text.hpp"
 #include "base/errors.hpp"
 #include "base/scalar_list.hpp"
 #include "base/wide_trigonometry.hpp"
@@ -127,12 +128,10 @@ QuantityVector exact_place(const Vec3<mpfr>& local, const QuantityVector& room, 
 }
 
 ExactBall ball_of(const casefile::BallSpec& spec) {
-  ExactBall ball;
-  ball.radius = spec.diameter / 2;
-  ball.density = spec.density;
-  ball.reduced_inertia = spec.reduced_inertia;
-  ball.velocity = spec.velocity;
-  return ball;
+  return {.radius = spec.diameter / 2,
+          .density = spec.density,
+          .reduced_inertia = spec.reduced_inertia,
+          .velocity = spec.velocity};
 }
 
 void add_batches(const CaseSpec& spec, const std::optional<QuantityVector>& half, std::vector<int>& materials,
@@ -172,7 +171,7 @@ ExactCase exact_case(const CaseSpec& spec) {
     throw InputError(spec.file +
                      ": key 'run.initial_state': found a saved state, expected the balls of the case");
   ExactCase result;
-  result.name = std::filesystem::path(spec.file).filename().string();
+  result.name = one_line(std::filesystem::path(spec.file).filename().string());
   result.digest = spec.digest;
   result.start = spec.initial_time;
   result.gravity = spec.gravity;

@@ -223,8 +223,8 @@ struct Span {
 class WallExclusion {
  public:
   /// @param motion, walls  for the ball; arithmetic is that of the precision in force
-  WallExclusion(const Motion& motion, const Walls& walls, const Vector& gravity, const Span& span)
-      : motion_(motion), walls_(walls), gravity_(gravity), span_(span) {}
+  WallExclusion(const Motion& motion, const Walls& walls, const Vector& gravity, Span span)
+      : motion_(motion), walls_(walls), gravity_(gravity), span_(std::move(span)) {}
 
   /// The windows: "r2p2p1". Empty when a bisection this deep does not prove it.
   std::string windows(std::size_t wall) {
@@ -281,7 +281,7 @@ class WallExclusion {
   const Motion& motion_;
   const Walls& walls_;
   const Vector& gravity_;
-  const Span& span_;
+  Span span_;
   std::map<std::pair<int, long>, Window> windows_;
 };
 

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 
 #include "base/errors.hpp"
+#include "base/interruption.hpp"
 #include "model/mill.hpp"
 #include "run/event_source.hpp"
 
@@ -14,7 +16,8 @@ namespace {
 
 constexpr slong coarse_bits = 64, guard_bits = 64;
 
-std::string name_of(const Meeting& next) {
+/// Of a meeting or an event.
+std::string name_of(const auto& next) {
   return fmt::format("ball {} and {} {}", next.ball, next.with_wall ? "wall" : "ball", next.partner);
 }
 
@@ -240,10 +243,11 @@ class Prover {
 
   std::vector<std::string> exclude_walls(int ball, const Enclosure& end, int end_wall) const {
     const Track& track = tracks_[ball];
-    const Span quick{track.coarse, track.begin, end, track.wall, end_wall};
-    const Span exact{track.flight, track.begin, end, track.wall, end_wall};
-    WallExclusion first(coarse_.motion, coarse_.balls[ball].walls, coarse_.gravity, quick),
-        second(fine_.motion, fine_.balls[ball].walls, fine_.gravity, exact);
+    const auto exclusion = [&](const Tools& tools, const Flight& flight) {
+      return WallExclusion(tools.motion, tools.balls[ball].walls, tools.gravity,
+                           {flight, track.begin, end, track.wall, end_wall});
+    };
+    auto first = exclusion(coarse_, track.coarse), second = exclusion(fine_, track.flight);
     std::vector<std::string> texts;
     for (std::size_t wall = 0; wall < exact_.walls.size(); ++wall) {
       {
@@ -373,10 +377,6 @@ struct Impossible {
   std::string why;
 };
 
-void stop_if_asked(const ProofOptions& options) {
-  if (options.interrupt && options.interrupt->load(std::memory_order_relaxed)) throw InterruptedError();
-}
-
 /// All events at this number of bits, or as many as it decides. @return whether it decides all
 bool attempt(Proof& proof, const std::vector<Meeting>& next, slong bits, const ProofOptions& options) {
   Prover prover(proof.exact, bits);
@@ -384,7 +384,7 @@ bool attempt(Proof& proof, const std::vector<Meeting>& next, slong bits, const P
   proof.events.clear();
   try {
     for (const auto& candidate : next) {
-      stop_if_asked(options);
+      Interruption::check();
       proof.events.push_back(prover.take(candidate));
       ++result.events;
       if (options.progress) options.progress(bits, result.events);
@@ -395,7 +395,7 @@ bool attempt(Proof& proof, const std::vector<Meeting>& next, slong bits, const P
   } catch (const Undecided& undecided) {
     result.undecided = undecided.what;
   }
-  stop_if_asked(options);
+  Interruption::check();
   return result.undecided.empty();
 }
 
@@ -406,10 +406,10 @@ std::vector<Meeting> candidates(const casefile::CaseSpec& spec, const ProofOptio
   const auto source = run::make_source("mpfr:" + std::to_string(placing_digits), spec, false);
   std::vector<run::Event> events;
   for (bool more = true; more && events.size() < collisions;) {
-    stop_if_asked(options);
     const auto taken = source->next(std::min<std::size_t>(64, collisions - events.size()));
     events.insert(events.end(), taken.begin(), taken.end());
     more = !taken.empty();
+    Interruption::check();
   }
   if (events.size() < collisions)
     throw InputError(fmt::format("{}: the case ends after {} collisions, {} are requested", spec.file,
@@ -419,10 +419,11 @@ std::vector<Meeting> candidates(const casefile::CaseSpec& spec, const ProofOptio
   std::vector<Meeting> list;
   for (const auto& event : events) {
     if (event.by_rule)
-      throw Impossible{fmt::format(
-          "event {}, ball {} and {} {} at {} s, has another contact of its ball at the same time: the "
-          "equations do not say what comes next",
-          list.size(), event.ball, event.with_wall ? "wall" : "ball", event.partner, event.time.str(17))};
+      throw Impossible{
+          fmt::format("event {}, {} at {} s, has another contact of its ball at the same time: the equations "
+                      "do not say what "
+                      "comes next",
+                      list.size(), name_of(event), event.time.str(17))};
     Enclosure time;
     arf_set_mpfr(arb_midref(time.arb()), event.time.data());
     list.push_back({event.ball, event.with_wall, event.partner, Enclosure(time - start).middle()});
@@ -433,8 +434,10 @@ std::vector<Meeting> candidates(const casefile::CaseSpec& spec, const ProofOptio
 }  // namespace
 
 Proof prove(const casefile::CaseSpec& spec, const ProofOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
   Proof proof;
   proof.exact = exact_case(spec);
+  const Interruption scope(options.interrupt);
   try {
     const auto next = candidates(spec, options);
     for (slong bits = first_bits; !attempt(proof, next, bits, options); bits *= 2)
@@ -452,6 +455,7 @@ Proof prove(const casefile::CaseSpec& spec, const ProofOptions& options) {
   } catch (const Impossible& found) {
     proof.impossible = found.why;
   }
+  proof.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return proof;
 }
 

@@ -49,6 +49,7 @@ struct Proof {
   std::vector<std::vector<std::string>> open_windows;  ///< of the flights at the end, by ball and wall
   slong accuracy = 0;  ///< bits after the point of the least known velocity at the end
   std::vector<Attempt> attempts;
+  double seconds = 0;  ///< that it took
   bool interrupted = false;
   std::string impossible;  ///< why the model itself cannot say what comes next, or no scalar knows where to
                            ///< look; no proof then

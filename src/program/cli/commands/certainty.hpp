@@ -88,8 +88,7 @@ struct Prove : CaseCommand<app::ProveOptions> {
       if (events % 16 == 0)
         line.show(fmt::format("{} bits: {} of {} events ", bits, events, options.collisions));
     };
-    const auto result = app::prove(spec, options);
-    const auto& proof = result.proof;
+    const auto proof = app::prove(spec, options);
     line.clear();
     if (!quiet_)
       for (const auto& attempt : proof.attempts)
@@ -101,7 +100,7 @@ struct Prove : CaseCommand<app::ProveOptions> {
     io::print("proven: {} events in {} bits, {:.2f} bits lost per event ({:.1f} s)\n", proof.events.size(),
               proof.bits,
               static_cast<double>(proof.bits - proof.accuracy) / static_cast<double>(proof.events.size()),
-              result.seconds);
+              proof.seconds);
     if (compare_)
       for (const auto& precision : casefile::precisions())
         io::print("{:<9} {} events right\n", precision, app::right_events(precision, spec, proof));
