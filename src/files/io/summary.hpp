@@ -123,11 +123,25 @@ struct Summary {
 template <class Real>
 Facts facts_of(const Summary<Real>& summary);
 /// @throws InputError when the field is none
-model::EndReason end_reason_of(const Facts& summary);
+inline model::EndReason end_reason_of(const Facts& f) {
+  constexpr const char *key = "end_reason", *expected = "why the run ended";
+  const auto reason = model::end_reason_named(f.text(key, expected));
+  if (!reason) throw f.wrong(key, expected);
+  return *reason;
+}
+/// Of all balls at an end of the record, the larger one [J].
+inline double kinetic_energy_of(const Facts& f) {
+  return std::max(f.number("energy/kinetic_start"), f.number("energy/kinetic_end"));
+}
 /// What the shares of supplied energy and closure are of: "dose" or "kinetic energy".
-const char* energy_scale_of(const Facts& summary);
+inline const char* energy_scale_of(const Facts& f) {
+  return f.number("milling_dose") < kinetic_energy_of(f) ? "kinetic energy" : "dose";
+}
 /// False where the dose is the rounding of elastic impacts.
-bool has_dose(const Facts& summary);
+inline bool has_dose(const Facts& f) {
+  const double dose = f.number("milling_dose");
+  return dose * 1e9 > std::max(dose, kinetic_energy_of(f));
+}
 
 /// When a run stalled, which bodies, and what helps.
 template <class Real>
