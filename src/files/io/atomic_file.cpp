@@ -152,6 +152,13 @@ std::optional<int> descriptor_named(const fs::path& path) {
   return number;
 }
 
+bool is_device(const fs::path& path) {
+  std::error_code ignored;
+  const auto status = fs::status(path, ignored);
+  return descriptor_named(path) ||
+         (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status));
+}
+
 bool is_temporary(const std::string& name) {
   const auto mark = name.rfind(partial);
   const auto number = mark + partial.size();
@@ -159,15 +166,11 @@ bool is_temporary(const std::string& name) {
          name.find_first_not_of("0123456789-", number) == std::string::npos;
 }
 
-Destination::Destination(fs::path given, fs::path beside) : named(std::move(given)), place(named) {
+Destination::Destination(fs::path given, fs::path beside)
+    : named(std::move(given)), place(named), through(is_device(named)) {
   std::error_code error;
-  through = descriptor_named(named).has_value();
-  if (!through) {
-    const auto status = fs::status(named, error);
-    if (fs::is_directory(status))
-      throw InputError(named.string() + ": found a folder, expected a place for a file");
-    through = fs::exists(status) && !fs::is_regular_file(status);
-  }
+  if (!through && fs::is_directory(named, error))
+    throw InputError(named.string() + ": found a folder, expected a place for a file");
   const auto note = [&](const fs::path& path) {
     place = path;
     return false;

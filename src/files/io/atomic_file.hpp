@@ -66,6 +66,9 @@ class FileBuffer : public std::streambuf {
 /// The number of this process's descriptor that a path names: /dev/stdout, /dev/fd/63, a link to one of them.
 std::optional<int> descriptor_named(const std::filesystem::path& path);
 
+/// Whether a path names a device, a pipe or a socket, if only by a descriptor.
+bool is_device(const std::filesystem::path& path);
+
 /// Whether a name ends as those of temporary files do.
 bool is_temporary(const std::string& name);
 

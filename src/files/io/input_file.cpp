@@ -120,12 +120,7 @@ class Spooled {
 
 }  // namespace
 
-bool is_stream(const std::string& path) {
-  if (descriptor_of(path)) return true;
-  std::error_code ignored;
-  const auto status = fs::status(path, ignored);
-  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
-}
+bool is_stream(const std::string& path) { return path == "-" || is_device(path); }
 
 bool is_readable(const std::string& path) {
   std::error_code ignored;

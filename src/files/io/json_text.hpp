@@ -1,6 +1,8 @@
 // JSON for other programs, in order and with numbers of any precision, which common libraries do not write.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <functional>
 #include <string>
@@ -79,12 +81,7 @@ class JsonText {
     std::string out = "\"";
     for (const char c : clean_text(value)) {
       if (c == '"' || c == '\\') out += '\\';
-      if (static_cast<unsigned char>(c) < 0x20) {
-        constexpr char digits[] = "0123456789abcdef";
-        out += std::string("\\u00") + digits[(c >> 4) & 15] + digits[c & 15];
-      } else {
-        out += c;
-      }
+      out += static_cast<unsigned char>(c) < 0x20 ? fmt::format("\\u{:04x}", int{c}) : std::string(1, c);
     }
     return out + "\"";
   }
