@@ -104,52 +104,42 @@ std::string problem_of(const CLI::App& app, const std::vector<std::string>& word
   return fmt::format("{} (see {})", text, help);
 }
 
-class CommandLine {
- public:
-  CommandLine() {
-    app_.set_version_flag("--version", version_text());
-    app_.require_subcommand(1);
-    std::string codes = "Exit codes:";
-    for (const auto& row : cli::exit_codes) codes += fmt::format("\n  {:<9} {}", row.code, row.meaning);
-    app_.footer(codes);
-    std::apply([this](auto&... command) { (add(command), ...); }, commands_);
-  }
-
-  /// @return the exit code
-  int run(int argc, char** argv) {
-    try {
-      app_.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-      if (error.get_exit_code() == 0) {  // --help, --version
-        std::ostringstream text;
-        app_.exit(error, text, text);
-        io::print("{}", text.str());
-        return cli::ok;
-      }
-      cli::print_problem(problem_of(app_, {argv + 1, argv + argc}, error));
-      return cli::bad_input;
+/// Does what the command line says. @return the exit code
+int run_command_line(int argc, char** argv) {
+  CLI::App app{"edmill: event-driven simulation of ball mills, a validated reference solver"};
+  app.set_version_flag("--version", version_text());
+  app.require_subcommand(1);
+  std::string codes = "Exit codes:";
+  for (const auto& row : cli::exit_codes) codes += fmt::format("\n  {:<9} {}", row.code, row.meaning);
+  app.footer(codes);
+  Commands commands;
+  std::vector<std::pair<CLI::App*, std::function<int()>>> added;
+  const auto add = [&](auto& command) {
+    added.emplace_back(app.add_subcommand(command.name, command.what), [&command] { return command.run(); });
+    command.add_options(*added.back().first);
+  };
+  std::apply([&](auto&... command) { (add(command), ...); }, commands);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) {  // --help, --version
+      std::ostringstream text;
+      app.exit(error, text, text);
+      io::print("{}", text.str());
+      return cli::ok;
     }
-    for (const auto& [parsed, run] : added_)
-      if (*parsed) return run();
-    return cli::internal_error;
+    cli::print_problem(problem_of(app, {argv + 1, argv + argc}, error));
+    return cli::bad_input;
   }
-
- private:
-  void add(auto& command) {
-    auto* added = app_.add_subcommand(command.name, command.what);
-    command.add_options(*added);
-    added_.emplace_back(added, [&] { return command.run(); });
-  }
-
-  CLI::App app_{"edmill: event-driven simulation of ball mills, a validated reference solver"};
-  Commands commands_;
-  std::vector<std::pair<CLI::App*, std::function<int()>>> added_;
-};
+  for (const auto& [parsed, command] : added)
+    if (*parsed) return command();
+  return cli::internal_error;
+}
 
 }  // namespace
 
 int main(int argc, char** argv) {
   const StandardArithmetic scope;
   const io::Spool pipes;
-  return cli::as_program([&] { return CommandLine().run(argc, argv); });
+  return cli::as_program([&] { return run_command_line(argc, argv); });
 }
