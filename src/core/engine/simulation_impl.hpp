@@ -1,4 +1,5 @@
-// Implementation of Simulation: set-up, saving, states; included by the instantiation files only.
+// Implementation of Simulation: set-up, saving, states, and the loop; included by the instantiation files
+// only.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +8,6 @@
 
 #include "base/errors.hpp"
 #include "base/interruption.hpp"
-#include "engine/loop_impl.hpp"
 #include "engine/simulation.hpp"
 
 namespace edmill::engine {
@@ -206,6 +206,540 @@ model::Energy<Real> Simulation<Real>::energy_at(const Instant<Real>& when) const
   for (int i = 0; i < ball_count(); ++i)
     energy += model::energy_of<Real>(properties(i), state_at(i, when), mill_.gravity);
   return energy;
+}
+
+// The loop: the next event, which of contacts that are close in time is first, impacts, and what comes next
+// for a ball.
+
+/// Processes every event up to `end`.
+template <class Real>
+EndReason Simulation<Real>::run_until(const Instant<Real>& end, const std::atomic<bool>* interrupt) try {
+  const Interruption scope(interrupt);
+  stop_.reset();
+  for (int next = queue_.top(); queue_.time(next) <= end; next = queue_.top()) {
+    if (interrupt && interrupt->load(std::memory_order_relaxed)) return EndReason::interrupted;
+    const auto event = event_of(next);  // of near ties the first
+    const auto prefetching = prefetcher_.scope();
+    now_ = event.time;
+    switch (event.kind) {
+      case EventKind::void_contact:
+        drop_void_contact(event.ball);
+        break;
+      case EventKind::cell_crossing:
+        cross_cell(event.ball);
+        break;
+      case EventKind::wall_horizon:
+        continue_wall_search(event.ball, now_);
+        break;
+      case EventKind::wall_contact:
+      case EventKind::pair_contact: {
+        const auto impact = collide(event);
+        notify(impact);
+        if (stop_ != EndReason::inelastic_collapse) predict(impact);
+      }
+    }
+    if (stop_) return *stop_;
+  }
+  now_ = end;
+  return EndReason::end_time;
+} catch (const InterruptedError&) {  // from a search before an event
+  return EndReason::interrupted;
+}
+
+/// What happens next, where `ball` is the first in the queue: what was queued for it, unless that is a
+/// contact and another one is as early within rounding.
+template <class Real>
+auto Simulation<Real>::event_of(int ball) -> Event<Real> {
+  auto event = queued_event(ball);
+  const bool is_contact = event.kind == EventKind::wall_contact || event.kind == EventKind::pair_contact;
+  if (is_contact && has_rivals(event)) event = settle_ties(event);
+  // Where times are closer than their errors the ladder may have put the later one first.
+  if (event.time < now_) event.time = now_;
+  return event;
+}
+
+/// What was queued for a ball.
+template <class Real>
+auto Simulation<Real>::queued_event(int ball) const -> Event<Real> {
+  const Agenda<Real>& a = agendas_[ball];
+  const Instant<Real>& time = a.times[a.next];
+  if (a.next == Agenda<Real>::wall_entry)
+    return a.hits_wall() ? Event<Real>{EventKind::wall_contact, time, ball, a.wall_id(), a.wall_is_tied()}
+                         : Event<Real>{EventKind::wall_horizon, time, ball};
+  if (a.next == Agenda<Real>::crossing_entry) return {EventKind::cell_crossing, time, ball};
+  const auto kind = agendas_.still_holds(a, a.next) ? EventKind::pair_contact : EventKind::void_contact;
+  return {kind, time, ball, a.partner_at(a.next)};
+}
+
+/// Queues the earliest entry of a ball's agenda.
+template <class Real>
+void Simulation<Real>::requeue(int ball) {
+  Agenda<Real>& a = agendas_[ball];
+  a.next = static_cast<std::int8_t>(a.earliest());
+  queue_.set(ball, a.times[a.next]);
+}
+
+/// The next pair contact takes the place of the nearest one, which is void.
+template <class Real>
+void Simulation<Real>::drop_void_contact(int ball) {
+  ++counts_.stale_events;
+  Agenda<Real>& a = agendas_[ball];
+  a.drop_nearest();
+  if (a.pair_count == 0 && a.forgotten_from < Instant<Real>::never()) {
+    find_neighbours(ball, near_);
+    a.drop_pairs();
+    const auto state = candidates_.state(ball, now_);
+    const int found = candidates_.find(ball, state, now_, near_);
+    predict_pairs(ball, -1, state, found, near_);
+  }
+  requeue(ball);
+}
+
+/// The ball may meet the balls of the cells that are new to it.
+template <class Real>
+void Simulation<Real>::cross_cell(int ball) {
+  ++counts_.cell_crossings;
+  const int axis = agendas_[ball].crossing_axis(), step = agendas_[ball].crossing_step();
+  candidates_.cross(ball, bodies_[ball].cell, axis, step, near_);
+  prefetcher_.flights_of(near_);
+  const auto state = candidates_.state(ball, now_);
+  const int found = candidates_.find_among(ball, state, now_, near_);
+  predict_crossing(ball, state);
+  predict_pairs(ball, -1, state, found, near_);
+  requeue(ball);
+}
+
+/// Whether anything else is due so soon after a contact that it may be first. Rarely.
+template <class Real>
+bool Simulation<Real>::has_rivals(const Event<Real>& event) const {
+  const Instant<Real> limit = clock_.after(event.time, ladder_.tie_window());
+  const Agenda<Real>& a = agendas_[event.ball];
+  int due = (a.times[Agenda<Real>::wall_entry] <= limit) + (a.forgotten_from <= limit);
+  for (int k = 0; k < Agenda<Real>::capacity; ++k) due += a.times[Agenda<Real>::first_pair + k] <= limit;
+  return due > 1 || queue_.runner_up(limit) >= 0;  // one is the event itself
+}
+
+/// Finds the first of the contacts that share a ball and are so close in time that rounding may have put them
+/// in the wrong order: wider scalars time them anew. What no scalar can separate is ordered by a rule,
+/// and marked.
+template <class Real>
+auto Simulation<Real>::settle_ties(Event<Real> event) -> Event<Real> {
+  std::vector<Event<Real>> passed;  // that went after another one
+  for (;;) {
+    const Instant<Real> limit = clock_.after(event.time, ladder_.tie_window());
+    finish_wall_searches(event, limit);
+    find_rivals(event, limit);
+    std::optional<Event<Real>> first;
+    for (const Event<Real>& rival : rivals_) {
+      const auto same = [&](const Event<Real>& e) { return e.same_bodies(rival); };
+      if (std::any_of(passed.begin(), passed.end(), same)) continue;
+      const int order = ladder_.order(contact_of(event), contact_of(rival));
+      event.by_rule |= order == 0;
+      if (order > 0 || (order == 0 && rival.goes_before(event))) {
+        first = rival;
+        first->by_rule |= order == 0;
+        break;
+      }
+    }
+    if (!first) return event;
+    passed.push_back(event);
+    event = *first;
+  }
+}
+
+/// A search that ends so soon may end just before a contact.
+template <class Real>
+void Simulation<Real>::finish_wall_searches(const Event<Real>& event, const Instant<Real>& limit) {
+  const auto finish = [&](int ball) {
+    const Agenda<Real>& a = agendas_[ball];
+    while (!a.hits_wall() && a.times[Agenda<Real>::wall_entry] <= limit)
+      continue_wall_search(ball, Instant<Real>(a.times[Agenda<Real>::wall_entry]));
+  };
+  finish(event.ball);
+  if (event.kind == EventKind::pair_contact) finish(event.partner);
+}
+
+/// Fills `rivals_` with the contacts up to `limit` that share a ball with the event.
+template <class Real>
+void Simulation<Real>::find_rivals(const Event<Real>& event, const Instant<Real>& limit) {
+  rivals_.clear();
+  find_due(event, limit);
+  for (const int ball : due_) {
+    const Agenda<Real>& a = agendas_[ball];
+    const auto add = [&](const Event<Real>& rival) {
+      if (rival.shares_ball(event) && !rival.same_bodies(event)) rivals_.push_back(rival);
+    };
+    if (a.hits_wall() && a.times[Agenda<Real>::wall_entry] <= limit)
+      add({EventKind::wall_contact, a.times[Agenda<Real>::wall_entry], ball, a.wall_id(), a.wall_is_tied()});
+    for (int entry = Agenda<Real>::first_pair; entry < Agenda<Real>::first_pair + a.pair_count; ++entry)
+      if (a.times[entry] <= limit && agendas_.still_holds(a, entry))
+        add({EventKind::pair_contact, a.times[entry], ball, a.partner_at(entry)});
+    if (a.forgotten_from <= limit) add_rivals_of_full_agenda(ball, event, limit);
+  }
+}
+
+/// Fills `due_` with balls that have an event up to `limit`, all that may share one with a ball of `event`
+/// among them.
+template <class Real>
+void Simulation<Real>::find_due(const Event<Real>& event, const Instant<Real>& limit) {
+  if (!candidates_.uses_cells()) return queue_.due_until(limit, due_);
+  // However many others have events at the same time.
+  due_.clear();
+  add_near(event.ball, due_);
+  if (event.kind == EventKind::pair_contact) add_near(event.partner, due_);
+  std::sort(due_.begin(), due_.end());
+  due_.erase(std::unique(due_.begin(), due_.end()), due_.end());
+  std::erase_if(due_, [&](int ball) { return limit < queue_.time(ball); });
+}
+
+/// Adds the balls of the adjacent cells, with the ball itself, or all balls where cells are not used.
+template <class Real>
+void Simulation<Real>::add_near(int ball, std::vector<int>& balls) {
+  if (!candidates_.uses_cells()) {
+    for (int other = 0; other < ball_count(); ++other) balls.push_back(other);
+    return;
+  }
+  candidates_.grid().neighbours(bodies_[ball].cell, near_due_);
+  balls.insert(balls.end(), near_due_.balls.begin(), near_due_.balls.begin() + near_due_.count);
+}
+
+/// Contacts that the ball's agenda had no room for are predicted anew.
+template <class Real>
+void Simulation<Real>::add_rivals_of_full_agenda(int ball, const Event<Real>& event,
+                                                 const Instant<Real>& limit) {
+  std::vector<int> others;
+  if (event.involves(ball)) {
+    add_near(ball, others);
+    std::sort(others.begin(), others.end());
+  } else {
+    others.push_back(event.ball);
+    if (event.kind == EventKind::pair_contact) others.push_back(event.partner);
+  }
+  for (const int other : others) {
+    if (other == ball) continue;
+    Event<Real> rival{EventKind::pair_contact, limit, ball, other};
+    if (rival.same_bodies(event)) continue;
+    const auto contact = contact_of(rival);
+    const auto& begin = contact.flight.start;
+    const auto answer = ladder_.pair(contact.flight, contact.partner, begin, contact.radius);
+    if (answer.verdict != dynamics::Verdict::contact) continue;
+    rival.time = clock_.after(begin, answer.delay);
+    if (rival.time <= limit) rivals_.push_back(rival);
+  }
+}
+
+template <class Real>
+dynamics::Contact<Real> Simulation<Real>::contact_of(const Event<Real>& event) const {
+  const auto& flight = flights_[event.ball];
+  if (event.kind == EventKind::wall_contact)
+    return {.with_wall = true,
+            .flight = flight,
+            .partner = flight,
+            .radius = properties(event.ball).radius,
+            .time = event.time,
+            .wall = event.partner};
+  const auto& partner = flights_[event.partner];
+  const Real sum = properties(event.ball).radius + properties(event.partner).radius;
+  if (flight.start < partner.start) return {false, partner, flight, sum, event.time};
+  return {false, flight, partner, sum, event.time};
+}
+
+/// Advances the balls of a contact to it and applies the impulse.
+template <class Real>
+Impact<Real> Simulation<Real>::collide(const Event<Real>& event) {
+  if (event.by_rule) ++counts_.simultaneous_contacts;
+  auto impact = event.kind == EventKind::wall_contact ? collide_with_wall(event) : collide_pair(event);
+  impact.index = counts_.impacts++;
+  impact.time = now_;
+  impact.ball = event.ball;
+  impact.with_wall = event.kind == EventKind::wall_contact;
+  impact.partner = event.partner;
+  impact.by_rule = event.by_rule;
+  if (impact.overlap > counts_.deepest_overlap) counts_.deepest_overlap = impact.overlap;
+  EDMILL_REQUIRE(impact.overlap < tolerated_overlap_,
+                 "an impact was missed: bodies overlap by " + to_text(impact.overlap) + " m");
+  raise_top_speed(event.ball);
+  if (!impact.with_wall) raise_top_speed(event.partner);
+  return impact;
+}
+
+/// Sets the pose to that of now.
+template <class Real>
+void Simulation<Real>::update_pose() {
+  model::with_parts<Real>(mill_.motion, mill_.vessel, [&]<class M>(const M& motion, const auto&) {
+    if constexpr (std::is_same_v<M, model::AnyMotion<Real>>)
+      pose_ = motion.pose(now_);
+    else
+      pose_.template emplace<typename M::Pose>(motion.pose(now_));
+  });
+}
+
+/// Updates the pose when the ball's predicted wall contact is due, whose pose a wide scalar has kept.
+template <class Real>
+void Simulation<Real>::update_pose_at_wall_contact(int ball) {
+  if constexpr (!std::is_same_v<Real, double>) {
+    const Agenda<Real>& a = agendas_[ball];
+    if (a.wall_pose && a.times[Agenda<Real>::wall_entry] == now_) {
+      pose_ = *a.wall_pose;
+      return;
+    }
+  }
+  update_pose();
+}
+
+template <class Real>
+Impact<Real> Simulation<Real>::collide_with_wall(const Event<Real>& event) {
+  const int ball = event.ball, wall = event.partner;
+  find_neighbours(ball, near_);
+  auto& flight = flights_[ball];
+  const Real flight_time = dynamics::fly_to(flight, mill_.gravity, clock_, now_);
+  update_pose_at_wall_contact(ball);
+  const Real radius = properties(ball).radius;
+
+  Impact<Real> impact{};
+  model::with_parts<Real>(
+      mill_.motion, mill_.vessel, [&]<class M, class V>(const M& motion, const V& vessel) {
+        const auto& pose = model::pose_of<M>(pose_);
+        const auto place = motion.position_in_vessel(pose, flight.position);
+        const auto room = vessel.inset(radius);
+        impact.normal = motion.direction_to_inertial(pose, room.normal(wall, place));
+        impact.overlap = room.overlap(wall, place);
+        impact.wall_velocity = motion.wall_velocity(pose, flight.position - impact.normal * radius);
+      });
+  if (const auto* pistons = mill_.vessel.pistons()) {
+    const auto moved = pistons->of_wall(wall, now_);
+    impact.overlap += moved.value;
+    impact.wall_velocity += impact.normal * moved.rate;
+  }
+  impact.velocity_before[0] = flight.velocity;
+  impact.spin_before[0] = bodies_[ball].spin;
+  impact.flight_time[0] = flight_time;
+  const auto& law = mill_.law_with_wall(properties(ball), wall);
+  impact.outcome = dynamics::collide_with_wall<Real>(impact.normal, properties(ball), impact.wall_velocity,
+                                                     flight.velocity, bodies_[ball].spin, law,
+                                                     friction_rests(ball, flight_time, law));
+  agendas_.number_impact(ball, ball);
+  candidates_.update(ball);
+  return impact;
+}
+
+template <class Real>
+Impact<Real> Simulation<Real>::collide_pair(const Event<Real>& event) {
+  const int ball = event.ball, partner = event.partner;
+  find_neighbours(ball, near_);
+  auto &one = flights_[ball], &two = flights_[partner];
+  const Real flight_times[2] = {dynamics::fly_to(one, mill_.gravity, clock_, now_),
+                                dynamics::fly_to(two, mill_.gravity, clock_, now_)};
+  const Vec3<Real> between = one.position - two.position;
+  const Real distance = norm<Real>(between);
+
+  Impact<Real> impact{};
+  impact.normal = between * (1 / distance);
+  impact.overlap = properties(ball).radius + properties(partner).radius - distance;
+  impact.velocity_before[0] = one.velocity;
+  impact.velocity_before[1] = two.velocity;
+  impact.spin_before[0] = bodies_[ball].spin;
+  impact.spin_before[1] = bodies_[partner].spin;
+  impact.flight_time[0] = flight_times[0];
+  impact.flight_time[1] = flight_times[1];
+  const auto& law = mill_.law_between(properties(ball), properties(partner));
+  const bool rests_for_one = friction_rests(ball, flight_times[0], law),
+             rests_for_two = friction_rests(partner, flight_times[1], law);
+  impact.outcome = dynamics::collide_balls<Real>(impact.normal, properties(ball), properties(partner),
+                                                 one.velocity, bodies_[ball].spin, two.velocity,
+                                                 bodies_[partner].spin, law, rests_for_one || rests_for_two);
+  agendas_.number_impact(ball, partner);
+  candidates_.update(ball);
+  candidates_.update(partner);
+  find_neighbours(partner, near_partner_);
+  return impact;
+}
+
+/// Counts the ball's impacts that came without time to move. @return whether there were so many in a row
+/// before this one that friction rests
+template <class Real>
+bool Simulation<Real>::friction_rests(int ball, const Real& flight_time, const model::ContactLaw<Real>& law) {
+  auto& unmoved = bodies_[ball].unmoved;
+  if (mill_.stall.has_moved(flight_time, law.least_separation)) [[likely]] {
+    unmoved = 0;
+    return false;
+  }
+  if (unmoved >= mill_.stall.impacts) return true;
+  ++unmoved;
+  return false;
+}
+
+/// Bounds that grow with the speed of the fastest ball follow the ball's new velocity.
+template <class Real>
+void Simulation<Real>::raise_top_speed(int ball) {
+  const Real fastest = top_speed_ - fall_;
+  const Real speed_squared = squared_norm<Real>(flights_[ball].velocity);
+  if (!(speed_squared > fastest * fastest)) return;
+  using std::sqrt;
+  top_speed_ = 2 * sqrt(speed_squared) + fall_;
+  ladder_.raise_top_speed(top_speed_);
+  candidates_.raise_top_speed(top_speed_);
+}
+
+/// Whether the impact is one of infinitely many in finite time, or of many while time does not advance; all
+/// observers are notified then.
+template <class Real>
+void Simulation<Real>::notify(const Impact<Real>& impact) {
+  if (may_collapse_ && impact.with_wall) {
+    note_collapse(impact, impact.ball, ball_count() + impact.partner, true, impact.partner);
+  } else if (may_collapse_) {
+    note_collapse(impact, impact.ball, impact.partner, false, impact.partner);
+    note_collapse(impact, impact.partner, impact.ball, false, impact.ball);
+  }
+  if (stall_watch_.note(now_, clock_, impact.ball, impact.with_wall, impact.partner)) {
+    stall_ = stall_watch_.found();
+    stop_ = EndReason::stalled;
+  }
+  for (auto* observer : observers_) observer->on_impact(impact, *this);
+}
+
+template <class Real>
+void Simulation<Real>::note_collapse(const Impact<Real>& impact, int ball, int key, bool with_wall,
+                                     int partner) {
+  const auto& law = with_wall ? mill_.law_with_wall(properties(ball), partner)
+                              : mill_.law_between(properties(ball), properties(partner));
+  if (law.least_separation > 0) return;
+  const Real slow = std::max(slow_, Real(1000 * epsilon<Real>() * top_speed_));
+  const bool collapsing = collapse_watch_.note(bodies_[ball].recent, key, now_, impact.outcome.approach_speed,
+                                               slow, impact.outcome.restitution_normal(), clock_);
+  if (!collapsing) return;
+  collapse_ = model::InelasticCollapse<Real>{ball, with_wall, partner,
+                                             collapse_watch_.accumulation_time(bodies_[ball].recent, clock_)};
+  stop_ = EndReason::inelastic_collapse;
+}
+
+/// What comes next for the balls of an impact.
+template <class Real>
+void Simulation<Real>::predict(const Impact<Real>& impact) {
+  if (impact.with_wall) return predict_all(impact.ball, -1, pose_, near_);
+  // Wide scalars begin their wall searches in double.
+  if constexpr (std::is_same_v<Real, double>) update_pose();
+  predict_all(impact.ball, -1, pose_, near_);
+  prefetcher_.more();
+  predict_all(impact.partner, impact.ball, pose_, near_partner_);
+}
+
+/// @pre find_neighbours(ball, near)
+template <class Real>
+void Simulation<Real>::predict_all(int ball, int already_done, const model::AnyPose<Real>& pose,
+                                   FoundBalls& near) {
+  const auto state = candidates_.state(ball, now_);
+  agendas_[ball].drop_pairs();
+  const int found = candidates_.find(ball, state, now_, near);
+  // Before the candidates: how many there are is known late, and the processor can do this meanwhile.
+  predict_crossing(ball, state);
+  predict_pairs(ball, already_done, state, found, near);
+  prefetcher_.more();
+  predict_wall(ball, pose);
+  requeue(ball);
+}
+
+/// Predicts contacts with the candidates found.
+template <class Real>
+void Simulation<Real>::predict_pairs(int ball, int already_done, const DoubleState& state, int found,
+                                     const FoundBalls& near) {
+  const int* places = candidates_.places();
+  for (int k = 0; k < found; ++k) {
+    const int other = candidates_.ball_at(places[k], near);
+    if (other == already_done) continue;
+    if constexpr (std::is_same_v<Real, double>) {
+      const double delay = candidates_.delay(places[k]);
+      if (delay >= 0) [[likely]] {
+        expect_pair(ball, other, delay);
+        continue;
+      }
+    }
+    const Real sum = properties(ball).radius + properties(other).radius;
+    const auto answer =
+        ladder_.pair(state_in_scalar(ball, state), flights_[ball], flights_[other], now_, sum);
+    if (answer.verdict == dynamics::Verdict::contact) expect_pair(ball, other, answer.delay);
+  }
+}
+
+/// Puts a contact into the ball's agenda.
+template <class Real>
+void Simulation<Real>::expect_pair(int ball, int other, const Real& delay) {
+  Agenda<Real>& a = agendas_[ball];
+  const Instant<Real> time = clock_.after(now_, delay);
+  if (time >= a.forgotten_from) return;
+  if (a.pair_count < Agenda<Real>::capacity) [[likely]] {
+    a.put_pair(Agenda<Real>::first_pair + a.pair_count++, time, other, agendas_.latest_impact());
+    return;
+  }
+  const int last = a.farthest();
+  a.forgotten_from = time < a.times[last] ? a.times[last] : time;
+  if (time < a.times[last]) a.put_pair(last, time, other, agendas_.latest_impact());
+}
+
+template <class Real>
+void Simulation<Real>::predict_crossing(int ball, const DoubleState& state) {
+  if (!candidates_.uses_cells()) return;
+  Agenda<Real>& a = agendas_[ball];
+  const auto& gravity = candidates_.filter().gravity;
+  const auto velocity = dynamics::velocity_after(candidates_.flights()[ball], gravity, state.age);
+  const auto crossing = candidates_.grid().crossing(bodies_[ball].cell, state.position, velocity, gravity);
+  a.crossing_face = static_cast<std::int8_t>(2 * crossing.axis + (crossing.step > 0));
+  a.times[Agenda<Real>::crossing_entry] =
+      crossing.delay < Crossing::never ? clock_.after(now_, Real(crossing.delay)) : Instant<Real>::never();
+}
+
+/// How far a wall search from `begin` need look: to a little past the ball's nearest pair contact, so that
+/// a wall contact which may be first is known.
+template <class Real>
+Real Simulation<Real>::search_length(int ball, const Instant<Real>& begin) const {
+  const Real& longest = ladder_.walls().longest_window();
+  const Agenda<Real>& a = agendas_[ball];
+  if (a.pair_count == 0) return longest;
+  const Real until_pair = clock_.elapsed(begin, a.times[a.nearest()]) + 2 * ladder_.tie_window();
+  return std::min(longest, std::max(Real(longest / 4096), until_pair));
+}
+
+template <class Real>
+void Simulation<Real>::predict_wall(int ball, const model::AnyPose<Real>& pose) {
+  ++counts_.wall_searches;
+  const Real length = search_length(ball, now_);
+  const auto& flight = flights_[ball];
+  const dynamics::WallQuery<Real> query{flight, properties(ball).radius, now_, length};
+  try {
+    if constexpr (std::is_same_v<Real, double>) {
+      take_wall_answer(ball, ladder_.wall(pose, query), now_);
+    } else {
+      take_wall_answer(ball, ladder_.wall(query), now_);  // which begins in double
+    }
+  } catch (const InterruptedError&) {  // the impact has happened; a continued run begins by searching
+    agendas_[ball].wall = -1;
+    agendas_[ball].times[Agenda<Real>::wall_entry] = now_;
+    stop_ = EndReason::interrupted;
+  }
+}
+
+template <class Real>
+void Simulation<Real>::continue_wall_search(int ball, const Instant<Real>& begin) {
+  ++counts_.wall_searches;
+  const Real length = search_length(ball, begin);
+  take_wall_answer(ball, ladder_.wall({flights_[ball], properties(ball).radius, begin, length}), begin);
+  requeue(ball);
+}
+
+template <class Real>
+void Simulation<Real>::take_wall_answer(int ball, const dynamics::WallAnswer<Real>& answer,
+                                        const Instant<Real>& begin) {
+  Agenda<Real>& a = agendas_[ball];
+  if (answer.verdict == dynamics::Verdict::contact) {
+    a.wall = static_cast<std::int8_t>(answer.wall + (answer.by_rule ? Agenda<Real>::tied : 0));
+    a.times[Agenda<Real>::wall_entry] = answer.time;
+    a.wall_pose = answer.pose;
+  } else {
+    // The next search begins where this one's proof still holds, whatever the sum is rounded to.
+    a.wall = -1;
+    a.times[Agenda<Real>::wall_entry] =
+        clock_.after(begin, answer.searched - 4 * epsilon<Real>() * clock_.period());
+  }
 }
 
 }  // namespace edmill::engine
