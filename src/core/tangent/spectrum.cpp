@@ -5,12 +5,84 @@
 #include <limits>
 
 #include "base/elementary.hpp"
+#include "base/trigonometry.hpp"
 #include "dynamics/impulse.hpp"
-#include "tangent/dual.hpp"
+
+namespace edmill::tangent {
+
+/// value + slope e with e^2 = 0: forward-mode differentiation, along one direction, of what is a template of
+/// its scalar. Comparisons are those of the values: a branch is that of the motion itself.
+struct Dual {
+  double value = 0, slope = 0;
+
+  Dual() = default;
+  Dual(double v) : value(v) {}                    // NOLINT(google-explicit-constructor): a constant
+  Dual(int v) : value(static_cast<double>(v)) {}  // NOLINT(google-explicit-constructor)
+  explicit Dual(std::int64_t v) : value(static_cast<double>(v)) {}
+  explicit Dual(std::uint64_t v) : value(static_cast<double>(v)) {}
+  Dual(double v, double s) : value(v), slope(s) {}
+
+  explicit operator double() const { return value; }
+  explicit operator int() const { return static_cast<int>(value); }
+  explicit operator std::int64_t() const { return static_cast<std::int64_t>(value); }
+
+  friend Dual operator+(const Dual& a, const Dual& b) { return {a.value + b.value, a.slope + b.slope}; }
+  friend Dual operator-(const Dual& a, const Dual& b) { return {a.value - b.value, a.slope - b.slope}; }
+  friend Dual operator*(const Dual& a, const Dual& b) {
+    return {a.value * b.value, a.slope * b.value + a.value * b.slope};
+  }
+  friend Dual operator/(const Dual& a, const Dual& b) {
+    const double ratio = a.value / b.value;
+    return {ratio, (a.slope - ratio * b.slope) / b.value};
+  }
+  friend Dual operator-(const Dual& a) { return {-a.value, -a.slope}; }
+  Dual& operator+=(const Dual& b) { return *this = *this + b; }
+  Dual& operator-=(const Dual& b) { return *this = *this - b; }
+  Dual& operator*=(const Dual& b) { return *this = *this * b; }
+  Dual& operator/=(const Dual& b) { return *this = *this / b; }
+
+  friend auto operator<=>(const Dual& a, const Dual& b) { return a.value <=> b.value; }
+  friend bool operator==(const Dual& a, const Dual& b) { return a.value == b.value; }
+};
+
+/// Of zero the root has no slope; where edmill takes one, of a slip, what it is multiplied with is zero, too.
+inline Dual sqrt(const Dual& x) {
+  const double root = std::sqrt(x.value);
+  return {root, root > 0 ? x.slope / (2 * root) : 0};
+}
+inline Dual abs(const Dual& x) { return x.value < 0 ? -x : x; }
+inline Dual floor(const Dual& x) { return {std::floor(x.value)}; }
+inline Dual ldexp(const Dual& x, int exponent) {
+  return {std::ldexp(x.value, exponent), std::ldexp(x.slope, exponent)};
+}
+inline Dual frexp(const Dual& x, int* exponent) {
+  const double fraction = std::frexp(x.value, exponent);
+  return {fraction, std::ldexp(x.slope, -*exponent)};
+}
+inline bool isfinite(const Dual& x) { return std::isfinite(x.value) && std::isfinite(x.slope); }
+
+}  // namespace edmill::tangent
+
+/// The digits of the value.
+template <>
+class std::numeric_limits<edmill::tangent::Dual> : public std::numeric_limits<double> {};
+
+template <>
+struct Eigen::NumTraits<edmill::tangent::Dual> : Eigen::GenericNumTraits<edmill::tangent::Dual> {};
+
+template <>
+struct edmill::numerics::Trigonometry<edmill::tangent::Dual> {
+  using Dual = tangent::Dual;
+  static Dual pi() { return {numerics::pi<double>()}; }
+  static SinCos<Dual> sin_cos(const Dual& angle) {
+    const auto v = numerics::sin_cos<double>(angle.value);
+    return {{v.sin, v.cos * angle.slope}, {v.cos, -v.sin * angle.slope}};
+  }
+};
 
 /// For messages.
 template <>
-std::string edmill::to_text<edmill::tangent::Dual<double>>(const tangent::Dual<double>& number) {
+std::string edmill::to_text<edmill::tangent::Dual>(const tangent::Dual& number) {
   return to_text(number.value);
 }
 
@@ -18,12 +90,10 @@ namespace edmill::tangent {
 
 namespace {
 
-using Number = Dual<double>;
-
-Vec3<Number> with_slopes(const Vec3<double>& value, const Vec3<double>& slope) {
-  return {Number(value[0], slope[0]), Number(value[1], slope[1]), Number(value[2], slope[2])};
+Vec3<Dual> with_slopes(const Vec3<double>& value, const Vec3<double>& slope) {
+  return {Dual(value[0], slope[0]), Dual(value[1], slope[1]), Dual(value[2], slope[2])};
 }
-Vec3<double> slopes_of(const Vec3<Number>& v) { return {v[0].slope, v[1].slope, v[2].slope}; }
+Vec3<double> slopes_of(const Vec3<Dual>& v) { return {v[0].slope, v[1].slope, v[2].slope}; }
 
 /// By how much later the motion nearby has its impact. Bodies that do not approach each other have it at
 /// once.
@@ -33,7 +103,7 @@ double delay(const Vec3<double>& normal, const Vec3<double>& gap, double approac
 
 /// A body of the motion nearby.
 struct Nearby {
-  Vec3<Number> position, velocity, spin;
+  Vec3<Dual> position, velocity, spin;
 
   /// At its own impact, `delay` after the run's.
   Nearby(const Struck& body, const Tangent<double>& t, const Vec3<double>& gravity, double delay)
@@ -74,13 +144,13 @@ class Mixer {
 }  // namespace
 
 struct TangentMap::InDuals {
-  model::Mill<Number> mill;
-  std::vector<model::BallProperties<Number>> balls;
+  model::Mill<Dual> mill;
+  std::vector<model::BallProperties<Dual>> balls;
   Vec3<double> gravity;
 };
 
 TangentMap::TangentMap(const model::Mill<double>& mill, const Balls& balls)
-    : mill_(new InDuals{model::mill_cast<Number>(mill), {}, mill.gravity}) {
+    : mill_(new InDuals{model::mill_cast<Dual>(mill), {}, mill.gravity}) {
   for (const auto& b : balls) mill_->balls.push_back({b.radius, b.mass, b.reduced_inertia, b.material});
 }
 TangentMap::~TangentMap() = default;
@@ -93,17 +163,17 @@ void TangentMap::with_wall(const ImpactAt& impact, int wall, const Struck& struc
   for (auto& direction : directions) {
     const double later = delay(impact.normal, direction.position, impact.approach_speed);
     Nearby body(struck, direction, mill_->gravity, later);
-    const Instant<Number> time{impact.time.period, Number(impact.time.offset, later)};
+    const Instant<Dual> time{impact.time.period, Dual(impact.time.offset, later)};
     const auto pose = mill.motion.pose(time);
     const auto place = mill.motion.position_in_vessel(pose, body.position);
-    const Vec3<Number> normal =
+    const Vec3<Dual> normal =
         mill.motion.direction_to_inertial(pose, mill.vessel.inset(ball.radius).normal(wall, place));
-    Vec3<Number> wall_velocity =
-        mill.motion.wall_velocity(pose, Vec3<Number>(body.position - normal * ball.radius));
+    Vec3<Dual> wall_velocity =
+        mill.motion.wall_velocity(pose, Vec3<Dual>(body.position - normal * ball.radius));
     if (const auto* pistons = mill.vessel.pistons())
       wall_velocity += normal * pistons->of_wall(wall, time).rate;
-    dynamics::collide_with_wall<Number>(normal, ball, wall_velocity, body.velocity, body.spin, law,
-                                        impact.in_stall);
+    dynamics::collide_with_wall<Dual>(normal, ball, wall_velocity, body.velocity, body.spin, law,
+                                      impact.in_stall);
     direction = body.back(struck, mill_->gravity, later);
   }
 }
@@ -116,10 +186,10 @@ void TangentMap::of_pair(const ImpactAt& impact, const Struck& one, const Struck
   for (std::size_t k = 0; k < of_one.size(); ++k) {
     const double later = delay(impact.normal, of_one[k].position - of_two[k].position, impact.approach_speed);
     Nearby a(one, of_one[k], mill_->gravity, later), b(two, of_two[k], mill_->gravity, later);
-    const Vec3<Number> between = a.position - b.position;
-    const Vec3<Number> normal = between * (Number(1) / norm<Number>(between));
-    dynamics::collide_balls<Number>(normal, ball, partner, a.velocity, a.spin, b.velocity, b.spin, law,
-                                    impact.in_stall);
+    const Vec3<Dual> between = a.position - b.position;
+    const Vec3<Dual> normal = between * (Dual(1) / norm<Dual>(between));
+    dynamics::collide_balls<Dual>(normal, ball, partner, a.velocity, a.spin, b.velocity, b.spin, law,
+                                  impact.in_stall);
     of_one[k] = a.back(one, mill_->gravity, later);
     of_two[k] = b.back(two, mill_->gravity, later);
   }
