@@ -27,24 +27,18 @@ class Prefetcher {
 
   void enable(bool yes) { enabled_ = yes; }
 
-  /// While it lives, what the next events need is fetched in portions.
-  class Scope {
-   public:
-    explicit Scope(Prefetcher& prefetcher) : prefetcher_(prefetcher) { prefetcher_.begin(); }
-    ~Scope() {
-      while (prefetcher_.portion_ < portions) prefetcher_.prefetch_next();
-    }
-    Scope(const Scope&) = delete;
-    Scope& operator=(const Scope&) = delete;
-
-   private:
-    Prefetcher& prefetcher_;
-  };
-  [[nodiscard]] Scope scope() { return Scope(*this); }
-
+  /// From here to `finish` what the next events need is fetched in portions.
+  void begin() {
+    if (!enabled_) return;
+    upcoming_ = queue_.upcoming();
+    portion_ = 0;
+  }
   /// The next portion, if there is one: for places where other work lies behind and ahead.
   void more() {
     if (portion_ < portions) prefetch_next();
+  }
+  void finish() {
+    while (portion_ < portions) prefetch_next();
   }
 
   void flights_of(const FoundBalls& near) const {
@@ -54,12 +48,6 @@ class Prefetcher {
 
  private:
   static constexpr int portions = 4;
-
-  void begin() {
-    if (!enabled_) return;
-    upcoming_ = queue_.upcoming();
-    portion_ = 0;
-  }
 
   void prefetch_next() {
     const auto [next, second, third] = upcoming_;

@@ -219,7 +219,7 @@ EndReason Simulation<Real>::run_until(const Instant<Real>& end, const std::atomi
   for (int next = queue_.top(); queue_.time(next) <= end; next = queue_.top()) {
     if (interrupt && interrupt->load(std::memory_order_relaxed)) return EndReason::interrupted;
     const auto event = event_of(next);  // of near ties the first
-    const auto prefetching = prefetcher_.scope();
+    prefetcher_.begin();
     now_ = event.time;
     switch (event.kind) {
       case EventKind::void_contact:
@@ -237,6 +237,7 @@ EndReason Simulation<Real>::run_until(const Instant<Real>& end, const std::atomi
         notify(impact);
         if (stop_ != EndReason::inelastic_collapse) predict(impact);
       }
+    prefetcher_.finish();
     }
     if (stop_) return *stop_;
   }
