@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cstdint>
 #include <optional>
-#include <type_traits>
 #include <vector>
 
 #include "base/memory.hpp"
@@ -122,11 +121,10 @@ class Simulation {
   Impact<Real> collide_with_wall(const Event<Real>& event);
   Impact<Real> collide_pair(const Event<Real>& event);
   void update_pose();
-  void update_pose_at_wall_contact(int ball);
   void raise_top_speed(int ball);
   bool friction_rests(int ball, const Real& flight_time, const model::ContactLaw<Real>& law);
   void notify(const Impact<Real>& impact);
-  void note_collapse(const Impact<Real>& impact, int ball, int key, bool with_wall, int partner);
+  void note_collapse(const Impact<Real>& impact, int ball, int partner);
 
   void predict(const Impact<Real>& impact);
   void predict_all(int ball, int already_done, const model::AnyPose<Real>& pose, FoundBalls& near);
@@ -142,13 +140,6 @@ class Simulation {
   void predict_wall(int ball, const model::AnyPose<Real>& pose);
   Real search_length(int ball, const Instant<Real>& begin) const;
   void take_wall_answer(int ball, const dynamics::WallAnswer<Real>& answer, const Instant<Real>& begin);
-  /// In the scalar itself, where the filter in double has found a candidate.
-  decltype(auto) state_in_scalar(int ball, const DoubleState& state) const {
-    if constexpr (std::is_same_v<Real, double>)
-      return (state);
-    else
-      return ladder_.pairs().state(flights_[ball], now_);
-  }
 
   model::Mill<Real> mill_;
   DriveClock<Real> clock_;

@@ -21,9 +21,8 @@ bool all_alike(const std::vector<model::BallProperties<Real>>& balls) {
 
 template <class Real>
 Real smallest_radius(const std::vector<model::BallProperties<Real>>& balls) {
-  Real smallest = balls.front().radius;
-  for (const auto& b : balls) smallest = b.radius < smallest ? b.radius : smallest;
-  return smallest;
+  const auto smaller = [](const auto& a, const auto& b) { return a.radius < b.radius; };
+  return std::min_element(balls.begin(), balls.end(), smaller)->radius;
 }
 
 /// The most that gravity adds to a ball's speed in one flight: one that stays within `reach` of the origin
@@ -237,8 +236,8 @@ EndReason Simulation<Real>::run_until(const Instant<Real>& end, const std::atomi
         notify(impact);
         if (stop_ != EndReason::inelastic_collapse) predict(impact);
       }
-    prefetcher_.finish();
     }
+    prefetcher_.finish();
     if (stop_) return *stop_;
   }
   now_ = end;
@@ -467,25 +466,8 @@ Impact<Real> Simulation<Real>::collide(const Event<Real>& event) {
 /// Sets the pose to that of now.
 template <class Real>
 void Simulation<Real>::update_pose() {
-  model::with_parts<Real>(mill_.motion, mill_.vessel, [&]<class M>(const M& motion, const auto&) {
-    if constexpr (std::is_same_v<M, model::AnyMotion<Real>>)
-      pose_ = motion.pose(now_);
-    else
-      pose_.template emplace<typename M::Pose>(motion.pose(now_));
-  });
-}
-
-/// Updates the pose when the ball's predicted wall contact is due, whose pose a wide scalar has kept.
-template <class Real>
-void Simulation<Real>::update_pose_at_wall_contact(int ball) {
-  if constexpr (!std::is_same_v<Real, double>) {
-    const Agenda<Real>& a = agendas_[ball];
-    if (a.wall_pose && a.times[Agenda<Real>::wall_entry] == now_) {
-      pose_ = *a.wall_pose;
-      return;
-    }
-  }
-  update_pose();
+  model::with_parts<Real>(mill_.motion, mill_.vessel,
+                          [&](const auto& motion, const auto&) { pose_ = motion.pose(now_); });
 }
 
 template <class Real>
@@ -494,7 +476,13 @@ Impact<Real> Simulation<Real>::collide_with_wall(const Event<Real>& event) {
   find_neighbours(ball, near_);
   auto& flight = flights_[ball];
   const Real flight_time = dynamics::fly_to(flight, mill_.gravity, clock_, now_);
-  update_pose_at_wall_contact(ball);
+  bool pose_is_known = false;
+  if constexpr (!std::is_same_v<Real, double>) {  // a wide scalar has kept that of a predicted contact
+    const Agenda<Real>& a = agendas_[ball];
+    pose_is_known = a.wall_pose && a.times[Agenda<Real>::wall_entry] == now_;
+    if (pose_is_known) pose_ = *a.wall_pose;
+  }
+  if (!pose_is_known) update_pose();
   const Real radius = properties(ball).radius;
 
   Impact<Real> impact{};
@@ -586,11 +574,9 @@ void Simulation<Real>::raise_top_speed(int ball) {
 /// observers are notified then.
 template <class Real>
 void Simulation<Real>::notify(const Impact<Real>& impact) {
-  if (may_collapse_ && impact.with_wall) {
-    note_collapse(impact, impact.ball, ball_count() + impact.partner, true, impact.partner);
-  } else if (may_collapse_) {
-    note_collapse(impact, impact.ball, impact.partner, false, impact.partner);
-    note_collapse(impact, impact.partner, impact.ball, false, impact.ball);
+  if (may_collapse_) {
+    note_collapse(impact, impact.ball, impact.partner);
+    if (!impact.with_wall) note_collapse(impact, impact.partner, impact.ball);
   }
   if (stall_watch_.note(now_, clock_, impact.ball, impact.with_wall, impact.partner)) {
     stall_ = stall_watch_.found();
@@ -600,8 +586,9 @@ void Simulation<Real>::notify(const Impact<Real>& impact) {
 }
 
 template <class Real>
-void Simulation<Real>::note_collapse(const Impact<Real>& impact, int ball, int key, bool with_wall,
-                                     int partner) {
+void Simulation<Real>::note_collapse(const Impact<Real>& impact, int ball, int partner) {
+  const bool with_wall = impact.with_wall;
+  const int key = with_wall ? ball_count() + partner : partner;
   const auto& law = with_wall ? mill_.law_with_wall(properties(ball), partner)
                               : mill_.law_between(properties(ball), properties(partner));
   if (law.least_separation > 0) return;
@@ -656,8 +643,11 @@ void Simulation<Real>::predict_pairs(int ball, int already_done, const DoubleSta
       }
     }
     const Real sum = properties(ball).radius + properties(other).radius;
-    const auto answer =
-        ladder_.pair(state_in_scalar(ball, state), flights_[ball], flights_[other], now_, sum);
+    dynamics::PairAnswer<Real> answer;
+    if constexpr (std::is_same_v<Real, double>)
+      answer = ladder_.pair(state, flights_[ball], flights_[other], now_, sum);
+    else
+      answer = ladder_.pair(flights_[ball], flights_[other], now_, sum);
     if (answer.verdict == dynamics::Verdict::contact) expect_pair(ball, other, answer.delay);
   }
 }
