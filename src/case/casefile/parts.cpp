@@ -31,18 +31,17 @@ TurnFraction fraction_of(const Quantity& turns) {
   TurnFraction fraction;
 #if !defined(EDMILL_WITHOUT_MPFR)
   const std::size_t needed = TurnFraction::words_for(binary_digits<mpfr>());
-  if (needed > TurnFraction::words) fraction.further.resize(needed - TurnFraction::words);
+  fraction.bits.resize(std::max(needed, TurnFraction::words));
 #endif
-  const int fraction_bits = 64 * static_cast<int>(TurnFraction::words + fraction.further.size());
+  const int fraction_bits = 64 * static_cast<int>(fraction.bits.size());
   const Rational value = value_of(turns, 2 * fraction_bits);
   cpp_int scaled = (numerator(value) << fraction_bits) / denominator(value);
   const cpp_int one = cpp_int(1) << fraction_bits;
   const cpp_int whole = scaled / one - (scaled % one < 0 ? 1 : 0);  // rounded down
   fraction.whole = static_cast<std::int64_t>(whole);
   scaled -= whole * one;
-  for (std::size_t k = TurnFraction::words + fraction.further.size(); k-- > 0; scaled >>= 64)
-    (k < TurnFraction::words ? fraction.bits[k] : fraction.further[k - TurnFraction::words]) =
-        static_cast<std::uint64_t>(scaled & 0xffffffffffffffffu);
+  for (std::size_t k = fraction.bits.size(); k-- > 0; scaled >>= 64)
+    fraction.bits[k] = static_cast<std::uint64_t>(scaled & 0xffffffffffffffffu);
   return fraction;
 }
 
@@ -53,9 +52,8 @@ Quantity without_whole_turns(const Quantity& turns) {
   if (fraction.whole == 0 || fraction.whole == -1) return turns;
   if (turns.pi_power == 0) return quantity_of(rational(turns) - fraction.whole);
   cpp_int bits = 0;
-  const std::size_t words = TurnFraction::words + fraction.further.size();
-  for (std::size_t k = 0; k < words; ++k) bits = (bits << 64) + fraction.word(k);
-  return quantity_of({bits, cpp_int(1) << (64 * words)});
+  for (const std::uint64_t word : fraction.bits) bits = (bits << 64) + word;
+  return quantity_of({bits, cpp_int(1) << (64 * fraction.bits.size())});
 }
 
 /// A frequency [1/s] for an angular speed [rad/s], turns for an angle [rad].
