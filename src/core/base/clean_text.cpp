@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/locale/utf.hpp>
 
 namespace edmill {
 
@@ -10,17 +11,11 @@ namespace {
 
 /// Bytes of the first character; 0 when XML cannot have it.
 std::size_t character_size(std::string_view text) {
-  const auto lead = static_cast<unsigned char>(text.front());
-  if (lead < 0x80) return lead >= 0x20 || lead == '\t' || lead == '\n' || lead == '\r' ? 1 : 0;
-  const std::size_t size = lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
-  unsigned code = lead & (0x7fu >> size);
-  for (std::size_t k = 1; k < size; ++k) {
-    if (k >= text.size() || (text[k] & 0xc0) != 0x80) return 0;
-    code = code << 6u | (text[k] & 0x3fu);
-  }
-  const bool short_enough = code >= (size == 2 ? 0x80u : size == 3 ? 0x800u : 0x10000u);
-  const bool surrogate = code >= 0xd800 && code <= 0xdfff, last = code == 0xfffe || code == 0xffff;
-  return lead >= 0xc0 && lead < 0xf8 && code <= 0x10ffff && short_enough && !surrogate && !last ? size : 0;
+  auto end = text.begin();
+  const auto code = boost::locale::utf::utf_traits<char>::decode(end, text.end());
+  const bool is_blank = code == '\t' || code == '\n' || code == '\r';
+  const bool is_other = code >= 0x20 && code <= 0x10ffff && code != 0xfffe && code != 0xffff;
+  return is_blank || is_other ? static_cast<std::size_t>(end - text.begin()) : 0;
 }
 
 }  // namespace
