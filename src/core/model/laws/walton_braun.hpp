@@ -22,18 +22,8 @@ struct ConstantRestitution {
   const Number& restitution_of_slip(const Number&, const Number&, const Number&) const { return tangential; }
 };
 
-/// e_t = max(beta, 1 - mu c (|g_n| + g_n') / |g_t|): sliding all through the impact, or reversed by the part
-/// beta. (2.24')
-template <class Number>
-Number coulomb_slip(const Number& friction, const Number& min_tangential, const Number& normal_change,
-                    const Number& slip_speed, const Number& compliance) {
-  const Number sliding = friction * compliance * normal_change;
-  // 1 - sliding / slip >= min_tangential, without dividing by a vanishing slip.
-  if (sliding >= (1 - min_tangential) * slip_speed) return slip_speed > 0 ? min_tangential : Number(1);
-  return 1 - sliding / slip_speed;
-}
-
-/// What a law of the normal restitution alone takes for the slip.
+/// What a law of the normal restitution alone takes for the slip: e_t = max(beta, 1 - mu c (|g_n| + g_n') /
+/// |g_t|), sliding all through the impact, or reversed by the part beta. (2.24')
 template <class Number>
 struct CoulombSlip {
   Number friction{0};         ///< mu
@@ -46,7 +36,10 @@ struct CoulombSlip {
 
   Number restitution_of_slip(const Number& normal_change, const Number& slip_speed,
                              const Number& compliance) const {
-    return coulomb_slip(friction, min_tangential, normal_change, slip_speed, compliance);
+    const Number sliding = friction * compliance * normal_change;
+    // 1 - sliding / slip >= min_tangential, without dividing by a vanishing slip.
+    if (sliding >= (1 - min_tangential) * slip_speed) return slip_speed > 0 ? min_tangential : Number(1);
+    return 1 - sliding / slip_speed;
   }
 };
 
@@ -68,7 +61,8 @@ struct WaltonBraun {
   const Number& restitution(const Number&) const { return normal; }
   Number restitution_of_slip(const Number& normal_change, const Number& slip_speed,
                              const Number& compliance) const {
-    return coulomb_slip(friction, min_tangential, normal_change, slip_speed, compliance);
+    const CoulombSlip<Number> slip{friction, min_tangential};
+    return slip.restitution_of_slip(normal_change, slip_speed, compliance);
   }
 };
 
