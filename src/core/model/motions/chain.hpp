@@ -228,23 +228,35 @@ class ChainMotion {
       : joints_(with_frequencies(joints)),
         bounds_(joints_, ChainBounds<Real>::Speeds::summed),
         terms_(joints_, ChainBounds<Real>::Speeds::apart) {
+    // Of the joints so far; terms that vanish in every pose are left out.
+    bool level = true, turned = false, uneven = false;
+    int common = -1;  // the one axis that all rotations are about
     for (const auto& joint : joints_.list) {
       const bool drives = joint.rotates && !(joint.speed == 0);
       const Real turn = 2 * numerics::pi<Real>();
-      Step step{
+      const int axis = joint.rotates ? aligned(joint.axis) : -1;
+      const Swings<Real> swings(joint.swings);
+      const Step& step = steps_.emplace_back(Step{
           .rotates = joint.rotates,
           .axis = ChainBounds<Real>::direction(joint),
-          .aligned = joint.rotates ? aligned(joint.axis) : -1,
+          .aligned = axis,
           .shift = {joint.shift[0], joint.shift[1], joint.shift[2]},
           .angle = joint.angle,
           .drive = drives ? Drive<Real>{joint.speed, turn * joint.speed, joint.per_period} : Drive<Real>{},
           .slide = joint.rotates ? Real(0) : joint.speed,
-          .swings = Swings<Real>(joint.swings),
-          .fixed = numerics::sin_cos_turns<Real>(joint.angle)};
-      step.moves = joint.speed != 0 || !step.swings.empty();
-      steps_.push_back(std::move(step));
+          .swings = swings,
+          .fixed = numerics::sin_cos_turns<Real>(joint.angle),
+          .moves = joint.speed != 0 || !swings.empty(),
+          .level = level,
+          .turned = turned,
+          .parallel = axis >= 0 && axis == common,
+          .uneven = uneven});
+      if (!step.rotates) continue;
+      level = false;
+      if (step.moves) uneven = uneven || !swings.empty() || (turned && !step.parallel);
+      common = turned || common >= 0 ? (step.parallel ? common : -2) : axis;
+      turned = turned || step.moves;
     }
-    note_what_vanishes();
     moment_ = moment();
   }
   template <class To>
@@ -370,31 +382,14 @@ class ChainMotion {
     Drive<Real> drive;  ///< of a rotation at constant speed; frequency 0 for none
     Real slide;         ///< constant speed of a translation [m/s]
     Swings<Real> swings;
-    numerics::SinCos<Real> fixed{};  ///< of the constant angle
-    bool moves = false;
+    numerics::SinCos<Real> fixed;  ///< of the constant angle
+    bool moves;
     // What the joints before do:
-    bool level = true;      ///< none rotates: the axes are those of the ground
-    bool turned = false;    ///< there is an angular velocity
-    bool parallel = false;  ///< which has the direction of this axis
-    bool uneven = false;    ///< which changes
+    bool level;     ///< none rotates: the axes are those of the ground
+    bool turned;    ///< there is an angular velocity
+    bool parallel;  ///< which has the direction of this axis
+    bool uneven;    ///< which changes
   };
-
-  /// Terms that vanish in every pose are left out.
-  void note_what_vanishes() {
-    bool level = true, turned = false, uneven = false;
-    int common = -1;  // the one axis that all rotations so far are about
-    for (auto& step : steps_) {
-      step.level = level;
-      step.turned = turned;
-      step.uneven = uneven;
-      step.parallel = step.aligned >= 0 && step.aligned == common;
-      if (!step.rotates) continue;
-      level = false;
-      if (step.moves) uneven = uneven || !step.swings.empty() || (turned && !step.parallel);
-      common = turned || common >= 0 ? (step.parallel ? common : -2) : step.aligned;
-      turned = turned || step.moves;
-    }
-  }
 
   template <bool with_rates>
   Pose made(const Instant<Real>& when) const {
