@@ -78,8 +78,7 @@ struct MovingVessel {
         reach(its_motion.reach(vessel_reach)),
         gravity_size(norm<Real>(acceleration)),
         wall_speed(its_motion.wall_speed(vessel_reach)) {
-    if constexpr (model::HasPistons<V>)
-      if (const auto* pistons = vessel.pistons()) wall_speed += pistons->bound(1);
+    if (const auto* pistons = model::pistons_of(vessel)) wall_speed += pistons->bound(1);
   }
 
   M motion;
@@ -139,9 +138,8 @@ class GapFunctions {
     const auto position = position_after(flight_, mill_.gravity, elapsed(offset));
     const Real own =
         room_.gap(wall, mill_.motion.position_nearby(instant(offset), pose, instant(known), position));
-    if constexpr (model::HasPistons<V>)
-      if (const auto* pistons = mill_.vessel.pistons())
-        return own - pistons->of_wall(wall, instant(offset)).value;
+    if (const auto* pistons = model::pistons_of(mill_.vessel))
+      return own - pistons->of_wall(wall, instant(offset)).value;
     return own;
   }
 
@@ -208,11 +206,9 @@ class GapFunctions {
   }
   /// Calls f(wall, moved) for the walls that move in the vessel.
   template <class F>
-  void for_each_piston([[maybe_unused]] const Real& offset, [[maybe_unused]] F&& f) const {
-    if constexpr (model::HasPistons<V>)
-      if (const auto* pistons = mill_.vessel.pistons())
-        for (std::size_t k = 0; k < pistons->count(); ++k)
-          f(pistons->wall(k), pistons->at(k, instant(offset)));
+  void for_each_piston(const Real& offset, F&& f) const {
+    if (const auto* pistons = model::pistons_of(mill_.vessel))
+      for (std::size_t k = 0; k < pistons->count(); ++k) f(pistons->wall(k), pistons->at(k, instant(offset)));
   }
 
   model::FlightBounds<Real> bounds(const Real& elapsed, const Real& speed) const {
@@ -243,15 +239,14 @@ class GapFunctions {
       errors.rate[wall] = bounds.rate;
       errors.curvature[wall] = bounds.second;
     }
-    if constexpr (model::HasPistons<V>)
-      if (const auto* pistons = mill_.vessel.pistons())
-        for (std::size_t k = 0; k < pistons->count(); ++k) {
-          const auto own = pistons->errors(k, u, mill_.vessel.extent());
-          const int wall = pistons->wall(k);
-          errors.gap[wall] += own.value;
-          errors.rate[wall] += own.rate;
-          errors.curvature[wall] += own.second;
-        }
+    if (const auto* pistons = model::pistons_of(mill_.vessel))
+      for (std::size_t k = 0; k < pistons->count(); ++k) {
+        const auto own = pistons->errors(k, u, mill_.vessel.extent());
+        const int wall = pistons->wall(k);
+        errors.gap[wall] += own.value;
+        errors.rate[wall] += own.rate;
+        errors.curvature[wall] += own.second;
+      }
     return errors;
   }
 
@@ -278,8 +273,7 @@ DerivativeBounds<V> derivative_bounds(const MovingVessel<M, V>& mill, const Real
     const auto of_kinds = mill.vessel.derivative_bounds(coordinates, k);
     if constexpr (requires { bounds.resize(of_kinds.size()); }) bounds.resize(of_kinds.size());
     Real of_pistons(0);
-    if constexpr (model::HasPistons<V>)
-      if (const auto* pistons = mill.vessel.pistons()) of_pistons = pistons->bound(k);
+    if (const auto* pistons = model::pistons_of(mill.vessel)) of_pistons = pistons->bound(k);
     for (std::size_t kind = 0; kind < of_kinds.size(); ++kind)
       bounds[kind][k - 2] = margin * (of_kinds[kind] + of_pistons);
   }
@@ -295,9 +289,8 @@ class BoundsTable {
                                  std::optional<DerivativeBounds<V>>>;
 
   explicit BoundsTable(const MovingVessel<M, V>& mill) : mill_(mill), longest_(mill.motion.longest_window()) {
-    if constexpr (model::HasPistons<V>)
-      if (const auto* pistons = mill.vessel.pistons())
-        if (const Real longest = pistons->longest_window(); longest < longest_) longest_ = longest;
+    if (const auto* pistons = model::pistons_of(mill.vessel))
+      if (const Real longest = pistons->longest_window(); longest < longest_) longest_ = longest;
     const Real wall_speed = mill.motion.speed_within(mill.motion.reach(mill.vessel.extent()));
     speed_step_ = wall_speed > 0 ? Real(wall_speed / 16) : Real(1) / 4;
     per_speed_ = 1 / speed_step_;

@@ -26,9 +26,8 @@ auto WallSearch<M, V>::within_reach(const Functions& functions, const Vec3<Real>
   const Real way = (speed + mill_.wall_speed) * length * (1 + rounding_margin<Real>()) +
                    mill_.reach * rounding_margin<Real>();
   auto near = functions.room().within(position, way);
-  if constexpr (model::HasPistons<V>)
-    if (const auto* pistons = mill_.vessel.pistons())
-      for (std::size_t k = 0; k < pistons->count(); ++k) near[pistons->wall(k)] = true;
+  if (const auto* pistons = model::pistons_of(mill_.vessel))
+    for (std::size_t k = 0; k < pistons->count(); ++k) near[pistons->wall(k)] = true;
   return near;
 }
 

@@ -107,10 +107,13 @@ class Pistons {
   std::vector<Swings<Real>> swings_;
 };
 
-/// A vessel that may have pistons.
+/// Those of a vessel that may have pistons; else null.
 template <class V>
-concept HasPistons = requires(const V& vessel) {
-  vessel.pistons();
-};
+const Pistons<typename V::Scalar>* pistons_of(const V& vessel) {
+  if constexpr (requires { vessel.pistons(); })
+    return vessel.pistons();
+  else
+    return nullptr;
+}
 
 }  // namespace edmill::model
