@@ -27,34 +27,33 @@ namespace edmill::model {
 ///   proof, for windows up to `longest_window()` [s]
 /// - `speed_in_vessel`, `acceleration_in_vessel`: bounds on a ball in the vessel frame, which the bounds of a
 ///   flight then have for `coordinate_errors` and `state_errors`, on the rounding of its coordinates
-template <class M>
-concept Motion = requires(const M& motion, const typename M::Pose& pose,
-                          const Instant<typename M::Scalar>& when, const Vec3<typename M::Scalar>& v,
-                          const typename M::Scalar& x, const VesselFrameState<typename M::Scalar>& state,
-                          const FlightBounds<typename M::Scalar>& flight) {
-  { motion.period() } -> std::convertible_to<typename M::Scalar>;
+template <class M, class Real = typename M::Scalar>
+concept Motion = requires(const M& motion, const typename M::Pose& pose, const Instant<Real>& when,
+                          const Vec3<Real>& v, const Real& x, const VesselFrameState<Real>& state,
+                          const FlightBounds<Real>& flight) {
+  { motion.period() } -> std::convertible_to<Real>;
   { motion.pose(when) } -> std::same_as<typename M::Pose>;
   { motion.pose_nearby(when, pose, when) } -> std::same_as<typename M::Pose>;
-  { motion.position_nearby(when, pose, when, v) } -> std::same_as<Vec3<typename M::Scalar>>;
-  { motion.to_inertial(pose, v) } -> std::same_as<Vec3<typename M::Scalar>>;
-  { motion.direction_to_inertial(pose, v) } -> std::same_as<Vec3<typename M::Scalar>>;
-  { motion.position_in_vessel(pose, v) } -> std::same_as<Vec3<typename M::Scalar>>;
-  { motion.to_vessel_frame(pose, v, v) } -> std::same_as<VesselFrameState<typename M::Scalar>>;
-  { motion.vessel_frame_acceleration(pose, state, v, v) } -> std::same_as<Vec3<typename M::Scalar>>;
-  { motion.wall_velocity(pose, v) } -> std::same_as<Vec3<typename M::Scalar>>;
-  { motion.wall_acceleration(pose, v) } -> std::same_as<Vec3<typename M::Scalar>>;
-  { motion.middle() } -> std::same_as<Vec3<typename M::Scalar>>;
-  { motion.reach(x) } -> std::same_as<typename M::Scalar>;
-  { motion.wall_speed(x) } -> std::same_as<typename M::Scalar>;
-  { motion.speed_within(x) } -> std::same_as<typename M::Scalar>;
-  { motion.acceleration_within(x) } -> std::same_as<typename M::Scalar>;
-  { motion.longest_window() } -> std::same_as<typename M::Scalar>;
-  { motion.swept(v, x) } -> std::same_as<SweptBox<typename M::Scalar>>;
-  { motion.coordinate_bounds(v, x, x, x, x) } -> std::same_as<CoordinateBounds<typename M::Scalar>>;
-  { motion.speed_in_vessel(flight) } -> std::same_as<typename M::Scalar>;
-  { motion.acceleration_in_vessel(flight) } -> std::same_as<typename M::Scalar>;
-  { motion.coordinate_errors(x, flight) } -> std::same_as<ErrorBounds<typename M::Scalar>>;
-  { motion.state_errors(x, flight) } -> std::same_as<ErrorBounds<typename M::Scalar>>;
+  { motion.position_nearby(when, pose, when, v) } -> std::same_as<Vec3<Real>>;
+  { motion.to_inertial(pose, v) } -> std::same_as<Vec3<Real>>;
+  { motion.direction_to_inertial(pose, v) } -> std::same_as<Vec3<Real>>;
+  { motion.position_in_vessel(pose, v) } -> std::same_as<Vec3<Real>>;
+  { motion.to_vessel_frame(pose, v, v) } -> std::same_as<VesselFrameState<Real>>;
+  { motion.vessel_frame_acceleration(pose, state, v, v) } -> std::same_as<Vec3<Real>>;
+  { motion.wall_velocity(pose, v) } -> std::same_as<Vec3<Real>>;
+  { motion.wall_acceleration(pose, v) } -> std::same_as<Vec3<Real>>;
+  { motion.middle() } -> std::same_as<Vec3<Real>>;
+  { motion.reach(x) } -> std::same_as<Real>;
+  { motion.wall_speed(x) } -> std::same_as<Real>;
+  { motion.speed_within(x) } -> std::same_as<Real>;
+  { motion.acceleration_within(x) } -> std::same_as<Real>;
+  { motion.longest_window() } -> std::same_as<Real>;
+  { motion.swept(v, x) } -> std::same_as<SweptBox<Real>>;
+  { motion.coordinate_bounds(v, x, x, x, x) } -> std::same_as<CoordinateBounds<Real>>;
+  { motion.speed_in_vessel(flight) } -> std::same_as<Real>;
+  { motion.acceleration_in_vessel(flight) } -> std::same_as<Real>;
+  { motion.coordinate_errors(x, flight) } -> std::same_as<ErrorBounds<Real>>;
+  { motion.state_errors(x, flight) } -> std::same_as<ErrorBounds<Real>>;
 };
 
 /// The motions that a case file can name, the default first. A new one is a file in model/motions/ and a line

@@ -42,21 +42,19 @@ namespace edmill::model {
 ///   `is_valid(wall, p)`: whether that wall's gap counts at p, to within rounding; `smooth_way(p)`: how far a
 ///   ball at p may move while all active functions are smooth, or nothing for any way [m]
 /// - `normal(wall, p)`: of a contact, unit, into the vessel; `overlap(wall, p)` [m], negative for a gap
-template <class V>
-concept Vessel = requires(const V& vessel, int wall, const Vec3<typename V::Scalar>& p,
-                          const typename V::Scalar& x,
-                          const CoordinateBounds<typename V::Scalar>& coordinates,
-                          const ErrorBounds<typename V::Scalar>& errors) {
+template <class V, class Real = typename V::Scalar>
+concept Vessel = requires(const V& vessel, int wall, const Vec3<Real>& p, const Real& x,
+                          const CoordinateBounds<Real>& coordinates, const ErrorBounds<Real>& errors) {
   typename V::template PerWall<bool>;
   typename V::template PerKind<bool>;
   { vessel.wall_count() } -> std::same_as<int>;
   { vessel.walls() } -> std::same_as<std::vector<WallInfo>>;
-  { vessel.surfaces() } -> std::same_as<std::vector<WallSurface<typename V::Scalar>>>;
-  { vessel.reach() } -> std::same_as<typename V::Scalar>;
-  { vessel.extent() } -> std::same_as<typename V::Scalar>;
-  { vessel.half_sizes() } -> std::same_as<Vec3<typename V::Scalar>>;
-  { vessel.volume() } -> std::same_as<typename V::Scalar>;
-  { vessel.widest_ball() } -> std::same_as<typename V::Scalar>;
+  { vessel.surfaces() } -> std::same_as<std::vector<WallSurface<Real>>>;
+  { vessel.reach() } -> std::same_as<Real>;
+  { vessel.extent() } -> std::same_as<Real>;
+  { vessel.half_sizes() } -> std::same_as<Vec3<Real>>;
+  { vessel.volume() } -> std::same_as<Real>;
+  { vessel.widest_ball() } -> std::same_as<Real>;
   { vessel.inset(x) } -> std::same_as<V>;
   { vessel.is_empty() } -> std::same_as<bool>;
   { vessel.contains(p) } -> std::same_as<bool>;
@@ -67,13 +65,11 @@ concept Vessel = requires(const V& vessel, int wall, const Vec3<typename V::Scal
   { vessel.curvatures(p, p, p) } -> std::same_as<typename V::template PerWall<typename V::Scalar>>;
   { vessel.within(p, x) } -> std::same_as<typename V::template PerWall<bool>>;
   { vessel.kind_of(wall) } -> std::same_as<int>;
-  {
-    vessel.derivative_bounds(coordinates, wall)
-    } -> std::same_as<typename V::template PerKind<typename V::Scalar>>;
+  { vessel.derivative_bounds(coordinates, wall) } -> std::same_as<typename V::template PerKind<Real>>;
   { vessel.is_flat(wall) } -> std::same_as<bool>;
-  { vessel.curved_errors(wall, errors, x, x, x, x) } -> std::same_as<ErrorBounds<typename V::Scalar>>;
-  { vessel.normal(wall, p) } -> std::same_as<Vec3<typename V::Scalar>>;
-  { vessel.overlap(wall, p) } -> std::same_as<typename V::Scalar>;
+  { vessel.curved_errors(wall, errors, x, x, x, x) } -> std::same_as<ErrorBounds<Real>>;
+  { vessel.normal(wall, p) } -> std::same_as<Vec3<Real>>;
+  { vessel.overlap(wall, p) } -> std::same_as<Real>;
 };
 
 /// The vessels that a case file can name, the default first. A new one is a file in model/vessels/ and a line
