@@ -188,7 +188,7 @@ class GapFunctions {
     return spread(u, mill_.motion.coordinate_errors(u, flight), flight, walls);
   }
   Errors errors(const Real& elapsed, const Real& speed) const {
-    return errors(elapsed, speed, mill_.vessel.per_wall(true));
+    return errors(elapsed, speed, model::per_wall(mill_.vessel, true));
   }
 
   /// What rounding a wider flight, radius and mill to this scalar adds to these bounds, at offsets that
@@ -196,7 +196,7 @@ class GapFunctions {
   Errors state_errors(const Real& elapsed, const Real& speed) const {
     const Real u = epsilon<Real>() / 2;
     const auto flight = bounds(elapsed, speed);
-    return spread(u, mill_.motion.state_errors(u, flight), flight, mill_.vessel.per_wall(true));
+    return spread(u, mill_.motion.state_errors(u, flight), flight, model::per_wall(mill_.vessel, true));
   }
 
  private:
@@ -223,7 +223,7 @@ class GapFunctions {
   /// most.
   Errors spread(const Real& u, const model::ErrorBounds<Real>& coordinate,
                 const model::FlightBounds<Real>& flight, const Walls& walls) const {
-    const auto none = mill_.vessel.per_wall(Real(0));
+    const auto none = model::per_wall(mill_.vessel, Real(0));
     Errors errors{none, none, none};
     for (int wall = 0; wall < model::function_count(mill_.vessel); ++wall) {
       if (!walls[wall]) continue;

@@ -22,13 +22,13 @@ namespace edmill::model {
 /// centre of a ball of radius R is in the vessel that is `inset(R)`, whose gaps are the ball's.
 ///
 /// - `wall_count()`; `walls()`: their names; `surfaces()`: for maps and pictures, none where there are no
-/// such; `PerWall<T>`: one T for each, `per_wall(value)` with all alike
+/// such; `PerWall<T>`: one T for each
 /// - `reach()` [m]: from the centre to the farthest point; `extent()`, no less and without a root;
 ///   `half_sizes()`: bounds on the coordinates; `volume()` [m3]; `widest_ball()`: diameter of the largest
 ///   that fits [m]
-/// - `inset(R)`; `is_empty()`, also where a ball just fits and cannot move; `contains(p)`; `place(drawn)`:
-/// uniform in the vessel, from three numbers that
-///   are uniform in [-1, 1], or nothing when these must be drawn again
+/// - `inset(R)`; `is_empty()`, also where a ball just fits and cannot move; `contains(p)`; if places in the
+///   box of `half_sizes()` are not to do, `place(drawn)`: uniform in the vessel, from three numbers that are
+///   uniform in [-1, 1], or nothing when these must be drawn again
 /// - `gaps(p)`, `gap(wall, p)`; `rates(p, u)` and `curvatures(p, u, a)`, their derivatives where p' = u, u' =
 /// a
 /// - `within(p, way)`: of each wall, whether it may be within `way` [m] of p; `way` is beyond all rounding
@@ -58,11 +58,10 @@ concept Vessel = requires(const V& vessel, int wall, const Vec3<Real>& p, const 
   { vessel.inset(x) } -> std::same_as<V>;
   { vessel.is_empty() } -> std::same_as<bool>;
   { vessel.contains(p) } -> std::same_as<bool>;
-  { vessel.place(p) } -> std::same_as<std::optional<Vec3<typename V::Scalar>>>;
-  { vessel.gaps(p) } -> std::same_as<typename V::template PerWall<typename V::Scalar>>;
-  { vessel.gap(wall, p) } -> std::same_as<typename V::Scalar>;
-  { vessel.rates(p, p) } -> std::same_as<typename V::template PerWall<typename V::Scalar>>;
-  { vessel.curvatures(p, p, p) } -> std::same_as<typename V::template PerWall<typename V::Scalar>>;
+  { vessel.gaps(p) } -> std::same_as<typename V::template PerWall<Real>>;
+  { vessel.gap(wall, p) } -> std::same_as<Real>;
+  { vessel.rates(p, p) } -> std::same_as<typename V::template PerWall<Real>>;
+  { vessel.curvatures(p, p, p) } -> std::same_as<typename V::template PerWall<Real>>;
   { vessel.within(p, x) } -> std::same_as<typename V::template PerWall<bool>>;
   { vessel.kind_of(wall) } -> std::same_as<int>;
   { vessel.derivative_bounds(coordinates, wall) } -> std::same_as<typename V::template PerKind<Real>>;
@@ -103,12 +102,22 @@ int function_count(const V& vessel) {
   else
     return vessel.wall_count();
 }
+/// The same value for each function.
+template <class V, class Value>
+typename V::template PerWall<Value> per_wall(const V& vessel, const Value& value) {
+  typename V::template PerWall<Value> all;
+  if constexpr (requires { all.assign(1, value); })
+    all.assign(static_cast<std::size_t>(function_count(vessel)), value);
+  else
+    all.fill(value);
+  return all;
+}
 template <class V>
 auto active_functions(const V& vessel, const Vec3<typename V::Scalar>& p) {
   if constexpr (HasRegions<V>)
     return vessel.active(p);
   else
-    return vessel.per_wall(true);
+    return per_wall(vessel, true);
 }
 
 /// Any vessel, chosen when the case is read.
@@ -147,10 +156,6 @@ class AnyVessel {
     return std::visit(std::forward<F>(f), vessel_);
   }
 
-  template <class Value>
-  PerWall<Value> per_wall(const Value& value) const {
-    return PerWall<Value>(static_cast<std::size_t>(function_count()), value);
-  }
   int function_count() const {
     return visit([](const auto& v) { return model::function_count(v); });
   }
@@ -174,7 +179,11 @@ class AnyVessel {
     });
   }
   std::optional<Vec3<Real>> place(const Vec3<Real>& drawn) const {
-    return visit([&](const auto& v) { return v.place(drawn); });
+    return visit([&](const auto& v) -> std::optional<Vec3<Real>> {
+      if constexpr (requires { v.place(drawn); }) return v.place(drawn);
+      const Vec3<Real> p = drawn.cwiseProduct(v.half_sizes());
+      return v.contains(p) ? std::optional(p) : std::nullopt;
+    });
   }
   AnyVessel inset(const Real& by) const {
     return visit([&](const auto& v) { return AnyVessel(v.inset(by)); });

@@ -11,6 +11,13 @@ struct WallInfo {
   std::string label, meaning;
 };
 
+/// "wall 0" and so on. @param meaning  without the number
+inline std::vector<WallInfo> numbered_walls(int count, const std::string& meaning) {
+  std::vector<WallInfo> walls;
+  for (int k = 0; k < count; ++k) walls.push_back({"wall " + std::to_string(k), meaning + std::to_string(k)});
+  return walls;
+}
+
 /// The names of a partner, everywhere.
 struct PartnerInfo {
   std::string key;      ///< in files: "wall_0"

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <boost/container/static_vector.hpp>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -115,17 +114,8 @@ class AlgebraicVessel {
   }
 
   int wall_count() const { return static_cast<int>(shape_->walls.size()); }
-  std::vector<WallInfo> walls() const {
-    std::vector<WallInfo> list;
-    for (int wall = 0; wall < wall_count(); ++wall)
-      list.push_back({"wall " + std::to_string(wall), "the curved wall " + std::to_string(wall)});
-    return list;
-  }
+  std::vector<WallInfo> walls() const { return numbered_walls(wall_count(), "the curved wall "); }
   static std::vector<WallSurface<Real>> surfaces() { return {}; }
-  template <class Value>
-  PerWall<Value> per_wall(const Value& value) const {
-    return PerWall<Value>(shape_->walls.size(), value);
-  }
   /// The gaps of the walls as functions of place and radius.
   const AlgebraicForm<Real>& form(int wall) const { return of(wall).gap; }
 
@@ -142,10 +132,6 @@ class AlgebraicVessel {
     for (int axis = 0; axis < 3; ++axis)
       if (p[axis] > half[axis] || -p[axis] > half[axis]) return false;
     return !is_empty() && has_room(p, radius_);
-  }
-  std::optional<Vec3<Real>> place(const Vec3<Real>& drawn) const {
-    const Vec3<Real> p = drawn.cwiseProduct(half_sizes());
-    return contains(p) ? std::optional<Vec3<Real>>(p) : std::nullopt;
   }
 
   PerWall<Real> gaps(const Vec3<Real>& p) const {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <vector>
 
 #include "model/parts/parameter.hpp"
@@ -33,10 +32,6 @@ struct BoxVessel {
     return {{"wall -x", "the wall at -x"}, {"wall +x", "the wall at +x"}, {"wall -y", "the wall at -y"},
             {"wall +y", "the wall at +y"}, {"wall -z", "the wall at -z"}, {"wall +z", "the wall at +z"}};
   }
-  template <class Value>
-  static PerWall<Value> per_wall(const Value& value) {
-    return {value, value, value, value, value, value};
-  }
 
   std::vector<WallSurface<Real>> surfaces() const { return box_surfaces<Real>(half); }
 
@@ -55,9 +50,6 @@ struct BoxVessel {
     bool inside = true;
     for (int axis = 0; axis < 3; ++axis) inside &= p[axis] <= half[axis] && p[axis] >= -half[axis];
     return inside;
-  }
-  std::optional<Vec3<Real>> place(const Vec3<Real>& drawn) const {
-    return Vec3<Real>(drawn.cwiseProduct(half));
   }
 
   PerWall<Real> gaps(const Vec3<Real>& p) const {

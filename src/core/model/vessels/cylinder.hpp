@@ -38,10 +38,6 @@ struct CylinderVessel {
   static std::vector<WallInfo> walls() {
     return {{"cap -y", "the cap at -y"}, {"cap +y", "the cap at +y"}, {"cylinder", "the cylinder"}};
   }
-  template <class Value>
-  static PerWall<Value> per_wall(const Value& value) {
-    return {value, value, value};
-  }
 
   std::vector<WallSurface<Real>> surfaces() const {
     const Vec3<Real> top{Real(0), half_height, Real(0)};

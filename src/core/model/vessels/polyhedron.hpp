@@ -58,20 +58,11 @@ class PolyhedronVessel {
 
   const boost::container::static_vector<Plane, most_walls>& planes() const { return planes_; }
   int wall_count() const { return static_cast<int>(planes_.size()); }
-  std::vector<WallInfo> walls() const {
-    std::vector<WallInfo> list;
-    for (std::size_t wall = 0; wall < planes_.size(); ++wall)
-      list.push_back({"wall " + std::to_string(wall), "the plane " + std::to_string(wall)});
-    return list;
-  }
+  std::vector<WallInfo> walls() const { return numbered_walls(wall_count(), "the plane "); }
   std::vector<WallSurface<Real>> surfaces() const {
     std::vector<WallSurface<Real>> list;
     for (const auto& face : make_faces()) list.push_back(polygon_of<Real>(face));
     return list;
-  }
-  template <class Value>
-  PerWall<Value> per_wall(const Value& value) const {
-    return PerWall<Value>(planes_.size(), value);
   }
 
   Real reach() const { return reach_; }
@@ -94,10 +85,6 @@ class PolyhedronVessel {
     bool inside = true;
     for (int wall = 0; wall < wall_count(); ++wall) inside &= gap(wall, p) >= 0;
     return inside;
-  }
-  std::optional<Vec3<Real>> place(const Vec3<Real>& drawn) const {
-    const Vec3<Real> p = drawn.cwiseProduct(half_sizes_);
-    return contains(p) ? std::optional<Vec3<Real>>(p) : std::nullopt;
   }
 
   PerWall<Real> gaps(const Vec3<Real>& p) const {

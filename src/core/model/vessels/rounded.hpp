@@ -63,10 +63,6 @@ class RoundedVessel {
             {"cap -y", "the cap at -y"},
             {"cap +y", "the cap at +y"}};
   }
-  template <class Value>
-  PerWall<Value> per_wall(const Value& value) const {
-    return PerWall<Value>(static_cast<std::size_t>(function_count()), value);
-  }
   std::vector<WallSurface<Real>> surfaces() const {
     const Vec3<Real> top{Real(0), b_, Real(0)}, end{Real(0), Real(b_ + rounding_), Real(0)};
     const Vec3<Real> zero = Vec3<Real>::Zero();
@@ -107,10 +103,6 @@ class RoundedVessel {
     if (is_empty()) return false;
     const Vec3<Real> d = from_core(p);
     return squared_norm<Real>(d) <= rounding_ * rounding_;
-  }
-  std::optional<Vec3<Real>> place(const Vec3<Real>& drawn) const {
-    const Vec3<Real> p = drawn.cwiseProduct(half_sizes());
-    return contains(p) ? std::optional<Vec3<Real>>(p) : std::nullopt;
   }
 
   PerWall<Real> gaps(const Vec3<Real>& p) const {
@@ -160,7 +152,7 @@ class RoundedVessel {
 
   /// The walls and borders of the region of p.
   PerWall<bool> active(const Vec3<Real>& p) const {
-    PerWall<bool> on = per_wall(false);
+    PerWall<bool> on(static_cast<std::size_t>(function_count()), false);
     const std::size_t border = static_cast<std::size_t>(wall_count());
     if (is_sharp_) {
       on[2] = on[3] = on[4] = true;

@@ -31,10 +31,6 @@ struct SphereVessel {
 
   static constexpr int wall_count() { return 1; }
   static std::vector<WallInfo> walls() { return {{"sphere", "the sphere"}}; }
-  template <class Value>
-  static PerWall<Value> per_wall(const Value& value) {
-    return {value};
-  }
   std::vector<WallSurface<Real>> surfaces() const {
     return {Zone<Real>{{frame_at<Real>(Vec3<Real>::Zero())}, radius, -radius, radius}};
   }
