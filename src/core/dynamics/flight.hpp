@@ -118,15 +118,6 @@ struct RoughAnswer {
   double curvature_error = 0;  ///< bound on its error
   double third = 0;            ///< bound on the third derivative
   double error = 0;            ///< bound on the rounding of the gap in double, that of the state left aside
-
-  static RoughAnswer contact(int wall, double left, double right, double root, double error) {
-    return {.verdict = Verdict::contact,
-            .wall = wall,
-            .left = left,
-            .right = right,
-            .root = root,
-            .error = error};
-  }
 };
 
 }  // namespace edmill::dynamics

@@ -144,7 +144,11 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
     answer =
         WallAnswer<Real>::contact(wall, mill_.clock.instant(query.begin.period, best.t), best.time_error);
     if constexpr (rounded)
-      *rough = RoughAnswer::contact(wall, found.left.t, found.right.t, root->t, own_errors.gap[wall]);
+      *rough = {.wall = wall,
+                .left = found.left.t,
+                .right = found.right.t,
+                .root = root->t,
+                .error = own_errors.gap[wall]};
     if (!any_from(reachable, wall + 1)) break;
     // Later walls matter up to a little past this root.
     const Real behind = root->t + root->time_error + longest_window() * rounding_margin<Real>();
