@@ -5,6 +5,7 @@
 #include <optional>
 #include <type_traits>
 #include <utility>
+#include <variant>
 //
 #include <boost/math/tools/toms748_solve.hpp>
 
@@ -185,19 +186,8 @@ class AnyWallSearch {
   using Policy = std::function<WallAnswer<Real>(const model::AnyPose<Real>&, const WallQuery<Real>&)>;
 
   AnyWallSearch(const model::AnyMotion<Real>& motion, const model::AnyVessel<Real>& vessel,
-                const Vec3<Real>& gravity) {
-    if constexpr (std::is_same_v<Real, double>) {
-      const auto* cylinder = vessel.template get_if<model::CylinderVessel<Real>>();
-      const auto* spex = motion.template get_if<model::SpexMotion<Real>>();
-      const auto* chain = motion.template get_if<model::ChainMotion<Real>>();
-      if (cylinder && !vessel.pistons()) {
-        if (spex) spex_.emplace(*spex, *cylinder, gravity);
-        if (chain) on_chain_.emplace(*chain, *cylinder, gravity);
-      }
-      if (!spex_ && !on_chain_) general_.emplace(motion, vessel, gravity);
-    } else {
-      general_.emplace(motion, vessel, gravity);
-    }
+                const Vec3<Real>& gravity)
+      : search_(made(motion, vessel, gravity)) {
     longest_window_ = with([](const auto& search) { return search.longest_window(); });
     reach_ = with([](const auto& search) { return search.mill().reach; });
   }
@@ -224,14 +214,10 @@ class AnyWallSearch {
   }
   /// From here on a policy of the caller's own decides, which nothing certifies.
   void replace(Policy policy) {
-    const auto keep = [&](const auto& own) {
-      if constexpr (std::is_same_v<Real, double>)
-        if (own) general_.emplace(own->mill().motion, own->mill().vessel, own->mill().gravity);
-    };
-    keep(spex_);
-    keep(on_chain_);
-    spex_.reset();
-    on_chain_.reset();
+    search_ = with([](const auto& own) {
+      const auto& mill = own.mill();
+      return Search(std::in_place_type<General>, mill.motion, mill.vessel, mill.gravity);
+    });
     policy_ = std::move(policy);
   }
   RoughAnswer rough(const WallQuery<Real>& query) const {
@@ -239,23 +225,33 @@ class AnyWallSearch {
   }
 
  private:
+  static constexpr bool is_double = std::is_same_v<Real, double>;
+  using Search = std::conditional_t<is_double, std::variant<Spex, OnChain, General>, std::variant<General>>;
+
+  static Search made(const model::AnyMotion<Real>& motion, const model::AnyVessel<Real>& vessel,
+                     const Vec3<Real>& gravity) {
+    if constexpr (is_double) {
+      const auto* cylinder = vessel.template get_if<model::CylinderVessel<Real>>();
+      const auto* spex = motion.template get_if<model::SpexMotion<Real>>();
+      const auto* chain = motion.template get_if<model::ChainMotion<Real>>();
+      if (cylinder && !vessel.pistons()) {
+        if (spex) return Search(std::in_place_type<Spex>, *spex, *cylinder, gravity);
+        if (chain) return Search(std::in_place_type<OnChain>, *chain, *cylinder, gravity);
+      }
+    }
+    return Search(std::in_place_type<General>, motion, vessel, gravity);
+  }
   template <class F>
   [[gnu::always_inline]] decltype(auto) with(F&& f) const {
-    if constexpr (std::is_same_v<Real, double>)
-      if (spex_) [[likely]]
-        return f(*spex_);
-    if constexpr (std::is_same_v<Real, double>)
-      if (on_chain_) return f(*on_chain_);
-    return f(*general_);
+    if constexpr (is_double) {
+      if (const auto* spex = std::get_if<Spex>(&search_)) [[likely]]
+        return f(*spex);
+      if (const auto* on_chain = std::get_if<OnChain>(&search_)) return f(*on_chain);
+    }
+    return f(*std::get_if<General>(&search_));
   }
 
-  struct Never {
-    void emplace(const auto&...) {}
-    void reset() {}
-  };
-  std::conditional_t<std::is_same_v<Real, double>, std::optional<Spex>, Never> spex_{};
-  std::conditional_t<std::is_same_v<Real, double>, std::optional<OnChain>, Never> on_chain_{};
-  std::optional<General> general_;
+  Search search_;
   Policy policy_;
   Real longest_window_, reach_;
 };
