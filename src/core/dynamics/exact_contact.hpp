@@ -116,9 +116,9 @@ model::Joints<Real> joints_of(const model::AnyMotion<Real>& motion) {
 template <class Real>
 struct Shape {
   enum Kind { other, plane, round } kind = other;
-  Vec3<Real> axes{Real(0), Real(0),
-                  Real(0)};  ///< the normal inwards; one where the wall is round about the others
-  Real distance{0};          ///< of the wall from the centre [m]
+  /// The normal inwards; one where the wall is round about the others.
+  Vec3<Real> axes{Real(0), Real(0), Real(0)};
+  Real distance{0};  ///< of the wall from the centre [m]
 };
 template <class V, class Real = typename V::Scalar>
 Shape<Real> shape_of(const V& vessel, int wall) {
@@ -161,22 +161,17 @@ std::optional<StillCoordinate> still_coordinate(const model::Joints<Real>& joint
       seen.offset = seen.sign > 0 ? seen.offset + shift : seen.offset - shift;
       continue;
     }
-    const int next = (seen.axis + 1) % 3, last = (seen.axis + 2) % 3;
-    if (along(next) == 0 && along(last) == 0) continue;  // turns about the direction itself
+    int about = -1;  // the axis of the turn; 3 where that is none of the three
+    for (int k = 0; k < 3; ++k)
+      if (along(k) != 0) about = about < 0 ? k : 3;
+    if (about < 0 || about == seen.axis) continue;  // turns about the direction itself
     const Real quarters = 4 * joint->angle;
     const int turns = static_cast<int>(static_cast<double>(quarters));
-    const bool about_next = along(seen.axis) == 0 && along(last) == 0;
-    const bool about_last = along(seen.axis) == 0 && along(next) == 0;
-    if (moves || !(about_next || about_last) || Real(turns) != quarters) return std::nullopt;
-    // By a quarter of a turn about z, x goes to y and y to -x: from axis to axis + 1, with its sign, where
-    // the turn is about axis + 2, and to minus axis + 2 where it is about axis + 1.
-    const bool backwards = about_next ? along(next) < 0 : along(last) < 0;
-    const int count = (((backwards ? -turns : turns) % 4) + 4) % 4;
-    if (count == 2) seen.sign = -seen.sign;
-    if (count % 2 == 1) {
-      const bool flips = about_next ? count == 1 : count == 3;
-      if (flips) seen.sign = -seen.sign;
-      seen.axis = about_next ? last : next;
+    if (moves || about == 3 || Real(turns) != quarters) return std::nullopt;
+    // By a quarter of a turn about z, x goes to y and y to -x.
+    for (int count = ((along(about) < 0 ? -turns : turns) % 4 + 4) % 4; count > 0; --count) {
+      if (seen.axis == (about + 2) % 3) seen.sign = -seen.sign;
+      seen.axis = 3 - about - seen.axis;
     }
   }
   return seen;
