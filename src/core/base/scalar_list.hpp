@@ -44,16 +44,7 @@ inline void archive_value(Archive& a, float128& value) {
 void archive_value(Archive& a, float128& value);
 #endif
 #if !defined(EDMILL_WITHOUT_MPFR)
-namespace detail {
 /// All limbs, so that no bit depends on a conversion.
-inline void archive_limbs(Archive& a, mpfr_ptr number) {
-  std::int64_t exponent = number->_mpfr_exp;
-  a(number->_mpfr_sign, exponent);
-  number->_mpfr_exp = static_cast<mpfr_exp_t>(exponent);
-  const auto bits = static_cast<std::size_t>(mpfr_get_prec(number));
-  for (std::size_t limb = 0; limb * mp_bits_per_limb < bits; ++limb) a(number->_mpfr_d[limb]);
-}
-}  // namespace detail
 inline void archive_value(Archive& a, mpfr& value) {
   std::int64_t bits = mpfr_get_prec(value.data());
   a(bits);
@@ -61,7 +52,11 @@ inline void archive_value(Archive& a, mpfr& value) {
     if (bits < 1 || bits > 10'000'000) throw InputError("found no such number in a saved state");
     value.set_precision(static_cast<mpfr_prec_t>(bits));
   }
-  detail::archive_limbs(a, value.data());
+  mpfr_ptr number = value.data();
+  std::int64_t exponent = number->_mpfr_exp;
+  a(number->_mpfr_sign, exponent);
+  number->_mpfr_exp = static_cast<mpfr_exp_t>(exponent);
+  for (std::int64_t limb = 0; limb * mp_bits_per_limb < bits; ++limb) a(number->_mpfr_d[limb]);
 }
 
 template <unsigned digits>
