@@ -105,12 +105,14 @@ int function_count(const V& vessel) {
 /// The same value for each function.
 template <class V, class Value>
 typename V::template PerWall<Value> per_wall(const V& vessel, const Value& value) {
-  typename V::template PerWall<Value> all;
-  if constexpr (requires { all.assign(1, value); })
-    all.assign(static_cast<std::size_t>(function_count(vessel)), value);
-  else
+  using All = typename V::template PerWall<Value>;
+  if constexpr (requires { All(1, value); }) {
+    return All(static_cast<std::size_t>(function_count(vessel)), value);
+  } else {
+    All all;
     all.fill(value);
-  return all;
+    return all;
+  }
 }
 template <class V>
 auto active_functions(const V& vessel, const Vec3<typename V::Scalar>& p) {
