@@ -23,6 +23,7 @@ using model::Joint;
 using model::Joints;
 using model::Range;
 using model::Swing;
+using model::TurnFraction;
 using PistonSpec = model::Piston<Quantity>;
 
 /// The share of a turn by which `turns` exceeds whole turns, cut to the bits of a TurnFraction: to those that

@@ -62,7 +62,7 @@ model::AnyMotion<Real> to_motion(const Joints<Real>& given, const Real& period) 
   for (const auto& j : given) {
     const auto turns = per_period(j.speed);
     model::Joint<Real> joint{j.rotates, j.axis,  j.shift,
-                             j.angle,   Real(0), j.rotates ? turns : TurnFraction{}};
+                             j.angle,   Real(0), j.rotates ? turns : model::TurnFraction{}};
     for (const auto& h : j.harmonics)
       joint.swings.push_back({h.amplitude, Real(0), h.phase, per_period(h.frequency)});
     if (!j.rotates && j.speed.turns != 0)

@@ -121,7 +121,7 @@ class Corners {
       const bool moves = kind > 0.1 && (kind > 0.8 || k == only);
       const Real amplitude = moves ? real(0.001, 0.005) : Real(0);
       amplitude_[k] = Sharp(amplitude);
-      joint.swings.push_back({amplitude, 1 / period, phase_, TurnFraction{.whole = 1}});
+      joint.swings.push_back({amplitude, 1 / period, phase_, model::TurnFraction{.whole = 1}});
       joints.list.push_back(joint);
     }
     mill.motion = model::ChainMotion<Real>(joints);

@@ -14,7 +14,7 @@
 #include "base/scalar.hpp"
 #include "base/trigonometry.hpp"
 
-namespace edmill {
+namespace edmill::model {
 
 /// A share of a turn as a binary fraction of 1024 bits, or more where a scalar needs them. What many drive
 /// periods turn is reduced to less than a turn by whole numbers, so that a phase is as sharp after 1e9
@@ -80,10 +80,6 @@ struct TurnFraction {
     return above_half != negative ? Real(-sum) : sum;
   }
 };
-
-}  // namespace edmill
-
-namespace edmill::model {
 
 /// amplitude sin(2 pi (frequency t + phase)).
 template <class Number>
