@@ -12,7 +12,7 @@ namespace edmill::testing {
 /// Turns in a drive period: whole ones and a binary fraction.
 struct OracleTurns {
   std::int64_t whole;
-  std::array<std::uint64_t, 16> fraction;
+  std::vector<std::uint64_t> fraction;
 };
 /// amplitude sin(2 pi (turns of the drive + phase)): metres, or turns of a rotation.
 struct OracleSwing {

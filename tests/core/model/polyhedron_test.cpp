@@ -113,7 +113,7 @@ TEST(Polyhedron, PlacesOnlyInside) {
   const Vessel four(tetrahedron(0.01));
   int placed = 0;
   EXPECT_TRUE(rc::check([&] {
-    const auto p = four.place({draw(-1.0, 1.0), draw(-1.0, 1.0), draw(-1.0, 1.0)});
+    const auto p = AnyVessel<double>(four).place({draw(-1.0, 1.0), draw(-1.0, 1.0), draw(-1.0, 1.0)});
     if (!p) return;
     ++placed;
     const auto gaps = four.gaps(*p);
