@@ -103,7 +103,6 @@ void Equations::of_states(const LoggedImpact& impact, const Speeds& speeds, doub
 
 /// The dose is the wall work plus the energy that the least separation speed supplies, minus what the balls
 /// have gained. (2.36'), (A.82)
-/// @pre the rows of the states are there
 void Equations::of_energies(const LoggedImpact& impact, const Speeds& speeds, double allowed,
                             std::vector<Row>& rows) const {
   const LoggedEvent& event = *impact.event;
@@ -118,14 +117,10 @@ void Equations::of_energies(const LoggedImpact& impact, const Speeds& speeds, do
         off = other;
     };
     // A code whose impulse is wrong may have its dose from the law, or nothing supplied: then the law is
-    // wrong and not the dose.
-    const bool obeys_law = std::none_of(rows.begin(), rows.end(), [](const Row& row) {
-      return row.kind == RowKind::law && row.is_violated();
-    });
-    if (terms_.change_impulse() || !obeys_law) {
-      or_else(dose_by_law(impact, speeds));
-      if (supplied(impact, speeds.g_n, impact.separation_speed(speeds.g_n)) == 0) or_else(balance);
-    }
+    // wrong and not the dose. A fit allows for it only with such a term, since its rows must be smooth.
+    if (!by_body_ || terms_.change_impulse()) or_else(dose_by_law(impact, speeds));
+    const bool supplies = supplied(impact, speeds.g_n, impact.separation_speed(speeds.g_n)) > 0;
+    if (!by_body_ && !supplies) or_else(balance);
     rows.push_back(scalar(Check::milling_dose, RowKind::energy, off, allowed, event.milling_dose, expected));
   }
   if (has_.wall_work)
