@@ -156,6 +156,11 @@ class Auditor : Judge {
     bool late = false, usable = true;
   };
 
+  void report(Kind kind, const LoggedEvent& event, double size, double found, double expected,
+              const char* note = "") {
+    findings_.add({event, kind, size, found, expected, note});
+  }
+
   /// Bodies that have separated cannot have the same impact again at the same time.
   bool is_repeated(const LoggedEvent& event) const {
     const LastEvent& last = last_[event.ball];
@@ -275,8 +280,9 @@ class Auditor : Judge {
       if (row->equation == Check::spin_change) wrong_torque = row->is_violated();
       // With a wrong torque the slip after the impact carries no further information.
       const bool known = !(wrong_torque && row->equation == Check::tangential_law);
-      judge(row->equation, kind_of(row->equation), event, known ? row->size : 0, row->allowed, row->found,
-            row->expected);
+      findings_.judged(row->equation);
+      if (known && row->is_violated())
+        report(kind_of(row->equation), event, row->size, row->found, row->expected);
     }
     const bool with_wall = impact.with_wall();
     if (allowed.can_be_checked && available_.positions(with_wall) &&

@@ -21,16 +21,6 @@ class Judge {
       : case_(the_case), available_(available), tolerances_(tolerances), findings_(findings) {}
 
  protected:
-  void report(Kind kind, const LoggedEvent& event, double size, double found, double expected,
-              const char* note = "") {
-    findings_.add({event, kind, size, found, expected, note});
-  }
-  /// A check whose quantity is `off` from what is expected.
-  void judge(Check check, Kind kind, const LoggedEvent& event, double off, double allowed, double found,
-             double expected) {
-    findings_.judged(check);
-    if (off > allowed) report(kind, event, off, found, expected);
-  }
   double radius_of(int ball) const { return case_.balls[ball].radius; }
 
   const model::Case<double>& case_;
@@ -51,11 +41,7 @@ struct Track : Flying {
   bool state_known = false, spin_known = false;
   double broken_from = 0;  ///< an impact of the flight at this time is not in the log [s]
   bool broken = false;
-  struct Pending {  ///< a missed impact with a ball whose flight is now over
-    Finding finding;
-    double depth;
-  };
-  std::vector<Pending> pending;
+  std::vector<Finding> pending;  ///< missed impacts with balls whose flights are now over
   /// A missed impact with a wall, until the next line is seen not to log it at the same time.
   std::optional<Finding> held;
 };
@@ -111,14 +97,13 @@ class Flights : Judge {
     auto missed = first_wall(ball, track, until, slack);
     // The impact that ends the flight is late, not missed.
     if (missed && end.late && end.event->with_wall && missed->partner == end.event->partner) missed.reset();
-    auto pair = first_ball(ball, track, end, slack);
-    if (pair && (pair->time > until || (missed && missed->time <= pair->time))) pair.reset();
-    if (pair) missed.reset();
+    if (const auto pair = first_ball(ball, track, end, slack);
+        pair && pair->time <= until && !(missed && missed->time <= pair->time))
+      missed = pair;
 
     double missed_at = until;
     bool reported = track.broken;
-    if (missed) reported |= report_missed_wall(ball, track, *missed, end, off, missed_at);
-    if (pair) reported |= report_missed_ball(ball, *pair, end, off, missed_at);
+    if (missed) reported |= report_missed(ball, *missed, end, off, missed_at);
     settle_pending(track, end, off, reported ? missed_at : time);
     if (!reported) judge_state(ball, track, end, true);
   }
@@ -179,7 +164,7 @@ class Flights : Judge {
     const double radius = radius_of(ball);
     const auto frame = nested_at(track.start);
     double overlap = 0;
-    for (int wall = 0; wall < walls(); ++wall)
+    for (int wall = 0; wall < case_.mill.vessel.wall_count(); ++wall)
       overlap = std::max(overlap, -wall_gap(frame, case_, wall, ball, track.flight.position));
     const double smaller = radius - overlap - slack;
     if (smaller < radius / 2) return std::nullopt;  // outside the vessel, which was reported before
@@ -251,9 +236,9 @@ class Flights : Judge {
   }
 
   /// Tries up to four impacts with walls that are not in the log.
-  bool explained_by_walls(int ball, const Track& track, const FlightEnd& end) {
-    if (!track.spin_known) return false;
-    Flying own = track;
+  bool explained_by_walls(int ball, const FlightEnd& end) {
+    if (!of(ball).spin_known) return false;
+    Flying own = of(ball);
     for (int k = 0; k < 4; ++k) {
       const auto contact = wall_contact(own, radius_of(ball), end.event->time);
       if (!contact) return false;
@@ -354,57 +339,52 @@ class Flights : Judge {
     return ends_elsewhere ? std::max(off, std::numeric_limits<double>::min()) : 0;
   }
 
-  Finding missed_finding(int ball, const Encounter& contact, const FlightEnd& end, const char* note) const {
-    Finding missed{*end.event, Kind::missed_event, contact.depth, unknown, unknown, note};
-    missed.ball = ball;
-    missed.with_wall = contact.with_wall;
-    missed.partner = contact.partner;
-    missed.time = contact.time;
-    return missed;
-  }
-
+  /// Reports a missed impact. That with a wall waits for the ball's next line; of two balls, what only the
+  /// partner's flight can confirm waits for that flight.
   /// @param off  distance of the logged position from the end of the flight [m]
-  /// @return whether it is reported; then `missed_at` becomes its time
-  bool report_missed_wall(int ball, Track& track, const Encounter& missed, const FlightEnd& end, double off,
-                          double& missed_at) {
-    const bool explained = off > 0 && explained_by_walls(ball, track, end);
-    if (off == 0) ++flown_through_[missed.partner];
-    if (!explained && off > 0 && missed.depth <= 2 * off) return false;
-    track.held = missed_finding(ball, missed, end,
-                                explained  ? "the state changes as in this impact, which is not logged"
-                                : off == 0 ? "the ball flew through the wall"
-                                           : "");
-    missed_at = missed.time;
-    return true;
-  }
-
-  /// Reports a missed impact of two balls; what only the partner's flight can confirm waits for that flight.
-  bool report_missed_ball(int ball, const Encounter& pair, const FlightEnd& end, double off,
-                          double& missed_at) {
-    Track& other = of(pair.partner);
-    if (off > 0 && explained_by_ball(ball, pair, end)) {
-      findings_.add(
-          missed_finding(ball, pair, end, "the state changes as in this impact, which is not logged"));
-      if (!other.broken || pair.time < other.broken_from) other.broken_from = pair.time;
+  /// @return whether it is reported; `missed_at` becomes its time where it may be
+  bool report_missed(int ball, const Encounter& missed, const FlightEnd& end, double off, double& missed_at) {
+    const bool wall = missed.with_wall, flown_through = off == 0;
+    const bool explained =
+        !flown_through && (wall ? explained_by_walls(ball, end) : explained_by_ball(ball, missed, end));
+    if (wall && flown_through) ++flown_through_[missed.partner];
+    if (!explained && !flown_through && missed.depth <= 2 * off) return false;
+    Finding finding{*end.event,
+                    Kind::missed_event,
+                    missed.depth,
+                    unknown,
+                    unknown,
+                    explained        ? "the state changes as in this impact, which is not logged"
+                    : !flown_through ? ""
+                    : wall           ? "the ball flew through the wall"
+                                     : "the balls flew through each other"};
+    finding.ball = ball;
+    finding.with_wall = wall;
+    finding.partner = missed.partner;
+    finding.time = missed.time;
+    if (wall) {
+      of(ball).held = finding;
+    } else if (Track& other = of(missed.partner); explained) {
+      findings_.add(finding);
+      other.broken_from = other.broken ? std::min(other.broken_from, missed.time) : missed.time;
       other.broken = true;
-      missed_at = pair.time;
-      return true;
+    } else if (other.pending.size() < pending_kept) {
+      other.pending.push_back(finding);
+    } else {
+      return false;
     }
-    if ((off > 0 && pair.depth <= 2 * off) || other.pending.size() >= pending_kept) return false;
-    const char* note = off == 0 ? "the balls flew through each other" : "";
-    other.pending.push_back({missed_finding(ball, pair, end, note), pair.depth});
-    missed_at = pair.time;
-    return off > 0;
+    missed_at = missed.time;
+    return wall || explained || !flown_through;
   }
 
   /// Missed impacts that were found with other balls' flights are confirmed if this flight agrees with the
   /// log.
   void settle_pending(Track& track, const FlightEnd& end, double off, double missed_at) {
     const int other = end.partner();
-    for (const auto& p : track.pending) {
-      const bool told_late = end.late && !end.event->with_wall && p.finding.ball == other;
-      if (!told_late && p.finding.time <= missed_at && (off == 0 || p.depth > 2 * off))
-        findings_.add(p.finding);
+    for (const auto& missed : track.pending) {
+      const bool told_late = end.late && !end.event->with_wall && missed.ball == other;
+      if (!told_late && missed.time <= missed_at && (off == 0 || missed.size > 2 * off))
+        findings_.add(missed);
     }
     track.pending.clear();
   }
@@ -417,8 +397,6 @@ class Flights : Judge {
     if (!reported) findings_.add(*track.held);
     track.held.reset();
   }
-
-  int walls() const { return static_cast<int>(flown_through_.size()); }
 
   double deepest(int ball, const Track& track, int wall, double from, double until) const {
     double depth = 0;
