@@ -1,7 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <utility>
+#include <cmath>
+#include <optional>
 
 #include "identify/identify.hpp"
 
@@ -22,6 +23,50 @@ std::string Cause::text() const {
                      word.empty() ? "" : ", " + word));
   }
   return text;
+}
+
+namespace {
+
+/// Lengths of time that a log may show, in the order of reports.
+struct Sign {
+  const char* key;
+  std::optional<double> TimeStepping::*time;
+  fmt::format_string<const double&> text;
+};
+constexpr Sign signs[] = {
+    {"step", &TimeStepping::step,
+     "time steps: all times are multiples of {:.6g} s, the step or the rounding of times"},
+    {"step_by_depth", &TimeStepping::step_by_depth,
+     "contacts found by overlap, with a step near {:.3g} s; a --gap-tolerance of the worst overlap accepts "
+     "them"},
+    {"first_order_step", &TimeStepping::first_order_step,
+     "an integrator of first order with steps of {:.3g} s: flights leave the parabola by g h t/2, h the "
+     "step"},
+    {"jitter", &TimeStepping::jitter,
+     "times with errors of {:.3g} s (root mean square), early and late alike: flights deviate along their "
+     "paths alone"}};
+
+}  // namespace
+
+std::string table(const TimeStepping& found) {
+  std::string out;
+  if (found.soft) {
+    const auto& s = *found.soft;
+    const std::string law =
+        !std::isfinite(s.exponent) ? ""
+        : s.exponent < -0.1 ? fmt::format("; it falls as speed^{:.2f}, as for Hertz's contacts", s.exponent)
+                            : fmt::format("; it scales as speed^{:.2f}, as for a linear spring", s.exponent);
+    out += fmt::format(
+        "  looks like   soft contacts that last {:.3g} us (quartiles {:.3g} and {:.3g}), shown by {} "
+        "impacts, logged at their {}{}\n"
+        "    stiffness {:.3g} N/m of a linear spring, or E* {:.3g} GPa of Hertz's contacts\n",
+        s.duration * 1e6, s.low * 1e6, s.high * 1e6, s.contacts, s.at == LoggedAt::begin ? "start" : "end",
+        law, s.spring, s.modulus / 1e9);
+  }
+  for (const auto& sign : signs)
+    if (const auto& time = found.*sign.time) out += "  looks like   " + fmt::format(sign.text, *time) + "\n";
+  if (found.second_order) out += "    flights under gravity have no error of first order in the step\n";
+  return out;
 }
 
 std::string table(const Identification& found) {
@@ -78,11 +123,8 @@ namespace {
 
 void put_stepping(io::JsonText& json, const TimeStepping& stepping) {
   json.begin("time_stepping");
-  for (const auto& [key, value] : {std::pair("step", stepping.step),
-                                   {"step_by_depth", stepping.step_by_depth},
-                                   {"first_order_step", stepping.first_order_step},
-                                   {"jitter", stepping.jitter}})
-    if (value) json.add(key, *value);
+  for (const auto& sign : signs)
+    if (const auto& time = stepping.*sign.time) json.add(sign.key, *time);
   if (stepping.second_order) json.add("order", 2);
   if (const auto& soft = stepping.soft) {
     json.begin("soft_contacts");

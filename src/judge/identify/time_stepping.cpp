@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -321,38 +319,6 @@ TimeStepping time_stepping(const audit::EventsAtHand& log, const model::Case<dou
   const double scatter = quantile(orders, 0.75) - quantile(orders, 0.25);
   result.second_order = !result.first_order_step && step > 0 && middle < step / 10 && scatter < step / 10;
   return result;
-}
-
-std::string table(const TimeStepping& found) {
-  std::string out;
-  if (found.soft) {
-    const auto& s = *found.soft;
-    const std::string law =
-        !std::isfinite(s.exponent) ? ""
-        : s.exponent < -0.1 ? fmt::format("; it falls as speed^{:.2f}, as for Hertz's contacts", s.exponent)
-                            : fmt::format("; it scales as speed^{:.2f}, as for a linear spring", s.exponent);
-    out += fmt::format(
-        "  looks like   soft contacts that last {:.3g} us (quartiles {:.3g} and {:.3g}), shown by {} "
-        "impacts, logged at their {}{}\n"
-        "    stiffness {:.3g} N/m of a linear spring, or E* {:.3g} GPa of Hertz's contacts\n",
-        s.duration * 1e6, s.low * 1e6, s.high * 1e6, s.contacts, s.at == LoggedAt::begin ? "start" : "end",
-        law, s.spring, s.modulus / 1e9);
-  }
-  const auto add = [&](const std::optional<double>& value, fmt::format_string<const double&> text) {
-    if (value) out += "  looks like   " + fmt::format(text, *value) + "\n";
-  };
-  add(found.step, "time steps: all times are multiples of {:.6g} s, the step or the rounding of times");
-  add(found.step_by_depth,
-      "contacts found by overlap, with a step near {:.3g} s; a --gap-tolerance of the worst overlap accepts "
-      "them");
-  add(found.first_order_step,
-      "an integrator of first order with steps of {:.3g} s: flights leave the parabola by g h t/2, h the "
-      "step");
-  add(found.jitter,
-      "times with errors of {:.3g} s (root mean square), early and late alike: flights deviate along their "
-      "paths alone");
-  if (found.second_order) out += "    flights under gravity have no error of first order in the step\n";
-  return out;
 }
 
 }  // namespace edmill::identify
