@@ -5,7 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <numbers>
+#include <optional>
+#include <string_view>
+#include <utility>
 
 namespace edmill::identify {
 
@@ -16,7 +21,24 @@ using model::Range;
 
 using std::numbers::pi;
 
-/// Visits each number of a motion or a vessel: f(parameter, number, axis), axis -1 for a scalar.
+/// "vessel.x" of the first of three numbers along axes; the key itself for axis -1.
+std::string with_axis(const std::string& key, int axis) {
+  return axis < 0 ? key : key + "." + std::string(1, "xyz"[axis]);
+}
+
+/// With the unit of a fit that its size suggests.
+Parameter number(std::string key, Dimension dimension, double value,
+                 std::function<void(Assumptions&, double)> set) {
+  const double size = std::abs(value);
+  return {.key = std::move(key),
+          .dimension = dimension,
+          .value = value,
+          .change = size > 0 ? size : 1.0,
+          .set = std::move(set),
+          .has_unit = size > 0};
+}
+
+/// Visits each number of a motion, a vessel or a law: f(parameter, number, axis), axis -1 for a scalar.
 template <class Part, class F>
 void each_number(Part& part, F&& f) {
   struct Visit {
@@ -170,6 +192,154 @@ void add_gravity(const Assumptions& nominal, std::vector<Parameter>& list) {
   }
 }
 
+/// Values so near each other that a fit from the best of them ends at the number.
+std::vector<double> decades(double from, double to) {
+  std::vector<double> values;
+  for (double value = from; value < to; value *= 1.3) values.push_back(value);
+  return values;
+}
+
+/// A law that a code may have in place of the case's, by the number of it that is fitted. A new one is a row.
+struct OtherLaw {
+  std::string_view model, number;
+  Dimension dimension;
+  double change;
+  std::vector<double> first_values;  ///< from which fits begin
+};
+const OtherLaw other_laws[] = {
+    {"constant", "restitution_tangential", Dimension::none, 0.1, {-0.9, -0.6, -0.3, 0, 0.3, 0.6, 0.9}},
+    {"walton-braun", "friction", Dimension::none, 0.1, {0.03, 0.1, 0.2, 0.4, 0.8}},
+    {"walton-braun", "restitution", Dimension::none, 0.1, {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}},
+    {"viscoelastic", "dissipative_time", Dimension::time, 1e-7, decades(1e-8, 1e-4)},
+    {"elastic-plastic", "yield_pressure", Dimension::pressure, 1e9, decades(1e8, 1e11)}};
+
+/// What another law has where the case's says nothing: all sticks, and E* of steel, on which the restitution
+/// depends together with the fitted number alone. None of a number without which there is no such law.
+std::optional<double> otherwise(std::string_view key) {
+  if (key == "min_tangential") return -1;
+  if (key == "effective_modulus") return 113e9;
+  return std::nullopt;
+}
+
+using Law = casefile::ContactSpec;
+
+auto law_named(std::string_view name) {
+  decltype(Law::law) law;
+  casefile::for_each_kind<model::NamedLaws<Quantity>>([&](const auto& kind) {
+    if (kind.name == name) law = kind;
+  });
+  return law;
+}
+
+struct Entry {
+  std::string key;
+  Dimension dimension;
+  double value;
+};
+
+/// Visits each number of a law: f(key, dimension, number).
+template <class F>
+void each_number_of(Law& law, F&& f) {
+  each_number(law.law, [&](const model::Parameter& p, Quantity& q, int) { f(p.key, p.dimension, q); });
+  f("least_separation", Dimension::speed, law.least_separation);
+}
+
+std::vector<Entry> entries(Law law) {
+  std::vector<Entry> list;
+  each_number_of(law, [&](const char* key, Dimension dimension, Quantity& q) {
+    list.push_back({key, dimension, q.to<double>()});
+  });
+  return list;
+}
+
+/// The number of this name; another law may not have it. Points of tables have one name, and differ
+/// by their place.
+void put(Law& law, const std::string& key, std::size_t which, double value) {
+  std::size_t k = 0;
+  each_number_of(law, [&](const char* own, Dimension, Quantity& q) {
+    if (own == key && k++ == which) q = exactly(value);
+  });
+}
+
+/// The law with one number of another: its others are the law's own where they have the same name.
+/// @return whether it has all numbers that such a law needs
+bool replace(Law& law, const OtherLaw& other, double value) {
+  const auto own = entries(law);
+  bool complete = true;
+  law.law = law_named(other.model);
+  each_number_of(law, [&](const char* key, Dimension, Quantity& q) {
+    const auto same = std::find_if(own.begin(), own.end(), [&](const Entry& e) { return e.key == key; });
+    const auto value_there = key == other.number ? value : same != own.end() ? same->value : otherwise(key);
+    complete = complete && value_there;
+    q = exactly(value_there.value_or(0));
+  });
+  return complete;
+}
+
+/// Where a case gives a law, or two that are alike.
+struct Section {
+  std::string key;  ///< "contact.ball_wall"
+  std::function<std::vector<Law*>(Assumptions&)> laws;
+};
+
+/// The numbers of a section that its laws have alike.
+void add_numbers_of(const Section& section, Assumptions nominal, std::vector<Parameter>& list) {
+  const auto laws = section.laws(nominal);
+  const auto own = entries(*laws.front()), others = entries(*laws.back());
+  if (own.size() != others.size()) return;  // tables with other points
+  std::map<std::string, std::size_t> seen;
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    const auto& [key, dimension, value] = own[k];
+    const auto set = [laws = section.laws, key = key, which = seen[key]++](Assumptions& a, double x) {
+      for (Law* law : laws(a)) put(*law, key, which, x);
+    };
+    if (value != others[k].value) continue;
+    list.push_back(number(section.key + "." + key, dimension, value, set));
+    if (value == 0) list.back().change = dimension == Dimension::speed ? 0.01 : 0.1;
+  }
+}
+
+void add_other_laws(const Section& section, Assumptions nominal, std::vector<Parameter>& list) {
+  const Law& law = *section.laws(nominal).front();
+  for (const auto& other : other_laws) {
+    Law tried = law;
+    if (law.name() == other.model || !replace(tried, other, other.first_values.front())) continue;
+    list.push_back({.key = fmt::format("{}, law \"{}\": {}", section.key, other.model, other.number),
+                    .dimension = other.dimension,
+                    .value = std::numeric_limits<double>::quiet_NaN(),
+                    .change = other.change,
+                    .set =
+                        [laws = section.laws, &other](Assumptions& a, double x) {
+                          for (Law* own : laws(a)) replace(*own, other, x);
+                        },
+                    .of_flights = false,
+                    .prior = 1,  // of two that fit alike, a number of the case's law comes first
+                    .in_place_of = fmt::format("the law \"{}\"", law.name()),
+                    .first_values = other.first_values});
+  }
+}
+
+/// Those of the contact laws, and one number of each other law that may stand in their place.
+void add_laws(const Assumptions& nominal, std::vector<Parameter>& list) {
+  using Laws = std::vector<Law*>;
+  const auto& spec = nominal.spec;
+  std::vector<Section> sections;
+  if (!spec.pairs_only) {
+    if (spec.ball_ball.law.index() == spec.ball_wall.law.index())
+      sections.push_back({"contact", [](Assumptions& a) {
+                            return Laws{&a.spec.ball_ball, &a.spec.ball_wall};
+                          }});
+    sections.push_back({"contact.ball_ball", [](Assumptions& a) { return Laws{&a.spec.ball_ball}; }});
+    sections.push_back({"contact.ball_wall", [](Assumptions& a) { return Laws{&a.spec.ball_wall}; }});
+  }
+  for (const auto& section : sections) add_numbers_of(section, nominal, list);
+  for (const auto& section : sections) add_other_laws(section, nominal, list);
+  for (std::size_t k = 0; k < spec.pairs.size(); ++k)
+    add_numbers_of(
+        {fmt::format("contact.pair.{}", k), [k](Assumptions& a) { return Laws{&a.spec.pairs[k].law}; }},
+        nominal, list);
+}
+
 /// Adds the parameters of the balls [first, last), whose numbers are all scaled alike.
 void add_balls(const std::string& key, std::size_t first, std::size_t last, const casefile::BallSpec& spec,
                std::vector<Parameter>& list) {
@@ -253,6 +423,23 @@ constexpr TermRow term_rows[] = {
     {"time of flight, too long by", "(2.1)", &Terms::time_of_flight, Dimension::time, true},
     {"age of the velocities before impacts", "(2.1)", &Terms::age_of_velocities, Dimension::time, true}};
 
+/// The factors and shifts of the terms of the equations.
+void add_terms(std::vector<Parameter>& list) {
+  for (const auto& row : term_rows) {
+    const bool is_factor = row.shift == Dimension::none;
+    const double change = is_factor ? 1.0 : row.shift == Dimension::time ? 1e-5 : 1e-4;
+    list.push_back({.key = row.name,
+                    .dimension = row.shift,
+                    .value = is_factor ? 1.0 : 0.0,
+                    .change = change,
+                    .set = [member = row.member](Assumptions& a, double x) { a.terms.*member = x; },
+                    .equation = row.equation,
+                    .of_impacts = !row.of_flights,
+                    .of_flights = row.of_flights,
+                    .prior = 1});  // of two that fit alike, a number of the case comes first
+  }
+}
+
 struct Unit {
   Dimension dimension;
   const char* name;
@@ -300,17 +487,6 @@ std::vector<double> Parameter::trial_values(double end) const {
   return values;
 }
 
-Parameter number(std::string key, Dimension dimension, double value,
-                 std::function<void(Assumptions&, double)> set) {
-  const double size = std::abs(value);
-  return {.key = std::move(key),
-          .dimension = dimension,
-          .value = value,
-          .change = size > 0 ? size : 1.0,
-          .set = std::move(set),
-          .has_unit = size > 0};
-}
-
 std::vector<Parameter> parameters_of(const Assumptions& nominal) {
   std::vector<Parameter> list;
   if (std::holds_alternative<model::Chain<Quantity>>(nominal.spec.mill))
@@ -330,25 +506,7 @@ std::vector<Parameter> parameters_of(const Assumptions& nominal) {
   add_gravity(nominal, list);
   add_laws(nominal, list);
   add_all_balls(nominal, list);
-  for (auto& term : term_parameters()) list.push_back(std::move(term));
-  return list;
-}
-
-std::vector<Parameter> term_parameters() {
-  std::vector<Parameter> list;
-  for (const auto& row : term_rows) {
-    const bool is_factor = row.shift == Dimension::none;
-    const double change = is_factor ? 1.0 : row.shift == Dimension::time ? 1e-5 : 1e-4;
-    list.push_back({.key = row.name,
-                    .dimension = row.shift,
-                    .value = is_factor ? 1.0 : 0.0,
-                    .change = change,
-                    .set = [member = row.member](Assumptions& a, double x) { a.terms.*member = x; },
-                    .equation = row.equation,
-                    .of_impacts = !row.of_flights,
-                    .of_flights = row.of_flights,
-                    .prior = 1});  // of two that fit alike, a number of the case comes first
-  }
+  add_terms(list);
   return list;
 }
 

@@ -55,18 +55,6 @@ struct Parameter {
 /// All numbers of the mill, the vessel, gravity, the contact laws and the balls.
 std::vector<Parameter> parameters_of(const Assumptions& nominal);
 
-/// Those of the contact laws, and one number of each other law that may stand in their place.
-void add_laws(const Assumptions& nominal, std::vector<Parameter>& list);
-/// "vessel.x" of the first of three numbers along axes; the key itself for axis -1.
-inline std::string with_axis(const std::string& key, int axis) {
-  return axis < 0 ? key : key + "." + std::string(1, "xyz"[axis]);
-}
-/// With the unit of a fit that its size suggests.
-Parameter number(std::string key, Dimension dimension, double value,
-                 std::function<void(Assumptions&, double)> set);
-
-/// The factors and shifts of the terms of the equations.
-std::vector<Parameter> term_parameters();
 /// The same in a part of the log alone. @param choices  number of parts that were tried
 Parameter restricted_to(const SharedSubset& part, const Parameter& parameter, std::size_t choices);
 
