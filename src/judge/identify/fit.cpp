@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <unsupported/Eigen/NonLinearOptimization>
 #include <utility>
 
@@ -13,7 +15,12 @@
 
 namespace edmill::identify {
 
+using audit::LoggedEvent;
+using audit::LoggedImpact;
+
 namespace {
+
+constexpr double out_of_range = 1e15;
 
 /// Rows below this share of the tolerance fit perfectly: rounding.
 constexpr double perfect = 1e-4;
@@ -27,11 +34,10 @@ double median_size(std::vector<double> values) {
 }
 
 /// Scales of the weights, from those of the start down to rounding.
-std::vector<double> scales_for(const std::vector<double>& rows) {
+std::vector<double> scales_for(const Eigen::VectorXd& rows) {
   std::vector<double> off;
-  for (const double r : rows)
-    if (std::abs(r) > 1) off.push_back(r);
-  const double largest = std::max(1.0, median_size(off));
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(off), [](double r) { return std::abs(r) > 1; });
+  const double largest = std::max(1.0, median_size(std::move(off)));
   std::vector<double> scales;
   for (double s = 3 * largest; s > 1; s /= 30) scales.push_back(s);
   scales.push_back(1);
@@ -62,12 +68,8 @@ struct Problem {
     for (std::size_t k = 0; k < tried.numbers.size(); ++k) values.push_back(x[k] * tried.numbers[k].change);
     return values;
   }
-  Eigen::VectorXd rows_of(const std::vector<double>& values) const {
-    const auto rows = sample.rows(tried.with(values));
-    return Eigen::Map<const Eigen::VectorXd>(rows.data(), static_cast<Eigen::Index>(rows.size()));
-  }
   int operator()(const Eigen::VectorXd& x, Eigen::VectorXd& out) const {
-    out = roots.cwiseProduct(rows_of(values_at(x)));
+    out = roots.cwiseProduct(sample.rows(tried.with(values_at(x))));
     return 0;
   }
   int df(const Eigen::VectorXd& x, Eigen::MatrixXd& out) const {
@@ -78,34 +80,31 @@ struct Problem {
   Eigen::MatrixXd derivatives(const Eigen::VectorXd& x) const {
     Eigen::MatrixXd columns(values(), inputs());
     const auto values = values_at(x);
-    const auto here = rows_of(values);
+    const Eigen::VectorXd here = sample.rows(tried.with(values));
     for (std::size_t k = 0; k < values.size(); ++k) {
       const Parameter& free = tried.numbers[k];
       const double step = possible_step(tried.with(values), free, values[k], 1e-7);
       auto moved = values;
       moved[k] += step * free.change;
-      columns.col(k) = (rows_of(moved) - here) / step;
+      columns.col(k) = (sample.rows(tried.with(moved)) - here) / step;
     }
     return columns;
   }
 };
 
-Eigen::VectorXd weights_of(const std::vector<double>& rows, double scale) {
-  Eigen::VectorXd weights(static_cast<Eigen::Index>(rows.size()));
-  std::transform(rows.begin(), rows.end(), weights.data(),
-                 [&](double r) { return 1 / (1 + r * r / (scale * scale)); });
-  return weights;
+Eigen::VectorXd weights_of(const Eigen::VectorXd& rows, double scale) {
+  return (1 + rows.array().square() / (scale * scale)).inverse();
 }
 
 /// What the rounds with weights of scale 1 minimise.
-double cauchy_cost(const std::vector<double>& rows) {
+double cauchy_cost(const Eigen::VectorXd& rows) {
   return std::accumulate(rows.begin(), rows.end(), 0.0,
                          [](double sum, double r) { return sum + std::log1p(r * r); });
 }
 
 /// Intervals: what noise of the rows' own size leaves open, and what a shift of all rows by that size, each
 /// in the worst direction, would do; rounding of a log does shift rows of a kind together.
-std::vector<double> half_widths_of(const Eigen::MatrixXd& j, const std::vector<double>& rows,
+std::vector<double> half_widths_of(const Eigen::MatrixXd& j, const Eigen::VectorXd& rows,
                                    const Hypothesis& tried) {
   const auto weights = weights_of(rows, 1);
   double sum = 0, total = 0;
@@ -129,7 +128,149 @@ std::vector<double> half_widths_of(const Eigen::MatrixXd& j, const std::vector<d
   return half;
 }
 
+/// The wall's velocity becomes that of a code with other terms.
+void assume_wall_velocity(const model::Mill<double>& mill, const Terms& terms, LoggedImpact& impact) {
+  if (terms.wall_velocity_delay != 0 || terms.wall_velocity_formula != 0) {
+    const double time = impact.event->time - terms.wall_velocity_delay;
+    impact.set_wall_velocity(audit::wall_velocities[terms.wall_velocity_formula],
+                             audit::vessel_at(mill, time, false), audit::vessel_at(mill, time, true));
+  }
+  impact.wall_velocity *= terms.wall_velocity;
+}
+
 }  // namespace
+
+/// The rows of an event that an assumption may change.
+/// @param change  how the log is written
+std::vector<audit::Row> LogResiduals::rows_of(std::size_t k, const model::Case<double>& model,
+                                              const LogChange& change, const Terms& terms) const {
+  LoggedEvent copy, copy_of_earlier;
+  const auto event_at = [&, is_changed = !(change == LogChange{})](std::size_t place,
+                                                                   LoggedEvent& own) -> const LoggedEvent& {
+    if (!is_changed) return log_.events[place];
+    own = log_.events[place];
+    change.apply(own, model.mill);
+    return own;
+  };
+  const audit::Equations equations(log_.available, tolerances_, terms, true);
+  const LoggedEvent& event = event_at(k, copy);
+  const bool placed = log_.available.positions(event.with_wall);
+  const auto frame =
+      event.with_wall && placed ? audit::vessel_at(model.mill, event.time, false) : audit::VesselFrame{};
+  auto impact = audit::impact_of(event, model, frame, placed);
+  impact.in_stall = in_stall_[k];
+  impact.arm = terms.arm;
+  if (event.with_wall && placed) assume_wall_velocity(model.mill, terms, impact);
+  std::vector<audit::Row> rows;
+  if (placed) {
+    impact.bend = audit::bend_of(event, model, frame);
+    rows.push_back(equations.of_touch(event, audit::gap_of(event, model, frame)));
+  }
+  equations.of_impact(impact, rows);
+  for (std::size_t body = 0; body < impact.count(); ++body) {
+    const Before& begin = before_[k][body];
+    if (begin.event < 0) continue;
+    const LoggedEvent& earlier = event_at(static_cast<std::size_t>(begin.event), copy_of_earlier);
+    equations.of_flight({earlier.body[begin.body], event.body[body], log_.available.body[begin.body],
+                         log_.available.body[body], earlier.time, event.time,
+                         model.balls[event.ball_at(body)].radius, static_cast<int>(body)},
+                        model.mill.gravity, rows);
+  }
+  std::erase_if(rows, [](const audit::Row& row) { return row.equation == audit::Check::approach; });
+  return rows;
+}
+
+LogResiduals::LogResiduals(const audit::EventsAtHand& log, const audit::Tolerances& tolerances,
+                           const model::Case<double>& nominal)
+    : log_(log),
+      tolerances_(tolerances),
+      before_(log.events.size()),
+      in_stall_(log.events.size()),
+      branches_(log.events.size()),
+      nominal_(nominal) {
+  std::vector<Before> last(nominal.balls.size());
+  audit::StallHistory stalls(nominal.mill, nominal.balls.size());
+  for (std::size_t k = 0; k < log.events.size(); ++k) {
+    const auto& event = log.events[k];
+    if (!event.problem.empty()) {  // what follows has no known beginning
+      std::fill(last.begin(), last.end(), Before{});
+      for (std::size_t ball = 0; ball < last.size(); ++ball) stalls.forget(static_cast<int>(ball));
+      continue;
+    }
+    for (std::size_t body = 0; body < event.count(); ++body) {
+      auto& own = last[event.ball_at(body)];
+      before_[k][body] = own;
+      own = {static_cast<long>(k), body};
+    }
+    const auto& law = *audit::impact_of(event, nominal, {}, false).law;
+    in_stall_[k] = stalls.take(event, law, tolerances.relative) == audit::Friction::rests;
+    branches_[k] = branches_of(event);
+  }
+}
+
+Branches LogResiduals::branches_of(const LoggedEvent& event) const {
+  const auto& has = log_.available;
+  if (!has.positions(event.with_wall) || !has.velocities_before(event.with_wall)) return {};
+  const auto impact = audit::impact_of(
+      event, nominal_,
+      event.with_wall ? audit::vessel_at(nominal_.mill, event.time, false) : audit::VesselFrame{}, true);
+  const auto speeds = audit::speeds_before(impact);
+  const double separation = impact.separation_speed(speeds.g_n), bounce = separation - speeds.g_n;
+  // Twice the impulse changes nothing where contacts stick.
+  const auto e_t = [&](double impulse) {
+    return impact.tangential_restitution(impact.compliance, impulse, speeds.slip);
+  };
+  return {true, has.spins(event.with_wall) && e_t(bounce) == e_t(2 * bounce),
+          separation > impact.by_restitution(speeds.g_n)};
+}
+
+Residuals::Residuals(const LogResiduals& log, const std::vector<std::size_t>& events) : log_(&log) {
+  for (const std::size_t k : events) {
+    if (!log.log_.events[k].problem.empty()) continue;
+    for (const auto& row : log.rows_of(k, log.nominal_, {}, {})) {
+      const bool known = row.allowed > 0 && std::isfinite(row.allowed);
+      const bool of_flight = row.equation == audit::Check::flight || row.equation == audit::Check::spin_kept;
+      of_case_.insert(of_case_.end(), static_cast<std::size_t>(row.count),
+                      {known ? row.allowed : 1.0, row.kind, {k, row.body, of_flight}});
+    }
+    chosen_.push_back(k);
+  }
+}
+
+Eigen::VectorXd Residuals::rows(const Assumptions& assumed) const {
+  if (assumed.restricted.empty()) return of_whole(assumed);
+  Assumptions whole = assumed;
+  whole.restricted.clear();
+  auto values = of_whole(whole);
+  // Each set of parts that a row may be in has rows of its own.
+  std::vector<std::size_t> set_of(count(), 0);
+  for (std::size_t r = 0; r < assumed.restricted.size(); ++r)
+    for (std::size_t k = 0; k < count(); ++k)
+      if (assumed.restricted[r].part->holds(of_case_[k].at)) set_of[k] |= std::size_t{1} << r;
+  for (const std::size_t set : std::set<std::size_t>(set_of.begin(), set_of.end())) {
+    if (set == 0) continue;
+    Assumptions here = whole;
+    for (std::size_t r = 0; r < assumed.restricted.size(); ++r)
+      if (set >> r & 1) assumed.restricted[r].make(here);
+    const Eigen::VectorXd own = of_whole(here);
+    for (std::size_t k = 0; k < count(); ++k)
+      if (set_of[k] == set) values[k] = own[k];
+  }
+  return values;
+}
+
+Eigen::VectorXd Residuals::of_whole(const Assumptions& assumed) const {
+  Eigen::VectorXd values = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(count()), out_of_range);
+  const auto model = assumed.built();
+  if (!model) return values;
+  std::size_t place = 0;
+  for (const std::size_t k : chosen_)
+    for (const auto& row : log_->rows_of(k, *model, assumed.log, assumed.terms))
+      for (int n = 0; n < row.count; ++n, ++place)
+        if (const double value = row.difference[n] / of_case_[place].allowed; std::isfinite(value))
+          values[place] = std::clamp(value, -out_of_range, out_of_range);
+  return values;
+}
 
 double Hypothesis::evidence() const {
   double choices = 0;
@@ -157,9 +298,9 @@ Assumptions Hypothesis::with(const std::vector<double>& other_values) const {
   return result;
 }
 
-double misfit(const Residuals& sample, const std::vector<double>& rows) {
+double misfit(const Residuals& sample, const Eigen::VectorXd& rows) {
   std::array<std::vector<double>, audit::row_kinds> of_kind;
-  for (std::size_t k = 0; k < rows.size(); ++k)
+  for (std::size_t k = 0; k < sample.count(); ++k)
     of_kind[static_cast<std::size_t>(sample.of_case()[k].kind)].push_back(rows[k]);
   double cost = 0;
   for (const auto& own : of_kind) {
@@ -204,40 +345,32 @@ double fit(const Residuals& sample, Hypothesis& tried) {
   return misfit(sample, rows);
 }
 
-std::vector<double> sensitivity(const Residuals& sample, const Assumptions& base,
-                                const std::vector<double>& rows, const Parameter& number) {
+Eigen::VectorXd sensitivity(const Residuals& sample, const Assumptions& base, const Eigen::VectorXd& rows,
+                            const Parameter& number) {
   // A restitution of 0, or no least separation speed, shows nothing until it is large enough for some impact.
   for (const double length : {1e-6, 1.0}) {
     if (!number.is_of_case() || (length == 1 && number.value != 0)) break;
     const double step = possible_step(base, number, number.value, length);
-    auto column = sample.rows(number.on(base, number.value + step * number.change));
-    for (std::size_t i = 0; i < column.size(); ++i) {
-      const double moved = column[i] - rows[i];
-      column[i] = std::abs(moved) > rounding_of_rows ? moved / step : 0;
-    }
-    if (std::any_of(column.begin(), column.end(), [](double slope) { return slope != 0; })) return column;
+    const Eigen::VectorXd moved = sample.rows(number.on(base, number.value + step * number.change)) - rows;
+    const Eigen::VectorXd slope = (moved.array().abs() > rounding_of_rows).select(moved / step, 0);
+    if (!slope.isZero(0)) return slope;
   }
   return {};
 }
 
-double linear_misfit(const Residuals& sample, const std::vector<double>& rows, const Slopes& slopes,
-                     std::vector<double>& change) {
-  const auto count = static_cast<Eigen::Index>(slopes.size());
-  Eigen::MatrixXd j(static_cast<Eigen::Index>(rows.size()), count);
-  for (Eigen::Index k = 0; k < count; ++k)
-    j.col(k) = Eigen::Map<const Eigen::VectorXd>(slopes[static_cast<std::size_t>(k)]->data(), j.rows());
-  const Eigen::VectorXd begin = Eigen::Map<const Eigen::VectorXd>(rows.data(), j.rows());
-  std::vector<double> left = rows;
+double linear_misfit(const Residuals& sample, const Eigen::VectorXd& rows, const Eigen::MatrixXd& slopes,
+                     Eigen::VectorXd& change) {
+  Eigen::VectorXd left = rows;
   const auto scales = scales_for(rows);
-  change.assign(slopes.size(), 0);
+  change.setZero(slopes.cols());
   for (std::size_t round = 0; round < scales.size() + 2; ++round) {
     const Eigen::VectorXd weights = weights_of(left, scales[std::min(round, scales.size() - 1)]);
-    const Eigen::MatrixXd weighted = weights.asDiagonal() * j;
-    const Eigen::MatrixXd squares = weighted.transpose() * j;
-    const Eigen::VectorXd x = squares.ldlt().solve(-(weighted.transpose() * begin));
+    const Eigen::MatrixXd weighted = weights.asDiagonal() * slopes;
+    const Eigen::MatrixXd squares = weighted.transpose() * slopes;
+    const Eigen::VectorXd x = squares.ldlt().solve(-(weighted.transpose() * rows));
     if (!x.allFinite()) break;
-    Eigen::Map<Eigen::VectorXd>(change.data(), count) = x;
-    Eigen::Map<Eigen::VectorXd>(left.data(), j.rows()) = begin + j * x;
+    change = x;
+    left = rows + slopes * x;
   }
   return misfit(sample, left);
 }

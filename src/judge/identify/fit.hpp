@@ -1,6 +1,8 @@
 // How far logged impacts and flights are from a model: rows, and their robust least squares.
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <set>
@@ -20,8 +22,6 @@ struct Row {
   RowPlace at;
 };
 
-class Residuals;
-
 /// The equations that an audit checks, as differences over what the audit allows: gaps of bodies in contact,
 /// states after an impact, energies and speeds in their columns, the ends of flights. Which rows there are
 /// depends on the columns of the log alone, so that a fit has the same rows for all values.
@@ -31,8 +31,6 @@ class LogResiduals {
   LogResiduals(const audit::EventsAtHand& log, const audit::Tolerances& tolerances,
                const model::Case<double>& nominal);
 
-  /// The rows of these events; each flight is that before its event.
-  Residuals on(const std::vector<std::size_t>& events) const;
   /// By event: which branches of the case's law its states take.
   const std::vector<Branches>& branches() const { return branches_; }
 
@@ -42,9 +40,8 @@ class LogResiduals {
     long event = -1;
     std::size_t body = 0;
   };
-  template <class F>
-  void each_number(std::size_t event, const model::Case<double>& model, const LogChange& change,
-                   const audit::Equations& equations, F&& f) const;
+  std::vector<audit::Row> rows_of(std::size_t event, const model::Case<double>& model,
+                                  const LogChange& change, const Terms& terms) const;
   Branches branches_of(const audit::LoggedEvent& event) const;
 
   const audit::EventsAtHand& log_;
@@ -55,21 +52,20 @@ class LogResiduals {
   const model::Case<double>& nominal_;
 };
 
-/// The rows of a sample of events. What it was made from must outlive it.
+/// The rows of a sample of events; each flight is that before its event. The log's must outlive it.
 class Residuals {
  public:
+  Residuals(const LogResiduals& log, const std::vector<std::size_t>& events);
+
   std::size_t count() const { return of_case_.size(); }
   /// With the case as it is.
   const std::vector<Row>& of_case() const { return of_case_; }
   /// @return one number for each row, its difference over what is allowed of the case; a large one where it
   /// is not finite, and all of them for a case that cannot be
-  std::vector<double> rows(const Assumptions& assumed) const;
+  Eigen::VectorXd rows(const Assumptions& assumed) const;
 
  private:
-  friend class LogResiduals;
-  explicit Residuals(const LogResiduals& log) : log_(&log) {}
-
-  std::vector<double> of_whole(const Assumptions& assumed) const;
+  Eigen::VectorXd of_whole(const Assumptions& assumed) const;
 
   const LogResiduals* log_;
   std::vector<std::size_t> chosen_;
@@ -103,7 +99,7 @@ struct Hypothesis {
 /// 2 sum ln(1 + (r/s)^2) + 2 n ln s over the rows of a sample, with the median of |r| of each kind as s:
 /// minus twice the log of Cauchy's likelihood. Wild rows count little, and rows that fit by orders of
 /// magnitude better count much.
-double misfit(const Residuals& sample, const std::vector<double>& rows);
+double misfit(const Residuals& sample, const Eigen::VectorXd& rows);
 inline double misfit(const Residuals& sample, const Assumptions& assumed) {
   return misfit(sample, sample.rows(assumed));
 }
@@ -117,14 +113,13 @@ double fit(const Residuals& sample, Hypothesis& tried);
 
 /// Derivatives of the rows by a number, at the base; empty where they do not depend on it.
 /// @param rows  at the base
-std::vector<double> sensitivity(const Residuals& sample, const Assumptions& base,
-                                const std::vector<double>& rows, const Parameter& number);
+Eigen::VectorXd sensitivity(const Residuals& sample, const Assumptions& base, const Eigen::VectorXd& rows,
+                            const Parameter& number);
 
-using Slopes = std::vector<const std::vector<double>*>;
 /// The misfit that the best change of some numbers leaves if the rows are linear in them.
 /// @param slopes  of the rows, by each number
 /// @param change  becomes that of each number, in its unit of a fit
-double linear_misfit(const Residuals& sample, const std::vector<double>& rows, const Slopes& slopes,
-                     std::vector<double>& change);
+double linear_misfit(const Residuals& sample, const Eigen::VectorXd& rows, const Eigen::MatrixXd& slopes,
+                     Eigen::VectorXd& change);
 
 }  // namespace edmill::identify

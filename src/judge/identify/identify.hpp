@@ -99,6 +99,14 @@ using Progress = std::function<void(const std::string& stage)>;
 Identification identify(const casefile::CaseSpec& spec, const audit::Options& options,
                         Search search = Search::all, const Progress& progress = {});
 
+/// For logs without states: the case is run again with other values, from its own initial state, until its
+/// impacts are those of the log. docs/audit.md, "Causes"
+/// @param is_interrupted  asked between runs; yes ends the search
+/// @return how many impacts the case follows, and the best cause with which nine tenths can be followed
+Identification replay(const Assumptions& nominal, const std::vector<Parameter>& numbers,
+                      const std::vector<Parameter>& mistakes, const audit::EventsAtHand& log,
+                      const std::function<bool()>& is_interrupted);
+
 /// As lines of the audit's report.
 std::string table(const Identification& found);
 /// As the entry "identified" of the audit's document. docs/files.md, "Audit"

@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "base/errors.hpp"
-#include "identify/evidence.hpp"
+#include "identify/identify.hpp"
 #include "run/event_source.hpp"
 
 namespace edmill::identify {
