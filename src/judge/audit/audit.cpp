@@ -35,18 +35,22 @@ int other_of(const LoggedEvent& event, std::size_t body) {
 /// Takes the events of a log one by one, with the state that precedes each.
 class Auditor : Judge {
  public:
-  explicit Auditor(const Judge& shared)
-      : Judge(shared),
+  /// @param result  has the columns and the tolerances, and gets what is found
+  Auditor(const model::Case<double>& the_case, Audit& result)
+      : Judge{the_case, result.available, result.tolerances, result.findings},
+        result_(result),
         equations_(available_, tolerances_),
-        flights_(shared),
+        flights_(*this),
         stalls_(case_.mill, case_.balls.size()),
         last_(case_.balls.size()),
         with_wall_(case_.mill.vessel.walls().size()) {}
 
   /// The log begins with these states.
   void begin(const std::vector<model::BallState<double>>& states, double time) {
-    for (std::size_t k = 0; k < states.size(); ++k)
-      flights_.begin_at_start(static_cast<int>(k), states[k], time);
+    int ball = 0;
+    for (const auto& [position, velocity, spin] : states)
+      flights_.begin(ball++, time, {.position = position, .velocity_after = velocity, .spin_after = spin},
+                     {true, true, true, true, true});
     stalls_.begin(time);
   }
 
@@ -61,13 +65,12 @@ class Auditor : Judge {
     }
     if (!event.problem.empty()) {
       report(event.unknown_body ? Kind::unknown_body : Kind::not_finite, event, 1, unknown, unknown);
-      const auto forget = [&](int k) {
-        if (k < 0 || k >= flights_.balls()) return;
+      for (std::size_t body = 0; body < event.count(); ++body) {
+        const int k = event.ball_at(body);
+        if (k < 0 || k >= flights_.balls()) continue;
         flights_.of(k) = Track{};
         stalls_.forget(k);
-      };
-      forget(event.ball);
-      if (!event.with_wall) forget(event.partner);
+      }
       return;
     }
     EDMILL_REQUIRE(
@@ -83,8 +86,7 @@ class Auditor : Judge {
     find_wrong_balls(event);
     const Touch touch = judge_touch(event, frame);
     const bool placed = available_.positions(event.with_wall);
-    auto impact = impact_of(event, case_, frame, placed);
-    if (placed) impact.bend = bend_of(event, case_, frame);
+    const auto impact = impact_of(event, case_, frame, placed);
     const auto friction = stalls_.take(event, *impact.law, tolerances_.relative);
     for (std::size_t body = 0; body < event.count(); ++body)
       flights_.judge(event.ball_at(body), {&event, body, touch.late});
@@ -103,11 +105,13 @@ class Auditor : Judge {
   }
 
   /// At the end of the log.
-  void finish() { flights_.finish(); }
+  void finish() {
+    flights_.finish();
+    result_.undecided = flights_.undecided();
+    result_.diagnoses = diagnoses();
+  }
 
-  const Energies& energies() const { return energies_; }
-  const Flights& flights() const { return flights_; }
-
+ private:
   /// Walls that the log's code does not have, and other ways to number bodies and lines.
   std::vector<Diagnosis> diagnoses() const {
     std::vector<Diagnosis> found;
@@ -143,7 +147,6 @@ class Auditor : Judge {
     return found;
   }
 
- private:
   /// The last event of a ball, to recognise a duplicate.
   struct LastEvent {
     double time = unknown;
@@ -296,22 +299,23 @@ class Auditor : Judge {
     const double work = work_of_wall(impact), gained = kinetic_change(impact);
     const Speeds speeds = speeds_before(impact);
     const double due = supplied(impact, speeds.g_n, impact.separation_speed(speeds.g_n));
-    ++energies_.impacts;
-    energies_.wall_work += work;
-    energies_.kinetic_change += gained;
-    energies_.supplied += due;
-    energies_.milling_dose +=
+    Energies& energies = result_.energies;
+    ++energies.impacts;
+    energies.wall_work += work;
+    energies.kinetic_change += gained;
+    energies.supplied += due;
+    energies.milling_dose +=
         available_.milling_dose ? impact.event->milling_dose : dose_by_law(impact, speeds);
-    if (due > 0) ++energies_.supplying;
+    if (due > 0) ++energies.supplying;
     if (const double created = gained - work - due; created > allowed) {
-      ++energies_.creating;
-      energies_.created += created;
+      ++energies.creating;
+      energies.created += created;
     }
   }
 
+  Audit& result_;
   Equations equations_;
   std::vector<Row> rows_;  ///< of the present impact
-  Energies energies_;
   Flights flights_;
   StallHistory stalls_;
   std::vector<LastEvent> last_;
@@ -331,7 +335,7 @@ Audit audit_events(const model::Case<double>& the_case, const std::vector<model:
   result.tolerances = tolerances_of(the_case, options);
   result.log_name = file;
   result.available = available;
-  Auditor auditor(Judge{the_case, result.available, result.tolerances, result.findings});
+  Auditor auditor(the_case, result);
   if (states)
     auditor.begin(*states, DriveClock<double>(the_case.mill.motion.period()).seconds(the_case.initial_time));
   bool any_pairs = false;
@@ -347,10 +351,7 @@ Audit audit_events(const model::Case<double>& the_case, const std::vector<model:
     if (options.progress && result.events % 4096 == 0) options.progress(event->time, result.events);
   }
   auditor.finish();
-  result.energies = auditor.energies();
-  result.undecided = auditor.flights().undecided();
   result.not_made = checks_not_made(result.findings, any_pairs);
-  result.diagnoses = auditor.diagnoses();
   const auto& checked = result.findings;
   // A log most of whose contacts cannot be judged is not called clean.
   const bool judged = checked.judged_number(Check::touch) + checked.judged_number(Check::milling_dose) > 0 &&

@@ -81,45 +81,6 @@ void put_violations(io::JsonText& json, const Audit& a) {
       });
 }
 
-void put_diagnoses(io::JsonText& json, const Audit& a) {
-  json.groups("looks_like", a.diagnoses, &Diagnosis::name, [&](const Diagnosis& d) {
-    json.add("events", d.events);
-    json.add("of", d.of);
-    json.add("text", d.text);
-  });
-}
-
-void put_energies(io::JsonText& json, const Audit& a) {
-  json.begin("energy");
-  json.add("impacts", a.energies.impacts);
-  json.add("wall_work", a.energies.wall_work.value());
-  json.add("milling_dose", a.energies.milling_dose.value());
-  json.add("supplied", a.energies.supplied.value());
-  json.add("supplying_impacts", a.energies.supplying);
-  json.add("kinetic_change", a.energies.kinetic_change.value());
-  json.add("closure", a.energies.closure());
-  json.end();
-  json.begin("energy_created");
-  json.add("impacts", a.energies.creating);
-  json.add("energy", a.energies.created);
-  json.end();
-}
-
-void put_checks(io::JsonText& json, const Audit& a) {
-  json.begin("checked");
-  for (std::size_t k = 0; k < check_count; ++k)
-    json.add(checks[k].name, a.findings.judged_number(static_cast<Check>(k)));
-  json.end();
-  json.begin("unresolved");
-  for (std::size_t k = 0; k < check_count; ++k)
-    if (const auto n = a.findings.unresolved_number(static_cast<Check>(k)); n > 0)
-      json.add(checks[k].name, n);
-  json.end();
-  json.begin("not_checked");
-  for (const Check check : a.not_made) json.add(info(check).name, info(check).columns);
-  json.end();
-}
-
 }  // namespace
 
 std::string table(const Audit& a) {
@@ -178,9 +139,36 @@ void put_json(io::JsonText& json, const Audit& a) {
   json.add("gap_tolerance", a.tolerances.gap);
   json.add("time_rounding", rounding_of(std::max(std::abs(a.first), std::abs(a.last))));
   put_violations(json, a);
-  put_diagnoses(json, a);
-  put_energies(json, a);
-  put_checks(json, a);
+  json.groups("looks_like", a.diagnoses, &Diagnosis::name, [&](const Diagnosis& d) {
+    json.add("events", d.events);
+    json.add("of", d.of);
+    json.add("text", d.text);
+  });
+  json.begin("energy");
+  json.add("impacts", a.energies.impacts);
+  json.add("wall_work", a.energies.wall_work.value());
+  json.add("milling_dose", a.energies.milling_dose.value());
+  json.add("supplied", a.energies.supplied.value());
+  json.add("supplying_impacts", a.energies.supplying);
+  json.add("kinetic_change", a.energies.kinetic_change.value());
+  json.add("closure", a.energies.closure());
+  json.end();
+  json.begin("energy_created");
+  json.add("impacts", a.energies.creating);
+  json.add("energy", a.energies.created);
+  json.end();
+  json.begin("checked");
+  for (std::size_t k = 0; k < check_count; ++k)
+    json.add(checks[k].name, a.findings.judged_number(static_cast<Check>(k)));
+  json.end();
+  json.begin("unresolved");
+  for (std::size_t k = 0; k < check_count; ++k)
+    if (const auto n = a.findings.unresolved_number(static_cast<Check>(k)); n > 0)
+      json.add(checks[k].name, n);
+  json.end();
+  json.begin("not_checked");
+  for (const Check check : a.not_made) json.add(info(check).name, info(check).columns);
+  json.end();
   json.add("undecided", a.undecided);
 }
 

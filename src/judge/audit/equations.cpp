@@ -49,7 +49,7 @@ ImpactTolerance Equations::of_impact(const LoggedImpact& impact, std::vector<Row
                           event.slip_speed - speeds.slip * terms_.slip_speed, allowed, event.slip_speed,
                           speeds.slip));
   if (after && spins) of_energies(impact, speeds, energy, rows);
-  return {allowed, energy, by_wall == 0 || by_wall < scale};
+  return {energy, by_wall == 0 || by_wall < scale};
 }
 
 /// How far the logged states are from the outcome by the law, of each body, or summed as in (2.23'), (2.28'),

@@ -143,8 +143,8 @@ struct LoggedFlight {
 
 /// What the numbers of an impact may be off by.
 struct ImpactTolerance {
-  double velocity = 0, energy = 0;  ///< [m/s], [J]
-  bool can_be_checked = true;       ///< not where a wall may be anywhere at the logged time, as it is rounded
+  double energy = 0;           ///< [J]
+  bool can_be_checked = true;  ///< not where a wall may be anywhere at the logged time, as it is rounded
 };
 
 /// Which rows there are depends on the columns of the log alone.
@@ -158,7 +158,6 @@ class Equations {
             bool by_body = false)
       : has_(available), tolerances_(tolerances), terms_(terms), by_body_(by_body) {}
 
-  const Terms& terms() const { return terms_; }
   /// The bodies of an event meet. @param gap  between them [m]
   Row of_touch(const LoggedEvent& event, double gap) const;
   /// The contact law, conservation, and the values logged with an impact: by the states of its bodies, or

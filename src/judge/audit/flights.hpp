@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -14,19 +15,13 @@
 namespace edmill::audit {
 
 /// What all judges of a log share.
-class Judge {
- public:
-  Judge(const model::Case<double>& the_case, const Available& available, const Tolerances& tolerances,
-        Findings& findings)
-      : case_(the_case), available_(available), tolerances_(tolerances), findings_(findings) {}
-
- protected:
-  double radius_of(int ball) const { return case_.balls[ball].radius; }
-
+struct Judge {
   const model::Case<double>& case_;
   const Available& available_;
   Tolerances tolerances_;
   Findings& findings_;
+
+  double radius_of(int ball) const { return case_.balls[ball].radius; }
 };
 
 /// A ball since its last impact.
@@ -39,8 +34,8 @@ struct Flying {
 /// The last logged state of a ball.
 struct Track : Flying {
   bool state_known = false, spin_known = false;
-  double broken_from = 0;  ///< an impact of the flight at this time is not in the log [s]
-  bool broken = false;
+  /// When an impact of the flight is not in the log [s]; infinity where none is known.
+  double broken_from = std::numeric_limits<double>::infinity();
   std::vector<Finding> pending;  ///< missed impacts with balls whose flights are now over
   /// A missed impact with a wall, until the next line is seen not to log it at the same time.
   std::optional<Finding> held;
@@ -82,7 +77,7 @@ class Flights : Judge {
     settle_held(track, end.event);
     if (!track.state_known || time < track.start) return;
     const double off = judge_state(ball, track, end, false);
-    const double until = track.broken ? std::min(time, track.broken_from) : time;
+    const double until = std::min(time, track.broken_from);
     // Balls are searched with radii that are smaller by the tolerance, if that leaves half of them.
     const double speed = size(track.flight.velocity) + tolerances_.gravity * (time - track.start);
     const double slack =
@@ -102,7 +97,7 @@ class Flights : Judge {
       missed = pair;
 
     double missed_at = until;
-    bool reported = track.broken;
+    bool reported = std::isfinite(track.broken_from);
     if (missed) reported |= report_missed(ball, *missed, end, off, missed_at);
     settle_pending(track, end, off, reported ? missed_at : time);
     if (!reported) judge_state(ball, track, end, true);
@@ -121,7 +116,7 @@ class Flights : Judge {
     track.flight = {state.position, state.velocity_after, clock_.at(time)};
     track.spin = state.spin_after;
     track.start = time;
-    track.broken = false;
+    track.broken_from = std::numeric_limits<double>::infinity();
     track.pending.clear();
     const double speed = size(state.velocity_after);
     if (!(speed < fastest_judged)) track.state_known = false;
@@ -129,12 +124,6 @@ class Flights : Judge {
       top_speed_ = 4 * speed;
       ladder_.raise_top_speed(top_speed_);
     }
-  }
-
-  void begin_at_start(int ball, const model::BallState<double>& state, double time) {
-    begin(ball, time,
-          {.position = state.position, .velocity_after = state.velocity, .spin_after = state.spin},
-          {true, true, true, true, true});
   }
 
   /// Flights through each wall, for the diagnosis.
@@ -207,7 +196,7 @@ class Flights : Judge {
       if (other == ball || !theirs.state_known) continue;
       const bool later = theirs.start > track.start;
       const double from = later ? theirs.start : track.start;
-      const double to = theirs.broken ? std::min(until, theirs.broken_from) : until;
+      const double to = std::min(until, theirs.broken_from);
       if (from >= to) continue;
       const auto& now = later ? theirs.flight.start : track.flight.start;
       const double sum = radius + radius_of(other);
@@ -366,8 +355,7 @@ class Flights : Judge {
       of(ball).held = finding;
     } else if (Track& other = of(missed.partner); explained) {
       findings_.add(finding);
-      other.broken_from = other.broken ? std::min(other.broken_from, missed.time) : missed.time;
-      other.broken = true;
+      other.broken_from = std::min(other.broken_from, missed.time);
     } else if (other.pending.size() < pending_kept) {
       other.pending.push_back(finding);
     } else {

@@ -57,6 +57,19 @@ Vec contact_velocity(const LoggedImpact& impact, Vec BodyState::*velocity, Vec B
   return own - (two.*velocity + cross(two.*spin, impact.normal) * (impact.arm * impact.ball[1].radius));
 }
 
+/// How much the normal of a wall turns where the ball is moved [1/m]. @param step  by which it is moved [m]
+double bend_of(const model::AnyVessel<double>& room, int wall, const Vec& place, double step) {
+  const Vec normal = room.normal(wall, place);
+  double square = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec moved = place;
+    moved[axis] += step;
+    const Vec turned = room.normal(wall, moved) - normal;
+    square += dot(turned, turned);
+  }
+  return std::sqrt(square) / step;
+}
+
 }  // namespace
 
 VesselFrame vessel_at(const model::Mill<double>& mill, double time, bool as_printed) {
@@ -79,30 +92,6 @@ double gap_of(const LoggedEvent& event, const model::Case<double>& the_case, con
   if (event.with_wall) return wall_gap(frame, the_case, event.partner, event.ball, one.position);
   return size(Vec(one.position - two.position)) - the_case.balls[event.ball].radius -
          the_case.balls[event.partner].radius;
-}
-
-Vec wall_normal(const VesselFrame& frame, const model::AnyVessel<double>& vessel, int wall, double radius,
-                const Vec& position) {
-  const Vec own = vessel.inset(radius).normal(wall, inside(frame, position));
-  const Vec normal = frame.x * own[0] + frame.y * own[1] + frame.z * own[2];
-  return size(normal) > 0 ? normal : frame.x;  // on the axis of a cylinder there is none
-}
-
-double bend_of(const LoggedEvent& event, const model::Case<double>& the_case, const VesselFrame& frame) {
-  const auto& vessel = the_case.mill.vessel;
-  const int wall = event.partner;
-  if (!event.with_wall || vessel.is_flat(wall)) return 0;
-  const auto room = vessel.inset(the_case.balls[event.ball].radius);
-  const Vec place = inside(frame, event.body[0].position), normal = room.normal(wall, place);
-  const double step = 1e-6 * vessel.reach();
-  double square = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    Vec moved = place;
-    moved[axis] += step;
-    const Vec turned = room.normal(wall, moved) - normal;
-    square += dot(turned, turned);
-  }
-  return std::sqrt(square) / step;
 }
 
 const std::array<WallVelocity, 10> wall_velocities = {{
@@ -151,7 +140,12 @@ LoggedImpact impact_of(const LoggedEvent& event, const model::Case<double>& the_
     impact.effective_mass = ball.mass;
     impact.compliance = 1 + 1 / ball.reduced_inertia;
     if (!placed) return impact;
-    impact.normal = wall_normal(frame, mill.vessel, event.partner, ball.radius, place);
+    const auto room = mill.vessel.inset(ball.radius);
+    const Vec seen = inside(frame, place), normal = room.normal(event.partner, seen);
+    impact.normal = frame.x * normal[0] + frame.y * normal[1] + frame.z * normal[2];
+    if (!(size(impact.normal) > 0)) impact.normal = frame.x;  // on the axis of a cylinder there is none
+    if (!mill.vessel.is_flat(event.partner))
+      impact.bend = bend_of(room, event.partner, seen, 1e-6 * mill.vessel.reach());
     impact.set_wall_velocity(wall_velocities[0], frame, frame);
     return impact;
   }

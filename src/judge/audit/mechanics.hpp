@@ -42,13 +42,6 @@ double wall_gap(const VesselFrame& frame, const model::Case<double>& the_case, i
                 const Vec& position);
 /// Gap of the bodies of an event [m].
 double gap_of(const LoggedEvent& event, const model::Case<double>& the_case, const VesselFrame& frame);
-/// Unit, from the wall to the ball.
-Vec wall_normal(const VesselFrame& frame, const model::AnyVessel<double>& vessel, int wall, double radius,
-                const Vec& position);
-
-/// How much the normal turns where the ball is moved [1/m]: 0 on a flat wall, and between balls.
-double bend_of(const LoggedEvent& event, const model::Case<double>& the_case, const VesselFrame& frame);
-
 /// Where a wall's velocity is wanted: the frames of the vessel, the contact point P, and the ball's centre.
 struct WallPoint {
   const VesselFrame &nested, &printed;
@@ -102,7 +95,7 @@ struct LoggedImpact {
   const model::ContactLaw<double>* law = nullptr;       ///< of the case
   std::array<model::BallProperties<double>, 2> ball{};  ///< the partner only for balls
   Vec normal{1, 0, 0};                                  ///< unit, from the partner to the ball
-  double bend = 0;                                      ///< bend_of() where tolerances are taken of it [1/m]
+  double bend = 0;  ///< how much the normal turns where the ball is moved: 0 on a flat wall [1/m]
   Vec wall_velocity{0, 0, 0};
   bool in_stall = false;  ///< friction rests
   double arm = 1;         ///< times R in the velocity of the contact point; Terms::arm
@@ -117,7 +110,6 @@ struct LoggedImpact {
   Vec after() const;
   double along(const Vec& v) const { return dot(v, normal); }
   Vec across(const Vec& v) const { return v - normal * dot(v, normal); }
-  double g_n() const { return along(before()); }  ///< negative while the bodies approach
   double g_n_after() const { return along(after()); }
   /// e_n for a speed before the impact, and the speed e_n |g_n| after it [m/s].
   double restitution(double g_n) const { return law->restitution(-g_n, bodies()); }

@@ -162,10 +162,7 @@ std::vector<audit::Row> LogResiduals::rows_of(std::size_t k, const model::Case<d
   impact.arm = terms.arm;
   if (event.with_wall && placed) assume_wall_velocity(model.mill, terms, impact);
   std::vector<audit::Row> rows;
-  if (placed) {
-    impact.bend = audit::bend_of(event, model, frame);
-    rows.push_back(equations.of_touch(event, audit::gap_of(event, model, frame)));
-  }
+  if (placed) rows.push_back(equations.of_touch(event, audit::gap_of(event, model, frame)));
   equations.of_impact(impact, rows);
   for (std::size_t body = 0; body < impact.count(); ++body) {
     const Before& begin = before_[k][body];
@@ -272,32 +269,6 @@ Eigen::VectorXd Residuals::of_whole(const Assumptions& assumed) const {
   return values;
 }
 
-double Hypothesis::evidence() const {
-  double choices = 0;
-  for (const auto& p : numbers) choices += p.prior;
-  return score - choices;
-}
-
-std::set<std::string> Hypothesis::names() const {
-  std::set<std::string> all;
-  for (const auto* list : {&mistakes, &numbers})
-    for (const auto& p : *list) all.insert(p.name());
-  return all;
-}
-
-bool Hypothesis::allows(const Parameter& more) const {
-  const auto is_free = [&](const Parameter& own) { return !own.excludes(more) && !more.excludes(own); };
-  return std::all_of(mistakes.begin(), mistakes.end(), is_free) &&
-         std::all_of(numbers.begin(), numbers.end(), is_free);
-}
-
-Assumptions Hypothesis::with(const std::vector<double>& other_values) const {
-  Assumptions result = nominal;
-  for (const auto& mistake : mistakes) mistake.set(result, 1);
-  for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k].set(result, other_values[k]);
-  return result;
-}
-
 double misfit(const Residuals& sample, const Eigen::VectorXd& rows) {
   std::array<std::vector<double>, audit::row_kinds> of_kind;
   for (std::size_t k = 0; k < sample.count(); ++k)
@@ -310,7 +281,7 @@ double misfit(const Residuals& sample, const Eigen::VectorXd& rows) {
   return cost;
 }
 
-double fit(const Residuals& sample, Hypothesis& tried) {
+void fit(const Residuals& sample, Hypothesis& tried) {
   const auto p = static_cast<Eigen::Index>(tried.numbers.size());
   Problem problem{sample, tried};
   Eigen::VectorXd x(p);
@@ -342,7 +313,6 @@ double fit(const Residuals& sample, Hypothesis& tried) {
   }
   tried.values = problem.values_at(x);
   tried.half_widths = half_widths_of(problem.derivatives(x), rows, tried);
-  return misfit(sample, rows);
 }
 
 Eigen::VectorXd sensitivity(const Residuals& sample, const Assumptions& base, const Eigen::VectorXd& rows,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -86,14 +87,32 @@ struct Hypothesis {
   /// The least is the best.
   double rank() const { return score - plainness; }
   /// The score without the cost of choices: what the log says.
-  double evidence() const;
+  double evidence() const {
+    double choices = 0;
+    for (const auto& p : numbers) choices += p.prior;
+    return score - choices;
+  }
   std::size_t size() const { return numbers.size() + mistakes.size(); }
-  std::set<std::string> names() const;
+  std::set<std::string> names() const {
+    std::set<std::string> all;
+    for (const auto* list : {&mistakes, &numbers})
+      for (const auto& p : *list) all.insert(p.name());
+    return all;
+  }
   /// Whether this can be assumed as well.
-  bool allows(const Parameter& more) const;
+  bool allows(const Parameter& more) const {
+    const auto is_free = [&](const Parameter& own) { return !own.excludes(more) && !more.excludes(own); };
+    return std::all_of(mistakes.begin(), mistakes.end(), is_free) &&
+           std::all_of(numbers.begin(), numbers.end(), is_free);
+  }
 
   Assumptions assumed() const { return with(values); }
-  Assumptions with(const std::vector<double>& other_values) const;
+  Assumptions with(const std::vector<double>& other_values) const {
+    Assumptions result = nominal;
+    for (const auto& mistake : mistakes) mistake.set(result, 1);
+    for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k].set(result, other_values[k]);
+    return result;
+  }
 };
 
 /// 2 sum ln(1 + (r/s)^2) + 2 n ln s over the rows of a sample, with the median of |r| of each kind as s:
@@ -108,8 +127,7 @@ inline double misfit(const Residuals& sample, const Assumptions& assumed) {
 /// scale shrinks from the misfits of the start down to the tolerance, so that rows with other causes lose
 /// their say.
 /// @param tried  with values to begin with; gets the best ones and their intervals
-/// @return the misfit that is left
-double fit(const Residuals& sample, Hypothesis& tried);
+void fit(const Residuals& sample, Hypothesis& tried);
 
 /// Derivatives of the rows by a number, at the base; empty where they do not depend on it.
 /// @param rows  at the base
