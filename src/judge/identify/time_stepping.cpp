@@ -76,48 +76,42 @@ std::optional<double> common_step(const std::vector<LoggedEvent>& events) {
   return best;
 }
 
-/// How late events are, by what was touched. A step delays all alike, a wrong wall or ball its own contacts
-/// only.
-class Delays {
- public:
-  void add(int partner, double delay) {
-    all_.push_back(delay);
-    by_partner_[partner].push_back(delay);
+/// Whether delays are spread evenly from 0 to a step, by the test of Kolmogorov and Smirnov at 1 %; a tenth
+/// more for impacts that follow each other within a step.
+bool are_even(std::vector<double> delays, double step) {
+  std::sort(delays.begin(), delays.end());
+  const auto all = static_cast<double>(delays.size());
+  double worst = 0;
+  for (std::size_t k = 0; k < delays.size(); ++k) {
+    const double due = std::min(1.0, delays[k] / step), below = static_cast<double>(k) / all;
+    worst = std::max({worst, std::abs(below - due), std::abs(below + 1 / all - due)});
   }
-  /// The step with which a code sees each contact at the first step after it; 0 for none.
-  double step() const {
-    if (all_.size() < least_number) return 0;
-    const double step = quantile(all_, 0.98) / 0.98;
-    if (!(step > 0) || !are_even(all_, step)) return 0;
-    const bool alike = std::all_of(by_partner_.begin(), by_partner_.end(), [&](const auto& own) {
-      return own.second.size() < least_number || are_even(own.second, step);
-    });
-    return alike ? step : 0;
-  }
+  return worst <= 1.63 / std::sqrt(all) + 0.1;
+}
 
- private:
-  /// Whether they are spread evenly from 0 to a step, by the test of Kolmogorov and Smirnov at 1 %; a tenth
-  /// more for impacts that follow each other within a step.
-  static bool are_even(std::vector<double> delays, double step) {
-    std::sort(delays.begin(), delays.end());
-    const auto all = static_cast<double>(delays.size());
-    double worst = 0;
-    for (std::size_t k = 0; k < delays.size(); ++k) {
-      const double due = std::min(1.0, delays[k] / step), below = static_cast<double>(k) / all;
-      worst = std::max({worst, std::abs(below - due), std::abs(below + 1 / all - due)});
-    }
-    return worst <= 1.63 / std::sqrt(all) + 0.1;
-  }
+/// How late events are, by what was touched [s].
+using Delays = std::map<int, std::vector<double>>;
 
-  std::vector<double> all_;
-  std::map<int, std::vector<double>> by_partner_;
-};
+/// The step with which a code sees each contact at the first step after it; 0 for none. It delays all alike,
+/// a wrong wall or ball its own contacts only.
+double late_step(const Delays& delays) {
+  std::vector<double> all;
+  for (const auto& [partner, own] : delays) all.insert(all.end(), own.begin(), own.end());
+  if (all.size() < least_number) return 0;
+  const double step = quantile(all, 0.98) / 0.98;
+  if (!(step > 0) || !are_even(all, step)) return 0;
+  const bool alike = std::all_of(delays.begin(), delays.end(), [&](const auto& of) {
+    return of.second.size() < least_number || are_even(of.second, step);
+  });
+  return alike ? step : 0;
+}
 
 /// Sentinel: the flight deviates, but not as a contact that lasts would make it.
 constexpr double no_duration = -1;
 
 /// An impact with its geometry, and what the flights on either side of it miss.
 struct LoggedContact {
+  Vec normal{0, 0, 0}, carrier{0, 0, 0};  ///< the second carries the contact [m/s]
   double duration_from_begin = audit::unknown, duration_from_end = audit::unknown;
   double approach = audit::unknown, effective_mass = 0, effective_radius = 0;
 };
@@ -126,22 +120,21 @@ class Measurements {
  public:
   Measurements(const audit::EventsAtHand& log, const model::Case<double>& the_case,
                const audit::Tolerances& tolerances)
-      : log_(log), case_(the_case), tolerances_(tolerances), contacts_(log.events.size()) {
-    normals_.reserve(log.events.size());
-    for (std::size_t k = 0; k < log.events.size(); ++k) add(k);
+      : contacts(log.events.size()), log_(log), case_(the_case), tolerances_(tolerances) {
     std::vector<long> last(the_case.balls.size(), -1);
     for (std::size_t k = 0; k < log.events.size(); ++k) {
       const auto& event = log.events[k];
+      if (!event.problem.empty()) continue;
+      add(k);
       for (std::size_t body = 0; body < event.count(); ++body) {
         const int ball = event.ball_at(body);
-        if (!event.problem.empty() || ball < 0 || ball >= static_cast<int>(last.size())) continue;
         if (last[ball] >= 0) flight(last[ball], k, ball);
         last[ball] = static_cast<long>(k);
       }
     }
   }
 
-  const std::vector<LoggedContact>& contacts() const { return contacts_; }
+  std::vector<LoggedContact> contacts;
   Delays delays;
   std::vector<double> first_order;  ///< the step that each flight implies [s]
   /// By how much longer than its path each deviating flight took, where it deviates along its path alone [s].
@@ -151,31 +144,28 @@ class Measurements {
   /// Geometry of an impact and its depth.
   void add(std::size_t k) {
     const auto& event = log_.events[k];
-    normals_.emplace_back(Vec(0, 0, 0), Vec(0, 0, 0));
-    if (!event.problem.empty()) return;
-    auto& [normal, carrier] = normals_.back();
     const auto& one = event.body[0];
-    LoggedContact& contact = contacts_[k];
+    LoggedContact& contact = contacts[k];
     if (!event.with_wall && one.position == event.body[1].position) return;  // it has no normal
     const auto frame =
         event.with_wall ? audit::vessel_at(case_.mill, event.time, false) : audit::VesselFrame{};
     const double gap = audit::gap_of(event, case_, frame);
     const auto impact = audit::impact_of(event, case_, frame, true);
     const auto& [ball, other] = impact.ball;
-    normal = impact.normal;
+    contact.normal = impact.normal;
     const Vec& met = event.with_wall ? impact.wall_velocity : event.body[1].velocity_before;
     contact.effective_mass = impact.effective_mass;
     contact.effective_radius =
         event.with_wall ? ball.radius : ball.radius * other.radius / (ball.radius + other.radius);
-    contact.approach = -audit::dot(Vec(one.velocity_before - met), normal);
-    carrier =
+    contact.approach = -impact.along(one.velocity_before - met);
+    contact.carrier =
         event.with_wall
             ? met
             : Vec((one.velocity_before * ball.mass + met * other.mass) * (1 / (ball.mass + other.mass)));
     const bool late = gap < -tolerances_.touch(event.time, event.with_wall);
     // Grazes have no time at which they begin.
     if (contact.approach > audit::size(one.velocity_before) / 10)
-      delays.add(event.with_wall ? event.partner : -1, late ? -gap / contact.approach : 0);
+      delays[event.with_wall ? event.partner : -1].push_back(late ? -gap / contact.approach : 0);
   }
 
   /// A ball's flight from the impact `from` to the impact `to`.
@@ -189,11 +179,10 @@ class Measurements {
     const Vec off = came.position - (left.position + (left.velocity_after + g * (dt / 2)) * dt);
     const double noise = tolerances_.position(end.time, audit::size(left.velocity_after) * dt,
                                               audit::size(left.velocity_after));
-    const auto& [normal_a, carrier_a] = normals_[from];
-    const auto& [normal_b, carrier_b] = normals_[to];
+    auto &first = contacts[from], &second = contacts[to];
     // A ball that leaves its contact late is late by its speed at the end of the flight.
-    const double leaving = audit::dot(Vec(left.velocity_after + g * dt - carrier_a), normal_a);
-    const double coming = audit::dot(Vec(came.velocity_before - carrier_b), normal_b);
+    const double leaving = audit::dot(Vec(left.velocity_after + g * dt - first.carrier), first.normal);
+    const double coming = audit::dot(Vec(came.velocity_before - second.carrier), second.normal);
     const bool large = audit::size(off) > 3 * noise;
     // The ball leaves later than its line says, or its line comes later than its arrival. While bodies are in
     // contact the force between them moves the ball from its parabola, along the impulse.
@@ -202,9 +191,8 @@ class Measurements {
       const Vec across = off - impulse * (audit::dot(off, impulse) / audit::dot(impulse, impulse));
       return 3 * audit::size(across) < audit::size(off) ? -audit::dot(off, normal) / speed : no_duration;
     };
-    if (large && std::abs(leaving) > 0.05)
-      contacts_[from].duration_from_begin = duration(left, normal_a, leaving);
-    if (large && std::abs(coming) > 0.05) contacts_[to].duration_from_end = duration(came, normal_b, coming);
+    if (large && std::abs(leaving) > 0.05) first.duration_from_begin = duration(left, first.normal, leaving);
+    if (large && std::abs(coming) > 0.05) second.duration_from_end = duration(came, second.normal, coming);
     if (large && !is_along(came.velocity_before, Vec(came.velocity_after - came.velocity_before)) &&
         !is_along(came.velocity_before, Vec(left.velocity_after - left.velocity_before)))
       surplus.push_back(surplus_of(off, came.velocity_before, g, noise));
@@ -235,8 +223,6 @@ class Measurements {
   const audit::EventsAtHand& log_;
   const model::Case<double>& case_;
   audit::Tolerances tolerances_;
-  std::vector<LoggedContact> contacts_;
-  std::vector<std::pair<Vec, Vec>> normals_;  ///< of each impact, and what carries the contact [m/s]
 };
 
 /// Slope of ln(duration) over ln(speed) by medians of its pairs (Theil and Sen), on neighbours a third of the
@@ -302,11 +288,11 @@ TimeStepping time_stepping(const audit::EventsAtHand& log, const model::Case<dou
   const auto& has = log.available;
   if (!has.positions(false) || !has.velocities_before(false) || !has.velocities_after(false)) return result;
   Measurements measured(log, the_case, audit::tolerances_of(the_case, options));
-  result.soft = soft_contacts(measured.contacts(), LoggedAt::begin);
-  const auto end = soft_contacts(measured.contacts(), LoggedAt::end);
+  result.soft = soft_contacts(measured.contacts, LoggedAt::begin);
+  const auto end = soft_contacts(measured.contacts, LoggedAt::end);
   const auto spread = [](const SoftContacts& s) { return (s.high - s.low) / s.duration; };
   if (end && (!result.soft || spread(*end) < 0.8 * spread(*result.soft))) result.soft = end;
-  if (const double step = measured.delays.step(); step > 0) result.step_by_depth = step;
+  if (const double step = late_step(measured.delays); step > 0) result.step_by_depth = step;
   // Rounding to a step is off by up to half of it.
   const auto jitter = jitter_of(measured.surplus);
   if (jitter && !(result.step && *jitter < *result.step)) result.jitter = jitter;
