@@ -133,13 +133,11 @@ std::vector<SharedSubset> subsets_of(const casefile::CaseSpec& spec, const model
                                      const std::vector<Branches>& branches) {
   using audit::LoggedEvent;
   std::vector<SharedSubset> list;
-  const auto add = [&](std::string name, bool of_impacts, bool of_flights,
-                       std::function<bool(const RowPlace&)> holds) {
-    list.push_back(
-        std::make_shared<Subset>(Subset{std::move(name), std::move(holds), of_impacts, of_flights}));
+  const auto add = [&](std::string name, bool of_flights, std::function<bool(const RowPlace&)> holds) {
+    list.push_back(std::make_shared<Subset>(Subset{std::move(name), std::move(holds), of_flights}));
   };
   const auto of_impacts = [&](std::string name, auto holds) {
-    add(std::move(name), true, false,
+    add(std::move(name), false,
         [&events, holds](const RowPlace& at) { return !at.of_flight && holds(events[at.event], at.event); });
   };
   of_impacts("with walls", [](const LoggedEvent& e, std::size_t) { return e.with_wall; });
@@ -183,16 +181,16 @@ std::vector<SharedSubset> subsets_of(const casefile::CaseSpec& spec, const model
     return !e.with_wall && !(balls[e.ball] == balls[e.partner]);
   });
   // Rows of both bodies, those of the energy, follow from what happens to either.
-  add("on the partner", true, false,
+  add("on the partner", false,
       [&events](const RowPlace& at) { return !at.of_flight && at.body != 0 && !events[at.event].with_wall; });
-  add("on the ball, not its partner", true, false,
+  add("on the ball, not its partner", false,
       [&events](const RowPlace& at) { return !at.of_flight && at.body != 1 && !events[at.event].with_wall; });
   constexpr int most_balls = 40;
   const int count = static_cast<int>(balls.size());
   for (int ball = 0; ball < count && count <= most_balls && count > 1; ++ball) {
     of_impacts(fmt::format("in impacts of ball {}", ball),
                [ball](const LoggedEvent& e, std::size_t) { return takes_part(e, ball, ball + 1); });
-    add(fmt::format("on ball {}", ball), true, true, [&events, ball](const RowPlace& at) {
+    add(fmt::format("on ball {}", ball), true, [&events, ball](const RowPlace& at) {
       const auto& event = events[at.event];
       return at.body < 0 ? takes_part(event, ball, ball + 1) : event.ball_at(at.body) == ball;
     });

@@ -70,7 +70,7 @@ struct Branches {
 struct Subset {
   std::string name;  ///< "at wall 0 (cap -y)", "on ball 3"
   std::function<bool(const RowPlace&)> holds;
-  bool of_impacts = true, of_flights = true;  ///< what it can restrict
+  bool of_flights = false;  ///< has rows of flights as well as of impacts
 };
 using SharedSubset = std::shared_ptr<const Subset>;
 

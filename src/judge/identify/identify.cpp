@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -37,9 +38,7 @@ std::uint64_t count_violated(const Eigen::VectorXd& rows) {
 }
 
 /// Whether the effect of a number can be restricted to this part of the log.
-bool fits(const Subset& part, const Parameter& p) {
-  return (part.of_impacts && p.of_impacts) || (part.of_flights && p.of_flights);
-}
+bool fits(const Subset& part, const Parameter& p) { return p.of_impacts || part.of_flights; }
 
 /// Whether the interval of a number contains that of the case.
 bool has_number_of_case(const Hypothesis& tried) {
@@ -145,22 +144,16 @@ class Evidence {
 
   /// A hypothesis with one more mistake, or one more number fitted together with its own.
   Hypothesis with(const Hypothesis& base, const Parameter& more) const {
-    Hypothesis tried = base;
-    if (!more.mistake.empty()) {
-      tried.mistakes.push_back(more);
-      fit_and_judge(tried);
-      return tried;
-    }
-    tried.numbers.push_back(more);
-    std::vector<Hypothesis> fitted;
-    for (const double start : starts(base.assumed(), more)) {
-      tried.values = base.values;
-      tried.values.push_back(start);
-      fitted.push_back(tried);
-      fit_and_judge(fitted.back());
-    }
-    sort(fitted);
-    return std::move(fitted.front());
+    std::vector<Hypothesis> tried;
+    if (!more.mistake.empty())
+      tried.emplace_back(base).mistakes.push_back(more);
+    else
+      for (const double start : starts(base.assumed(), more)) {
+        auto& own = tried.emplace_back(base);
+        own.numbers.push_back(more);
+        own.values.push_back(start);
+      }
+    return best_fitted(std::move(tried));
   }
 
   /// The fit with the final sample, and what the audit says of it.
@@ -272,18 +265,14 @@ class Evidence {
       }
     std::vector<Hypothesis> best;
     for (const auto& pair : best_of(std::move(order), most)) {
-      std::vector<Hypothesis> fitted;
-      for (const double share : {0, 1}) {
-        auto& tried = fitted.emplace_back(Hypothesis{nominal_});
+      std::vector<Hypothesis> tried(2, {nominal_});
+      for (const int share : {0, 1})
         for (std::size_t k = 0; k < 2; ++k) {
           const auto& p = *pair.numbers[k];
-          tried.numbers.push_back(p);
-          tried.values.push_back(p.value + share * pair.change[k] * p.change);
+          tried[share].numbers.push_back(p);
+          tried[share].values.push_back(p.value + share * pair.change[k] * p.change);
         }
-        fit_and_judge(tried);
-      }
-      sort(fitted);
-      best.push_back(std::move(fitted.front()));
+      best.push_back(best_fitted(std::move(tried)));
     }
     return best;
   }
@@ -359,15 +348,20 @@ class Evidence {
     return values;
   }
 
-  /// Over growing spans where a motion's speed is free, and over the whole log.
-  void fit_and_judge(Hypothesis& tried) const {
-    const bool from_early =
-        std::any_of(tried.numbers.begin(), tried.numbers.end(), [](const auto& p) { return p.is_speed; });
-    for (const auto& window : windows_) {
-      const bool last = &window == &whole();
-      if (!tried.numbers.empty() && (last || (from_early && window.count() >= 12))) fit(window, tried);
+  /// The best of some hypotheses with the same numbers, each fitted over growing spans where a motion's speed
+  /// is free, and over the whole log.
+  Hypothesis best_fitted(std::vector<Hypothesis> list) const {
+    for (auto& tried : list) {
+      const bool from_early =
+          std::any_of(tried.numbers.begin(), tried.numbers.end(), std::mem_fn(&Parameter::is_speed));
+      for (const auto& window : windows_) {
+        const bool last = &window == &whole();
+        if (!tried.numbers.empty() && (last || (from_early && window.count() >= 12))) fit(window, tried);
+      }
+      judge(tried);
     }
-    judge(tried);
+    sort(list);
+    return std::move(list.front());
   }
 
   /// A number known from one side only, such as a restitution below which all impacts separate at v_s: the
@@ -461,8 +455,6 @@ class Searcher {
     log_ = audit::read_events(the_case_, options_, search == Search::all ? most_events : most_for_single);
     interrupt_ = std::exchange(options_.interrupt, nullptr);  // an audit that ends early finds nothing wrong
     numbers_ = parameters_of(nominal_);
-    std::copy_if(numbers_.begin(), numbers_.end(), std::back_inserter(periodic_),
-                 [](const Parameter& p) { return p.is_periodic(); });
     mistakes_ = mistakes_of(nominal_, numbers_, log_.available);
   }
 
@@ -544,7 +536,9 @@ class Searcher {
       if (stage.mistakes > 0) add(evidence_->by_trial_values(assumed, mistakes_, stage.mistakes));
       if (stage.numbers > 0) add(evidence_->best_numbers(assumed, numbers_, stage.numbers));
       if (stage.in_parts > 0) add(evidence_->best_in_parts(assumed, numbers_, stage.in_parts, stage.share));
-      if (stage.size == 0 && stage.numbers > 0) add(periodic_);
+      if (stage.size == 0 && stage.numbers > 0)
+        for (const auto& p : numbers_)
+          if (p.is_periodic()) add({p});
     }
     if (stage.pairs > 0 && !is_interrupted())
       for (auto& pair : evidence_->best_pairs(numbers_, stage.pairs)) more.push_back(std::move(pair));
@@ -623,7 +617,6 @@ class Searcher {
   audit::Options options_;
   audit::EventsAtHand log_;
   std::vector<Parameter> numbers_, mistakes_;
-  std::vector<Parameter> periodic_;  ///< of the numbers
   std::optional<Evidence> evidence_;
   std::vector<Hypothesis> tried_, accepted_;
   const std::atomic<bool>* interrupt_ = nullptr;

@@ -223,14 +223,6 @@ std::optional<double> otherwise(std::string_view key) {
 
 using Law = casefile::ContactSpec;
 
-auto law_named(std::string_view name) {
-  decltype(Law::law) law;
-  casefile::for_each_kind<model::NamedLaws<Quantity>>([&](const auto& kind) {
-    if (kind.name == name) law = kind;
-  });
-  return law;
-}
-
 struct Entry {
   std::string key;
   Dimension dimension;
@@ -252,21 +244,14 @@ std::vector<Entry> entries(Law law) {
   return list;
 }
 
-/// The number of this name; another law may not have it. Points of tables have one name, and differ
-/// by their place.
-void put(Law& law, const std::string& key, std::size_t which, double value) {
-  std::size_t k = 0;
-  each_number_of(law, [&](const char* own, Dimension, Quantity& q) {
-    if (own == key && k++ == which) q = exactly(value);
-  });
-}
-
 /// The law with one number of another: its others are the law's own where they have the same name.
 /// @return whether it has all numbers that such a law needs
 bool replace(Law& law, const OtherLaw& other, double value) {
   const auto own = entries(law);
   bool complete = true;
-  law.law = law_named(other.model);
+  casefile::for_each_kind<model::NamedLaws<Quantity>>([&](const auto& kind) {
+    if (kind.name == other.model) law.law = kind;
+  });
   each_number_of(law, [&](const char* key, Dimension, Quantity& q) {
     const auto same = std::find_if(own.begin(), own.end(), [&](const Entry& e) { return e.key == key; });
     const auto value_there = key == other.number ? value : same != own.end() ? same->value : otherwise(key);
@@ -290,8 +275,14 @@ void add_numbers_of(const Section& section, Assumptions nominal, std::vector<Par
   std::map<std::string, std::size_t> seen;
   for (std::size_t k = 0; k < own.size(); ++k) {
     const auto& [key, dimension, value] = own[k];
+    // Another law may not have a number of this name; points of tables have one name.
     const auto set = [laws = section.laws, key = key, which = seen[key]++](Assumptions& a, double x) {
-      for (Law* law : laws(a)) put(*law, key, which, x);
+      for (Law* law : laws(a)) {
+        std::size_t same = 0;
+        each_number_of(*law, [&](const char* there, Dimension, Quantity& q) {
+          if (there == key && same++ == which) q = exactly(x);
+        });
+      }
     };
     if (value != others[k].value) continue;
     list.push_back(number(section.key + "." + key, dimension, value, set));
@@ -312,7 +303,6 @@ void add_other_laws(const Section& section, Assumptions nominal, std::vector<Par
                         [laws = section.laws, &other](Assumptions& a, double x) {
                           for (Law* own : laws(a)) replace(*own, other, x);
                         },
-                    .of_flights = false,
                     .prior = 1,  // of two that fit alike, a number of the case's law comes first
                     .in_place_of = fmt::format("the law \"{}\"", law.name()),
                     .first_values = other.first_values});
@@ -435,7 +425,6 @@ void add_terms(std::vector<Parameter>& list) {
                     .set = [member = row.member](Assumptions& a, double x) { a.terms.*member = x; },
                     .equation = row.equation,
                     .of_impacts = !row.of_flights,
-                    .of_flights = row.of_flights,
                     .prior = 1});  // of two that fit alike, a number of the case comes first
   }
 }
@@ -526,11 +515,6 @@ std::string word_for(double factor, double half_width) {
   for (const auto& [of, text] : words)
     if (std::abs(factor - of) <= half_width && half_width < 0.1) return text;
   return "";
-}
-
-std::string value_text(Dimension dimension, double value) {
-  const Unit unit = unit_of(dimension, value);
-  return fmt::format("{:.9g}{}", value / unit.size, unit.name);
 }
 
 std::string value_text(Dimension dimension, double value, double half_width) {

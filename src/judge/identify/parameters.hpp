@@ -23,9 +23,8 @@ struct Parameter {
   bool is_speed = false;
   double cycle = 0;           ///< of a phase, after which the motion is the same [its unit]; else 0
   std::string equation = {};  ///< of docs/theory.md that a term belongs to; empty for a number of the case
-  bool of_impacts = true,
-       of_flights = true;  ///< the rows that depend on it, which a part of the log may restrict
-  double prior = 0;        ///< what the choice among parts of the log costs in Schwarz's criterion
+  bool of_impacts = true;     ///< or rows of flights alone depend on it
+  double prior = 0;           ///< what the choice among parts of the log costs in Schwarz's criterion
   /// Of a number of another contact law: what the case has in its place. `value` is not a number.
   std::string in_place_of = {};
   std::vector<double> first_values = {};  ///< of such a number, and of a mistake: to begin with
@@ -66,9 +65,7 @@ std::vector<Parameter> mistakes_of(const Assumptions& nominal, const std::vector
 /// "reversed", "left out", "doubled", "halved", where an interval holds such a factor and little else; else
 /// empty.
 std::string word_for(double factor, double half_width);
-/// "100.500 +- 0.001 mm": in the usual unit of its dimension.
-std::string value_text(Dimension dimension, double value, double half_width);
-/// "100 mm"
-std::string value_text(Dimension dimension, double value);
+/// "100.500 +- 0.001 mm", or "100 mm": in the usual unit of its dimension.
+std::string value_text(Dimension dimension, double value, double half_width = 0);
 
 }  // namespace edmill::identify

@@ -97,17 +97,16 @@ class Replay {
     std::vector<double> off;
     std::vector<std::size_t> next(states_.size(), 0), seen(states_.size(), 0);
     std::vector<std::vector<std::size_t>> of_ball(states_.size());
-    std::vector<bool> lost(states_.size(), false);
     for (std::size_t k = 0; k < log_.size(); ++k) {
       of_ball[log_[k].ball].push_back(k);
       if (!log_[k].with_wall) of_ball[log_[k].partner].push_back(k);
     }
     for (const auto& impact : list) {
       const auto ball = static_cast<std::size_t>(impact.ball);
-      if (lost[ball] || seen[ball] >= depth || next[ball] >= of_ball[ball].size()) continue;
+      if (seen[ball] >= depth || next[ball] >= of_ball[ball].size()) continue;
       const std::size_t k = of_ball[ball][next[ball]];
-      if (!log_[k].same_bodies(impact)) {
-        lost[ball] = true;
+      if (!log_[k].same_bodies(impact)) {  // no more of this ball
+        seen[ball] = depth;
         continue;
       }
       ++next[ball];
