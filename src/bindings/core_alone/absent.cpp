@@ -44,7 +44,7 @@ void EventFile::add_table(const std::string&, const std::string&, const std::str
                           const std::vector<double>&, std::size_t) {}
 void EventFile::complete() {}
 void EventFile::commit() {}
-std::vector<std::filesystem::path> EventFile::places() const { return {}; }
+std::filesystem::path EventFile::place() const { return {}; }
 void EventFile::archive(Archive&) {}
 
 void look_at(const std::vector<model::Mesh>&, const std::vector<Frame<double>>&, Scene&) {

@@ -186,11 +186,6 @@ Destination::~Destination() {
   if (!kept) fs::remove(temporary, ignored);  // absent after a commit
 }
 
-std::vector<fs::path> Destination::places() const {
-  if (through) return {};
-  return {named};
-}
-
 int Destination::open_through() const {
   const auto number = descriptor_named(named);
   if (!number) return open_for_writing(named, 0);
@@ -347,28 +342,6 @@ void AtomicFile::go_on_from(const fs::path& left, std::uint64_t size, const std:
   if (descriptor < 0) fail();
   buffer_.open(descriptor, size, *found);
   if (complete_ && !buffer_.close()) fail();
-}
-
-void AtomicFiles::add(const fs::path& place, const std::function<void(std::ostream&)>& put,
-                      const fs::path& beside) {
-  auto& file = files_.emplace_back(place, false, beside);
-  put(file.stream());
-  file.complete();
-}
-
-void AtomicFiles::commit() {
-  for (auto& file : files_) file.commit();
-}
-
-std::vector<fs::path> AtomicFiles::places() const {
-  std::vector<fs::path> all;
-  for (const auto& file : files_)
-    for (auto& place : file.places()) all.push_back(std::move(place));
-  return all;
-}
-
-void AtomicFiles::archive(Archive& a) {
-  for (auto& file : files_) a(file);
 }
 
 }  // namespace edmill::io

@@ -1,10 +1,8 @@
-// Files that appear whole or not at all, alone or several together; devices and pipes are written through.
+// Files that appear whole or not at all; devices and pipes are written through.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
-#include <list>
 #include <optional>
 #include <ostream>
 #include <stdexcept>
@@ -87,8 +85,6 @@ struct Destination {
   Destination& operator=(const Destination&) = delete;
   ~Destination();
 
-  /// As it was given; nothing of what is written through.
-  std::vector<std::filesystem::path> places() const;
   /// A descriptor of what is written through, or -1 with errno.
   int open_through() const;
   /// Moves the complete temporary file into place, or copies it through. @throws std::runtime_error
@@ -109,9 +105,19 @@ struct Destination {
   std::filesystem::path beside_;
 };
 
+/// A file that is made under another name until it is put in place.
+class WholeFile {
+ public:
+  virtual ~WholeFile() = default;
+  /// Puts it in place. @throws std::runtime_error when anything was not written; the old file is then kept
+  virtual void commit() = 0;
+  /// Its place, as given; empty where that holds something else, too: for a device, and among rows of others.
+  virtual std::filesystem::path place() const = 0;
+};
+
 /// A file that is written under a temporary name in the same folder and moved into place by `commit`. Without
 /// it, the old file stays unchanged. Devices and pipes are written through.
-class AtomicFile {
+class AtomicFile : public WholeFile {
  public:
   /// @param append  the content of the old file is kept before the new one
   /// @param beside  where the temporary file is made, if not beside the place
@@ -128,12 +134,10 @@ class AtomicFile {
   /// Writes what is left: nothing can fail for lack of space after it, and nothing more can be written.
   /// @throws std::runtime_error when anything was not written
   void complete();
-  /// Completes it and puts it in place.
-  /// @throws std::runtime_error when anything was not written; the old file is then kept
-  void commit();
-  /// Its place, as given, when that holds nothing else: no device, and no rows of other runs.
-  std::vector<std::filesystem::path> places() const {
-    return append_ ? std::vector<std::filesystem::path>{} : destination_.places();
+  /// Completes it first.
+  void commit() override;
+  std::filesystem::path place() const override {
+    return append_ || destination_.through ? std::filesystem::path() : destination_.named;
   }
 
   /// Flushes the file to disk. @throws std::runtime_error when anything was not written
@@ -157,22 +161,6 @@ class AtomicFile {
   bool append_, complete_ = false;
   bool synced_ = false;   ///< it is complete and on the disk
   bool dropped_ = false;  ///< its rows are in place already: see `archive`
-};
-
-/// Files that are complete at once and put in place together.
-class AtomicFiles {
- public:
-  /// Writes a file, as AtomicFile does. @throws std::runtime_error when anything was not written
-  void add(const std::filesystem::path& place, const std::function<void(std::ostream&)>& put,
-           const std::filesystem::path& beside = {});
-  void commit();
-  void clear() { files_.clear(); }
-  std::vector<std::filesystem::path> places() const;
-  /// @pre loading: files of the same places were added
-  void archive(Archive& a);
-
- private:
-  std::list<AtomicFile> files_;
 };
 
 }  // namespace edmill::io

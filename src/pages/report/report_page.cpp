@@ -212,7 +212,7 @@ std::filesystem::path put_report(const std::filesystem::path& folder) {
   io::AtomicFile file(place);
   file.stream() << page;
   file.complete();
-  io::record_files(folder, file.places());
+  io::record_files(folder, {file.place()});
   file.commit();
   return place;
 }

@@ -5,7 +5,6 @@
 
 #include "base/digest.hpp"
 #include "base/errors.hpp"
-#include "io/atomic_file.hpp"
 #include "io/hdf5_parts.hpp"
 #include "io/output_folder.hpp"
 
@@ -175,7 +174,9 @@ void EventFile::complete() {
 
 void EventFile::commit() { data_->destination.commit(); }
 
-std::vector<std::filesystem::path> EventFile::places() const { return data_->destination.places(); }
+std::filesystem::path EventFile::place() const {
+  return data_->destination.through ? std::filesystem::path() : data_->destination.named;
+}
 
 void EventFile::archive(Archive& a) {
   auto& d = *data_;

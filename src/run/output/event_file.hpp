@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/archive.hpp"
+#include "io/atomic_file.hpp"
 #include "io/table.hpp"
 
 namespace edmill::output {
@@ -21,13 +22,13 @@ struct EventColumn {
 
 /// Written in blocks under a temporary name; `commit` puts it in place. The same rows make the same bytes: no
 /// time stamps. Integers are compressed; the digits of measured numbers are noise that hardly shrinks.
-class EventFile {
+class EventFile : public io::WholeFile {
  public:
   EventFile(const std::filesystem::path& place, std::vector<EventColumn> columns,
             const std::vector<io::FileNote>& notes);
   EventFile(const EventFile&) = delete;
   EventFile& operator=(const EventFile&) = delete;
-  ~EventFile();
+  ~EventFile() override;
 
   void add(std::size_t column, std::int64_t value);
   void add(std::size_t column, double value);
@@ -40,10 +41,9 @@ class EventFile {
 
   /// Writes what is left. @throws std::runtime_error when anything was not written
   void complete();
-  /// Puts it in place. @pre it is complete
-  void commit();
-  /// Its place, when that is no device.
-  std::vector<std::filesystem::path> places() const;
+  /// @pre it is complete
+  void commit() override;
+  std::filesystem::path place() const override;
 
   /// How far it is written, for a checkpoint; the temporary file is then no longer removed without `commit`.
   /// HDF5 cannot open a file whose writer was killed. But a block never changes once it is written, so

@@ -10,6 +10,7 @@
 #include "base/errors.hpp"
 #include "casefile/case_spec.hpp"
 #include "engine/simulation.hpp"
+#include "io/atomic_file.hpp"
 #include "io/table.hpp"
 #include "model/parts/surface.hpp"
 #include "output/impact_facts.hpp"
@@ -98,11 +99,8 @@ class Output {
     if (timer_.recorded(end)) end_of_record(simulation, timer_.until(end));
   }
   /// Writes what is left: nothing can fail for lack of space after it.
-  virtual void complete() = 0;
-  /// Puts what was written in place. @pre it is complete
-  virtual void commit() = 0;
-  /// Where that is. Files that hold rows of other runs are not among these places.
-  virtual std::vector<std::filesystem::path> places() const = 0;
+  /// @return its files, which are to be put in place in this order
+  virtual std::vector<io::WholeFile*> complete() = 0;
   /// Its state and how far its files are written, for a checkpoint.
   virtual void archive(Archive& a) {
     a(timer_);
@@ -146,9 +144,10 @@ class OneFileOutput : public Base {
   OneFileOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run, Arguments&&... arguments)
       : Base(spec, run), file_(this->place(), std::forward<Arguments>(arguments)...) {}
 
-  void complete() override { file_.complete(); }
-  void commit() override { file_.commit(); }
-  std::vector<std::filesystem::path> places() const override { return file_.places(); }
+  std::vector<io::WholeFile*> complete() override {
+    file_.complete();
+    return {&file_};
+  }
   void archive(Archive& a) override {
     Base::archive(a);
     a(file_);

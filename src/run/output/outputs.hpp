@@ -7,6 +7,7 @@
 
 #include "casefile/case_spec.hpp"
 #include "engine/simulation.hpp"
+#include "io/atomic_file.hpp"
 
 namespace edmill::output {
 
@@ -27,12 +28,8 @@ class Outputs : public engine::Observer<Real> {
   void on_end(const engine::Simulation<Real>& simulation) override;
   void archive(Archive& a) override;
   /// Writes what is left of all files. @param goes_on  a run that goes on later adds its rows to files of
-  /// other runs only then
-  void complete(bool goes_on);
-  /// Puts them in place. @pre they are complete
-  void commit(bool goes_on);
-  /// Where that is; without files that hold rows of other runs.
-  std::vector<std::filesystem::path> places() const;
+  /// other runs only then @return those to be put in place
+  std::vector<io::WholeFile*> complete(bool goes_on);
 
  private:
   std::vector<std::unique_ptr<Output<Real>>> outputs_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <list>
 
 #include "base/errors.hpp"
 #include "casefile/output_entry.hpp"
@@ -77,15 +78,18 @@ class SnapshotOutput : public SceneOutput<Real> {
  public:
   using SceneOutput<Real>::SceneOutput;
 
-  void complete() override {
+  std::vector<io::WholeFile*> complete() override {
     const auto place = this->place();
+    std::vector<io::WholeFile*> all;
     for (const auto& [index, text] : pages_) {
       const auto name = place.stem().string() + "_" + std::to_string(index) + place.extension().string();
-      files_.add(place.parent_path() / name, [&page = text](std::ostream& out) { out << page; });
+      auto& file = files_.emplace_back(place.parent_path() / name);
+      file.stream() << text;
+      file.complete();
+      all.push_back(&file);
     }
+    return all;
   }
-  void commit() override { files_.commit(); }
-  std::vector<std::filesystem::path> places() const override { return files_.places(); }
 
  protected:
   void archive_record(Archive& a) override { a(pages_); }
@@ -108,7 +112,7 @@ class SnapshotOutput : public SceneOutput<Real> {
     return frames;
   }
 
-  io::AtomicFiles files_;
+  std::list<io::AtomicFile> files_;
   std::vector<std::pair<std::uint64_t, std::string>> pages_;
 };
 
@@ -275,7 +279,7 @@ class ParaviewOutput : public FramesOutput<Real> {
       throw InputError(folder_.string() + ": found a file, expected a place for a folder");
   }
 
-  void complete() override {
+  std::vector<io::WholeFile*> complete() override {
     std::vector<std::pair<double, std::vector<std::string>>> list;
     for (std::size_t frame = 0; frame < times_.size(); ++frame) {
       auto& names = list.emplace_back(times_[frame], std::vector<std::string>{}).second;
@@ -283,17 +287,12 @@ class ParaviewOutput : public FramesOutput<Real> {
         names.push_back((folder_.filename() / name_of(of, frame)).generic_string());
     }
     this->file_.stream() << pvd_text(list);
-    this->file_.complete();
-  }
-  void commit() override {
     std::filesystem::create_directories(folder_);
-    frames_.commit();
-    this->file_.commit();
-  }
-  std::vector<std::filesystem::path> places() const override {
-    auto places = frames_.places();
-    for (auto& place : this->file_.places()) places.push_back(std::move(place));
-    return places;
+    std::vector<io::WholeFile*> all;
+    for (auto& frame : frames_) all.push_back(&frame);
+    this->file_.complete();
+    all.push_back(&this->file_);
+    return all;
   }
 
  protected:
@@ -307,7 +306,7 @@ class ParaviewOutput : public FramesOutput<Real> {
     FramesOutput<Real>::archive_record(a);
     a(times_, doses_);
     for (std::size_t frame = 0; a.loading() && frame < times_.size(); ++frame) add_files(frame, "", "");
-    a(frames_);
+    for (auto& frame : frames_) a(frame);
   }
 
  private:
@@ -323,16 +322,17 @@ class ParaviewOutput : public FramesOutput<Real> {
   void add_files(std::size_t frame, const std::string& balls, const std::string& vessel) {
     const auto add = [&](const char* of, const std::string& text) {
       // The folder may be a link, and is made when the run has ended.
-      frames_.add(
-          folder_ / name_of(of, frame), [&](std::ostream& out) { out << text; },
-          std::filesystem::weakly_canonical(folder_));
+      auto& file = frames_.emplace_back(folder_ / name_of(of, frame), false,
+                                        std::filesystem::weakly_canonical(folder_));
+      file.stream() << text;
+      file.complete();
     };
     add("balls", balls);
     add("vessel", vessel);
   }
 
   std::filesystem::path folder_;
-  io::AtomicFiles frames_;
+  std::list<io::AtomicFile> frames_;
   std::vector<double> times_;  ///< of the frames [s]
   std::vector<double> doses_;
 };

@@ -143,23 +143,12 @@ void Outputs<Real>::archive(Archive& a) {
 }
 
 template <class Real>
-void Outputs<Real>::complete(bool goes_on) {
+std::vector<io::WholeFile*> Outputs<Real>::complete(bool goes_on) {
+  std::vector<io::WholeFile*> files;
   for (auto& output : outputs_)
-    if (!goes_on || !output->appends()) output->complete();
-}
-
-template <class Real>
-std::vector<std::filesystem::path> Outputs<Real>::places() const {
-  std::vector<std::filesystem::path> all;
-  for (const auto& output : outputs_)
-    for (auto& place : output->places()) all.push_back(std::move(place));
-  return all;
-}
-
-template <class Real>
-void Outputs<Real>::commit(bool goes_on) {
-  for (auto& output : outputs_)
-    if (!goes_on || !output->appends()) output->commit();
+    if (!goes_on || !output->appends())
+      for (auto* file : output->complete()) files.push_back(file);
+  return files;
 }
 
 }  // namespace edmill::output

@@ -50,9 +50,9 @@ class TableOutput : public OneFileOutput<Real, io::AtomicFile> {
  public:
   TableOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
       : OneFileOutput<Real, io::AtomicFile>(spec, run, spec.append) {}
-  void complete() override {
+  std::vector<io::WholeFile*> complete() override {
     if (this->spec.hdf5()) file_.stream() << io::hdf5_columns(table_, this->run.notes);
-    file_.complete();
+    return OneFileOutput<Real, io::AtomicFile>::complete();
   }
   void archive(Archive& a) override {
     OneFileOutput<Real, io::AtomicFile>::archive(a);

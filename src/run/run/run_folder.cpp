@@ -56,16 +56,19 @@ Checkpoints RunFolder::checkpoints() {
 }
 
 void RunFolder::write(const std::string& name, const std::function<void(std::ostream&)>& put) {
-  own_files_.add(place_ / name, put);
+  auto& file = own_files_.emplace_back(place_ / name);
+  put(file.stream());
+  file.complete();
 }
 
-void RunFolder::commit(std::vector<fs::path> outputs, const std::function<void()>& commit_outputs) {
-  for (auto& own : own_files_.places()) outputs.push_back(std::move(own));
-  io::record_files(place_, outputs);
-  commit_outputs();
-  own_files_.commit();
+void RunFolder::commit(std::vector<io::WholeFile*> files) {
+  for (auto& own : own_files_) files.push_back(&own);
+  std::vector<fs::path> places;
+  for (const auto* file : files) places.push_back(file->place());
+  io::record_files(place_, places);
+  for (auto* file : files) file->commit();
   own_files_.clear();
-  io::remove_other_files(place_, outputs);
+  io::remove_other_files(place_, places);
 }
 
 void RunFolder::remove_checkpoint(const std::string& result) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <list>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -38,9 +39,9 @@ class RunFolder {
 
   /// Writes a file of the run itself, which `commit` puts in place. @throws std::runtime_error
   void write(const std::string& name, const std::function<void(std::ostream&)>& put);
-  /// Puts results in place, which are complete, and removes what an earlier run has left of its own.
-  /// @param outputs  places of the files that `commit_outputs` puts in place
-  void commit(std::vector<std::filesystem::path> outputs, const std::function<void()>& commit_outputs);
+  /// Puts these results in place, which are complete, then the run's own files, and removes what an earlier
+  /// run has left of its own.
+  void commit(std::vector<io::WholeFile*> files);
   /// For a run that has ended: nothing can continue it. @param result  for the checkpoint, while it is there
   void remove_checkpoint(const std::string& result);
 
@@ -52,7 +53,7 @@ class RunFolder {
   std::vector<std::filesystem::path> folders_;  ///< with those of the outputs
   std::vector<io::FolderLock> locks_;           ///< in the same order
   std::optional<io::Checkpoint> checkpoint_;
-  io::AtomicFiles own_files_;
+  std::list<io::AtomicFile> own_files_;
 };
 
 /// "10 min" of wall-clock time, "0.5 s simulated". @throws InputError

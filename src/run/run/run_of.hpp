@@ -287,13 +287,13 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
   /// are there.
   void write_results() {
     const DriveClock<Real> clock(built_.the_case.mill.motion.period());
-    outputs_->complete(goes_on());
+    auto files = outputs_->complete(goes_on());
     folder_->write("final_state.csv", [&](std::ostream& out) {
       io::write_final_state<Real>(out, saved_state(built_, driver_), clock);
     });
     folder_->write("case.toml", [&](std::ostream& out) { out << casefile::text_with_settings(*spec_); });
     folder_->write("summary.json", [&](std::ostream& out) { out << summary_json(); });
-    folder_->commit(outputs_->places(), [&] { outputs_->commit(goes_on()); });
+    folder_->commit(std::move(files));
   }
 
   /// A law with e_t beyond -1 may give an impact more energy than it had.
