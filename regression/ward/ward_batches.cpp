@@ -2,12 +2,12 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "../../tests/support/simulated.hpp"
 #include "base/errors.hpp"
 #include "base/version.hpp"
 #include "casefile/build_case.hpp"
 #include "engine/simulation.hpp"
 #include "io/json_text.hpp"
-#include "run/simulate.hpp"
 
 namespace {
 
@@ -87,9 +87,7 @@ int run_in_batches(const std::string& file, const std::vector<std::string>& over
   const auto count = static_cast<std::size_t>(seconds / length + 1e-9);
   Batches batches(clock.seconds(the_case.statistics_start), length, count, clock,
                   model::partners_of(the_case.mill.vessel).count());
-  run::Guests<double> guests;
-  guests.observers = {&batches};
-  const auto [summary, saved] = run::simulate<double>(spec, built, guests);
+  const auto summary = simulated(spec, built, &batches);
   write(summary, length, batches.totals());
   return summary.end_reason == model::EndReason::end_time ? 0 : 3;
 }

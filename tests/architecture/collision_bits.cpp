@@ -5,9 +5,8 @@
 
 #include "base/scalar_list.hpp"
 //
-#include "casefile/build_case.hpp"
+#include "../support/simulated.hpp"
 #include "output/collision_log.hpp"
-#include "run/simulate.hpp"
 
 namespace {
 
@@ -32,9 +31,6 @@ int main(int argc, char** argv) {
   const auto spec = edmill::casefile::read_case(argv[1], {argv + 3, argv + argc});
   const auto built = edmill::casefile::build_case<double>(spec);
   Log log(std::strtoull(argv[2], nullptr, 10));
-  edmill::run::Guests<double> guests;
-  guests.observers.push_back(&log);
   std::cout << edmill::output::collision_log_header(false) << '\n';
-  const auto result = edmill::run::simulate<double>(spec, built, guests);
-  std::cerr << edmill::io::summary_json(result.summary);
+  std::cerr << edmill::io::summary_json(edmill::simulated(spec, built, &log));
 }

@@ -12,4 +12,3 @@
 #include "io/summary.hpp"
 #include "output/outputs.hpp"
 #include "run/event_source.hpp"
-#include "run/simulate.hpp"

@@ -12,6 +12,7 @@
 #include "claim.hpp"
 #include "core.hpp"
 #include "lammps_mill.hpp"
+#include "simulated.hpp"
 
 namespace edmill::verification {
 
@@ -45,7 +46,7 @@ inline std::vector<double> rates_of_run(const casefile::CaseSpec& spec,
     }
   } doses;
   doses.batch = batch;
-  run::simulate<double>(spec, initial, {{&doses}, nullptr});
+  simulated(spec, initial, &doses);
   std::vector<double> rates;
   for (int i = 1; i <= batches; ++i) rates.push_back(doses.sums.at(static_cast<std::size_t>(i)) / batch);
   return rates;

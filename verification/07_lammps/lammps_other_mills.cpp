@@ -5,6 +5,7 @@
 #include "core.hpp"
 #include "lammps_contacts.hpp"
 #include "lammps_limit.hpp"
+#include "simulated.hpp"
 
 namespace edmill::verification {
 namespace {
@@ -201,7 +202,7 @@ double share_of_held_pairs(const OtherMill& mill, double end) {
   observer.last.resize(static_cast<std::size_t>(mill.count));
   const auto spec = mill.spec(end);
   auto initial = with_contacts_of_lammps(mill, spec);
-  run::simulate<double>(spec, initial, {{&observer}, nullptr});
+  simulated(spec, initial, &observer);
   return observer.held / observer.dose;
 }
 

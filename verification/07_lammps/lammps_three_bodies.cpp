@@ -8,6 +8,7 @@
 #include "core.hpp"
 #include "lammps_contacts.hpp"
 #include "lammps_limit.hpp"
+#include "simulated.hpp"
 
 namespace edmill::verification {
 namespace {
@@ -94,7 +95,7 @@ class HardBalls {
         sum += impact.outcome.milling_dose;
       }
     } dose;
-    run::simulate<double>(spec_, initial, {{&dose}, nullptr});
+    simulated(spec_, initial, &dose);
     const double mass = 8000 * 4 / 3 * pi * std::pow(radius, 3);
     return 1 - dose.sum / (mass / 2);
   }

@@ -4,6 +4,7 @@
 #include "base/statistics.hpp"
 #include "claim.hpp"
 #include "core.hpp"
+#include "simulated.hpp"
 
 namespace edmill::verification {
 namespace {
@@ -46,8 +47,7 @@ Figures figures(const Charge& charge, const char* least_separation) {
          "run.seed=" + std::to_string(seed), "run.start_time=" + Claim::text(10 * period, 12) + " s",
          "run.end_time=" + Claim::text((10 + charge.periods) * period, 12) + " s"});
     TouchedDoses doses;
-    const auto s =
-        run::simulate<double>(spec, casefile::build_case<double>(spec), {{&doses}, nullptr}).summary;
+    const auto s = simulated(spec, casefile::build_case<double>(spec), &doses);
     EXPECT_TRUE(s.end_reason == model::EndReason::end_time) << model::name(s.end_reason);
     rates.push_back(s.milling_dose / s.duration());
     f.collisions += static_cast<double>(s.total_collisions()) / s.duration() / charge.seeds;

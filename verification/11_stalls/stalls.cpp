@@ -4,6 +4,7 @@
 #include "base/statistics.hpp"
 #include "claim.hpp"
 #include "core.hpp"
+#include "simulated.hpp"
 
 namespace edmill::verification {
 namespace {
@@ -33,7 +34,7 @@ Figures figures(const Charge& charge, const model::StallRule& rule) {
          "run.start_time=0.5 s", "run.end_time=" + Claim::text(0.5 + charge.seconds, 12) + " s"});
     auto built = casefile::build_case<double>(spec);
     built.the_case.mill.stall = rule;
-    const auto s = run::simulate<double>(spec, built, {}).summary;
+    const auto s = simulated(spec, built);
     EXPECT_EQ(model::name(s.end_reason), "end_time") << charge.count << " balls, seed " << seed;
     rates.push_back(s.milling_dose / s.duration());
     f.rested += s.stall_dose / s.milling_dose / charge.seeds;

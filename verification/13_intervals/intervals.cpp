@@ -6,6 +6,7 @@
 #include "base/statistics.hpp"
 #include "claim.hpp"
 #include "core.hpp"
+#include "simulated.hpp"
 
 namespace edmill::verification {
 namespace {
@@ -37,7 +38,7 @@ io::Summary<double> run_of(const Mill& mill, int seed, const std::vector<std::st
   auto spec = casefile::read_case(EDMILL_SOURCE_DIR "/" + mill.file, settings);
   spec.outputs.clear();
   const auto built = casefile::build_case<double>(spec);
-  return run::simulate<double>(spec, built, {}).summary;
+  return simulated(spec, built);
 }
 
 struct Rates {

@@ -18,7 +18,7 @@
 #include "io/output_folder.hpp"
 #include "output/collision_log.hpp"
 #include "prove/proof.hpp"
-#include "run/watches.hpp"
+#include "run/any_run.hpp"
 
 namespace edmill::app {
 

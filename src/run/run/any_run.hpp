@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <ctime>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -18,6 +19,13 @@
 #include "model/outcome.hpp"
 
 namespace edmill::run {
+
+/// Processor time of this thread: several runs can share a process.
+inline double cpu_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
 
 /// How far a run is.
 struct Progress {

@@ -7,15 +7,30 @@
 #include <optional>
 #include <ostream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "casefile/case_spec.hpp"
 #include "io/atomic_file.hpp"
 #include "io/checkpoint_file.hpp"
 #include "io/output_folder.hpp"
-#include "run/simulate.hpp"
 
 namespace edmill::run {
+
+/// How often checkpoints are made.
+struct CheckpointInterval {
+  double seconds;          ///< above 0
+  bool simulated = false;  ///< of simulated time; otherwise of wall-clock time
+};
+
+/// States of a run from which it can be resumed.
+struct Checkpoints {
+  std::optional<CheckpointInterval> every;
+  /// Called with a state of the run each time that one is due, and when the run is interrupted.
+  std::function<void(const std::string& state)> save;
+  /// The state to resume from; empty at the start of a run. It must be of the same case and program.
+  std::string_view restored;
+};
 
 /// Every run that writes files has one, and keeps other processes out of the folder while it lives.
 class RunFolder {

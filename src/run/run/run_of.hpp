@@ -17,8 +17,8 @@
 #include "output/outputs.hpp"
 #include "run/any_run.hpp"
 #include "run/event_source_impl.hpp"
+#include "run/run_driver.hpp"
 #include "run/run_folder.hpp"
-#include "run/simulate_impl.hpp"
 
 namespace edmill::run {
 
@@ -433,9 +433,6 @@ Summary<Real> Run<Real>::summary() const {
 
 #define EDMILL_RUN(Real)                                                                                \
   namespace edmill {                                                                                    \
-  template run::Result<Real> run::simulate<Real>(const casefile::CaseSpec&,                             \
-                                                 const casefile::InitialCase<Real>&,                    \
-                                                 const run::Guests<Real>&);                             \
   template std::unique_ptr<run::EventSource> run::make_source_in<Real>(const casefile::CaseSpec&, bool, \
                                                                        const std::atomic<bool>*);       \
   template std::unique_ptr<run::AnyRun> run::make_run_in<Real>(const casefile::CaseSpec&,               \

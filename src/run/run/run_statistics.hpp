@@ -1,8 +1,9 @@
-// Totals of a run since the start of statistics.
+// Totals of a run since the start of statistics, and warnings about its results.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/sums.hpp"
@@ -127,5 +128,9 @@ class RunStatistics : public engine::Observer<Real> {
   numerics::CompensatedSum<Real> counted_dose_;
   numerics::Batches<Real> batches_;
 };
+
+/// What of a run is not to be trusted, and why.
+/// @param wanted_precision  of the dose rate, relative
+std::vector<io::Warning> warnings_of(const io::Facts& summary, const std::optional<double>& wanted_precision);
 
 }  // namespace edmill::run

@@ -5,7 +5,7 @@
 
 #include "base/clean_text.hpp"
 #include "base/statistics.hpp"
-#include "run/simulate.hpp"
+#include "run/run_statistics.hpp"
 
 namespace edmill::run {
 

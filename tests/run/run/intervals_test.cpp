@@ -8,7 +8,7 @@
 #include "base/statistics.hpp"
 #include "core.hpp"
 #include "io/summary.hpp"
-#include "run/simulate.hpp"
+#include "simulated.hpp"
 
 namespace {
 
@@ -59,8 +59,7 @@ casefile::CaseSpec ending_at(double time, casefile::CaseSpec spec) {
   return spec;
 }
 io::Summary<double> summary_of(const casefile::CaseSpec& spec) {
-  const auto built = casefile::build_case<double>(spec);
-  return run::simulate<double>(spec, built, {}).summary;
+  return simulated(spec, casefile::build_case<double>(spec));
 }
 
 TEST(Intervals, AreThoseOfTheDosesBetweenTheEndsOfBatches) {
@@ -99,9 +98,8 @@ TEST(Intervals, WhatCountsTowardTheTargetIsSummedByImpact) {
   };
   for (const std::string rule : {"counts = \"normal\"\n", "counts_above = \"1 mJ\"\n"}) {
     const auto spec = case_with("", "target_dose = \"10 kJ/g\"\n" + rule);
-    const auto built = casefile::build_case<double>(spec);
     Sum sum(0.5, 1e-3);
-    const auto s = run::simulate<double>(spec, built, {{&sum}, nullptr}).summary;
+    const auto s = simulated(spec, casefile::build_case<double>(spec), &sum);
     const double expected = rule.find("normal") != rule.npos ? sum.normal : sum.large;
     EXPECT_NEAR(s.target->counted_dose_rate * s.duration() / expected, 1, 1e-12) << rule;
     EXPECT_LT(s.target->counted_dose_rate, s.milling_dose / s.duration());

@@ -3,7 +3,7 @@
 #include <random>
 
 #include "base/clean_text.hpp"
-#include "run/simulate.hpp"
+#include "run/run_statistics.hpp"
 
 namespace {
 

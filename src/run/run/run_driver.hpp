@@ -1,15 +1,111 @@
-// A run in progress, its summary, and the implementation of simulate; included by the instantiation files
-// only.
+// A run in progress with what watches its clocks, and its summary; included by the instantiation files only.
 #pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "base/errors.hpp"
 #include "base/version.hpp"
+#include "casefile/build_case.hpp"
+#include "engine/simulation.hpp"
+#include "io/final_state.hpp"
+#include "io/summary.hpp"
+#include "run/any_run.hpp"
 #include "run/every_run.hpp"
+#include "run/run_folder.hpp"
 #include "run/run_statistics.hpp"
-#include "run/simulate.hpp"
-#include "run/watches.hpp"
 
 namespace edmill::run {
+
+template <class Real>
+struct Guests {
+  std::vector<engine::Observer<Real>*> observers;  ///< notified of every impact, in this order
+  const std::atomic<bool>* interrupt = nullptr;    ///< ends the run when it becomes true
+  Checkpoints checkpoints{};                       ///< they include the observers
+};
+
+/// Reading a clock costs more than a collision, so it is not read at each one.
+template <class Real>
+struct SeldomLook {
+  int every = std::is_same_v<Real, double> ? 1024 : 16, since = 0;
+
+  bool is_due() {
+    if (++since < every) return false;
+    since = 0;
+    return true;
+  }
+};
+
+/// Ends a run that has taken `limit` [s] of processor time.
+template <class Real>
+class CpuLimit : public engine::Observer<Real> {
+ public:
+  explicit CpuLimit(double limit) : end_(cpu_seconds() + limit) {}
+
+  void on_impact(const engine::Impact<Real>&, engine::Simulation<Real>& simulation) override {
+    if (look_.is_due() && cpu_seconds() > end_) simulation.request_stop(engine::EndReason::max_cpu_time);
+  }
+
+ private:
+  double end_;
+  SeldomLook<Real> look_;
+};
+
+/// Reports how far a run is.
+template <class Real>
+class ProgressWatch : public engine::Observer<Real> {
+ public:
+  /// @param end  of the simulated time, where it is known [s]
+  ProgressWatch(std::function<void(const Progress&)> show, std::optional<double> end)
+      : show_(std::move(show)), end_(end) {}
+
+  void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override {
+    dose_ += static_cast<double>(impact.outcome.milling_dose);
+    if (look_.is_due()) show_({static_cast<double>(simulation.seconds()), end_, impact.index + 1, dose_});
+  }
+
+ private:
+  static constexpr int every_ = std::is_same_v<Real, double> ? 4096 : 64;
+  SeldomLook<Real> look_{every_, every_};  // at the first impact, too
+  double dose_ = 0;
+  std::function<void(const Progress&)> show_;
+  std::optional<double> end_;
+};
+
+/// Pauses the run when a checkpoint is due. A checkpoint does not change the run, so it does not matter
+/// when it is made, nor that simulated time is taken in double.
+template <class Real>
+class CheckpointWatch : public engine::Observer<Real> {
+ public:
+  CheckpointWatch(const CheckpointInterval& interval, double start)
+      : interval_(interval), next_(start + interval.seconds), made_(Clock::now()) {}
+
+  void on_impact(const engine::Impact<Real>&, engine::Simulation<Real>& simulation) override {
+    if (interval_.simulated) {
+      const auto now = static_cast<double>(simulation.seconds());
+      if (now < next_) return;
+      next_ = now + interval_.seconds;
+    } else if (!look_.is_due() || Clock::now() - made_ < std::chrono::duration<double>(interval_.seconds)) {
+      return;
+    }
+    simulation.request_pause();
+  }
+  /// Counts the interval from now on.
+  void made() { made_ = Clock::now(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  CheckpointInterval interval_;
+  double next_;
+  Clock::time_point made_;
+  SeldomLook<Real> look_;
+};
 
 /// The stages of a run: up to the start of statistics, then with them to the end, with checkpoints in
 /// between.
@@ -207,25 +303,6 @@ void finish_summary(io::Summary<Real>& summary, model::EndReason end_reason, con
   summary.end_reason = end_reason;
   summary.warnings = warnings_of(io::facts_of(summary), summary.wanted_precision);
   summary.error = summary.stall ? io::stall_message(summary) : error;
-}
-
-template <class Real>
-Result<Real> simulate(const casefile::CaseSpec& spec, const casefile::InitialCase<Real>& built,
-                      const Guests<Real>& guests) {
-  std::optional<RunDriver<Real>> driver;
-  auto end_reason = model::EndReason::undecided;
-  std::string error;
-  try {
-    driver.emplace(built, guests);
-    end_reason = driver->go();
-  } catch (const UndecidedError& undecided) {
-    error = undecided.what();
-  }
-  if (driver)
-    for (auto* observer : guests.observers) observer->on_end(driver->simulation());
-  Result<Real> result{summary_of(spec, built, driver), saved_state(built, driver)};
-  finish_summary(result.summary, end_reason, error);
-  return result;
 }
 
 }  // namespace edmill::run
