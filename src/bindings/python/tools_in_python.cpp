@@ -62,12 +62,12 @@ py::str name_of(std::size_t quantity) {
   return {name.data(), name.size()};
 }
 
-py::dict digits_of(const run::Agreement& agreement) {
+py::dict digits_of(const app::Agreement& agreement) {
   py::dict digits;
   for (std::size_t k = 0; k < model::logged_count; ++k) {
     const double found = agreement.digits(k);
     // None where no difference at all was seen.
-    digits[name_of(k)] = found < run::Agreement::most ? py::cast(found) : py::none();
+    digits[name_of(k)] = found < app::Agreement::most ? py::cast(found) : py::none();
   }
   return digits;
 }

@@ -37,7 +37,6 @@ std::string chosen(double digits) {
   return fmt::format("mpfr:{}", static_cast<unsigned>(std::clamp(digits, 60.0, double{most_digits})));
 }
 
-using run::Agreement;
 using run::Event;
 using run::Number;
 
@@ -72,6 +71,14 @@ std::size_t take(Agreement& agreement, const std::vector<Event>& one, const std:
   std::size_t same = 0;
   while (same < std::min(one.size(), two.size()) && agreement.take(one[same], two[same])) ++same;
   return same;
+}
+
+/// Decimal digits to which numbers agree that differ by so much: of their largest size, or decimals in SI
+/// units where they are zero but for rounding. @return Agreement::most when there is no difference
+double digits_of(const Number& difference, const Number& size) {
+  constexpr double zero = 1e-20;  // [SI]
+  if (!(difference > 0)) return Agreement::most;
+  return -static_cast<double>(log10(size > zero ? Number(difference / size) : difference));
 }
 
 std::string digits_text(double digits) {
@@ -213,6 +220,34 @@ class Certifier {
 
 }  // namespace
 
+bool Agreement::take(const Event& one, const Event& two) {
+  if (!one.same_bodies(two)) return false;
+  for (std::size_t k = 0; k < model::logged_count; ++k) {
+    const Number difference = abs(one[k] - two[k]), size = abs(two[k]);
+    largest_difference_[k] = std::max(largest_difference_[k], difference);
+    largest_size_[k] = std::max(largest_size_[k], size);
+    if (k == model::time && difference > 0)
+      growth_.add(static_cast<double>(events_), static_cast<double>(log10(difference)));
+  }
+  ++events_;
+  bodies_ += one.with_wall ? 1 : 2;
+  return true;
+}
+
+double Agreement::digits(std::size_t quantity) const {
+  return digits_of(largest_difference_[quantity], largest_size_[quantity]);
+}
+
+double Agreement::least_digits() const {
+  double least = most;
+  for (std::size_t k = 0; k < model::logged_count; ++k) least = std::min(least, digits(k));
+  return least;
+}
+
+std::optional<double> Agreement::digits_lost_per_event() const {
+  return growth_.points() < 10 ? std::nullopt : std::optional(growth_.slope());
+}
+
 SideBySide::SideBySide(const casefile::CaseSpec& spec, const std::string& narrow, const std::string& wide,
                        bool to_end, const std::atomic<bool>* interrupt)
     : interrupt_(interrupt),
@@ -258,9 +293,9 @@ double SideBySide::digits_of_states() const {
     difference[kind] = std::max(difference[kind], run::Number(abs(one[k] - two[k])));
     size[kind] = std::max(size[kind], run::Number(abs(two[k])));
   }
-  double least = run::Agreement::most;
+  double least = Agreement::most;
   for (std::size_t kind = 0; kind < kinds; ++kind)
-    least = std::min(least, run::digits_of(difference[kind], size[kind]));
+    least = std::min(least, digits_of(difference[kind], size[kind]));
   return least;
 }
 

@@ -12,11 +12,38 @@
 #include <utility>
 #include <vector>
 
+#include "base/statistics.hpp"
 #include "casefile/case_spec.hpp"
 #include "prove/proof.hpp"
-#include "run/agreement.hpp"
+#include "run/event_source.hpp"
 
 namespace edmill::app {
+
+/// Agreement of two sequences of events. Digits of a quantity are -log10 of the largest difference over the
+/// largest magnitude of that quantity so far, so that values near zero do not count as disagreement.
+class Agreement {
+ public:
+  /// Takes the next event of both runs. @return false, and takes nothing, when the bodies differ
+  bool take(const run::Event& one, const run::Event& two);
+
+  std::size_t events() const { return events_; }
+  /// Number of balls involved, summed over the events: two where balls collide.
+  std::size_t bodies() const { return bodies_; }
+  /// @param quantity  of model::logged_quantities
+  /// @return digits to which all events taken agree; `most` when no difference was seen.
+  double digits(std::size_t quantity) const;
+  double least_digits() const;
+  static constexpr double most = 1e7;
+
+  /// Digits lost per event, by least squares over the times of the events; none when there are fewer
+  /// than ten with a difference.
+  std::optional<double> digits_lost_per_event() const;
+
+ private:
+  std::size_t events_ = 0, bodies_ = 0;
+  std::array<run::Number, model::logged_count> largest_difference_{}, largest_size_{};
+  numerics::Line growth_;  ///< log10 of the differences in time
+};
 
 /// Two runs that advance together, each on a thread of its own. Where their digits are chosen, both keep as
 /// many as the narrower one has right, by their agreement so far, and some more: the error that this adds to
@@ -33,7 +60,7 @@ class SideBySide {
   /// an interrupt
   std::vector<run::Event> next(std::size_t count);
 
-  const run::Agreement& agreement() const { return agreement_; }
+  const Agreement& agreement() const { return agreement_; }
   /// The first events that differ.
   const std::optional<std::pair<run::Event, run::Event>>& diverged() const { return diverged_; }
   /// One run has an event more before its end.
@@ -50,7 +77,7 @@ class SideBySide {
   std::array<unsigned, 2> digits_;  ///< of both at the start; 0 where they are fixed
   std::array<std::unique_ptr<run::EventSource>, 2> sources_;
   unsigned dropped_ = 0;
-  run::Agreement agreement_;
+  Agreement agreement_;
   std::optional<std::pair<run::Event, run::Event>> diverged_;
   bool uneven_ = false;
 };
@@ -58,7 +85,7 @@ class SideBySide {
 /// How far the first events agree in two scalars.
 struct Evidence {
   std::string narrow, wide;  ///< names of the scalars
-  run::Agreement agreement;
+  Agreement agreement;
   double seconds = 0;  ///< that both took
 
   /// "double and float128: 40 events in common; digits: time 12.3 ..."
@@ -98,7 +125,7 @@ unsigned wider_than(unsigned digits);
 /// Two runs of a case side by side.
 struct Shadow {
   std::string narrow, wide;  ///< names of the scalars
-  run::Agreement agreement;
+  Agreement agreement;
   std::optional<std::pair<run::Event, run::Event>> diverged;  ///< the first events that differ
   bool uneven = false;                                        ///< one has an event more before the end
   bool interrupted = false;
@@ -149,12 +176,12 @@ RunEstimate estimate_run(const casefile::CaseSpec& spec, const std::string& prec
 
 /// A precision in which a case has a given number of correct digits to its end.
 struct FoundDigits {
-  std::string precision{};     ///< of the run; empty where there is none
-  std::string narrow{};        ///< that agrees with it
-  run::Agreement agreement{};  ///< of the events of both
-  double states = 0;           ///< digits to which the states at the end agree
-  double seconds = 0;          ///< that finding it took
-  std::string undecided{};     ///< why there is none
+  std::string precision{};  ///< of the run; empty where there is none
+  std::string narrow{};     ///< that agrees with it
+  Agreement agreement{};    ///< of the events of both
+  double states = 0;        ///< digits to which the states at the end agree
+  double seconds = 0;       ///< that finding it took
+  std::string undecided{};  ///< why there is none
   bool interrupted = false;
 
   /// Digits that both runs have in common to the end.

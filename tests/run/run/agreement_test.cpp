@@ -1,10 +1,13 @@
 // Digits and horizons of made-up sequences whose differences are known.
-#include "run/agreement.hpp"
-
 #include <gtest/gtest.h>
 
-namespace edmill::run {
+#include "app/certify.hpp"
+
+namespace edmill::app {
 namespace {
+
+using run::Event;
+using run::Number;
 
 Event event(int ball, bool with_wall, int partner, const Number& time, const Number& speed) {
   return {.ball = ball, .with_wall = with_wall, .partner = partner, .time = time, .approach_speed = speed};
@@ -44,4 +47,4 @@ TEST(Agreement, GrowthIsTheSlopeOfTheDigits) {
 }
 
 }  // namespace
-}  // namespace edmill::run
+}  // namespace edmill::app

@@ -9,8 +9,6 @@
 namespace edmill::app {
 namespace {
 
-using run::Agreement;
-
 casefile::CaseSpec example(const std::string& name, const std::string& end) {
   const auto place = std::filesystem::path(EDMILL_SOURCE_DIR) / "docs/examples" / (name + ".toml");
   return casefile::read_case(place.string(),
