@@ -12,10 +12,7 @@ namespace edmill::app {
 RunResult run(const std::string& precision, casefile::CaseSpec spec, const RunOptions& options) {
   if (options.report) report::add_report_outputs(spec);
   return casefile::with_memory_for(spec, [&] {
-    run::RunSetup setup;
-    setup.interrupt = options.interrupt;
-    setup.progress = options.progress;
-    const auto run = run::make_run(precision, spec, setup);
+    const auto run = run::make_run(precision, spec, options);
     run->write_to(options.folder, options.checkpoint, options.without_locks);
     options.begun();
     try {

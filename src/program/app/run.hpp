@@ -1,7 +1,6 @@
 // A run with what it leaves in its folder: results, the case, and the page on request.
 #pragma once
 
-#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -15,15 +14,13 @@
 
 namespace edmill::app {
 
-struct RunOptions {
+struct RunOptions : run::RunSetup {
   std::string folder;   ///< of the outputs
   bool report = false;  ///< write the page report.html, and the tables that it shows
-  const std::atomic<bool>* interrupt = nullptr;
   /// Called when the run has results to keep: before that, an interrupted program may end at once.
   std::function<void()> begun = [] {};
   /// Called where the file system has no locks, so that nothing keeps a second run out of the folder.
   std::function<void(const std::filesystem::path&)> without_locks = [](const auto&) {};
-  std::function<void(const run::Progress&)> progress;  ///< called now and then
   /// What checkpoints hold besides the state, if the run makes any; with a state, it continues from there.
   std::optional<io::Checkpoint> checkpoint;
 };

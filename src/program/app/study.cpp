@@ -27,10 +27,8 @@ study::RunRecord do_job(const study::Job& job, const std::atomic<bool>* interrup
         spec.file +
         ": key 'run.digits': found it in a study, expected a precision: digits are found for one run");
   return casefile::with_memory_for(spec, [&] {
-    run::RunSetup setup;
-    setup.interrupt = interrupt;
-    setup.max_cpu_time = job.max_cpu_time;
-    const auto run = run::make_run(spec.precision, spec, setup);
+    const auto run =
+        run::make_run(spec.precision, spec, {.interrupt = interrupt, .max_cpu_time = job.max_cpu_time});
     try {
       run->finish();
     } catch (const UndecidedError&) {  // part of the record
