@@ -1,7 +1,6 @@
 #include "study/study.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -146,11 +145,7 @@ Study::Study(casefile::StudySpec spec, std::filesystem::path folder, std::string
       folder_(std::move(folder)),
       name_(std::move(name)),
       executor_(executor),
-      show_(show && ::isatty(STDERR_FILENO)) {}
-
-Study::~Study() {
-  if (show_) io::tell("\r\033[K");
-}
+      line_(!show) {}
 
 std::size_t Study::add_point(Point point) {
   points_.push_back(std::move(point));
@@ -214,10 +209,10 @@ void Study::tick() {
   // Large tables take time to write: at most a twentieth of the total.
   const auto after = std::chrono::steady_clock::now();
   next_write_ = after + std::max<std::chrono::nanoseconds>(std::chrono::seconds(1), 20 * (after - now));
-  if (!show_) return;
+  if (!line_) return;
   const auto c = counts();
-  std::string line = fmt::format("{} of {} runs, {} failed", c.kept + c.ran, c.total, c.failed);
-  io::tell("\r\033[K{}{}", line, time_left(std::chrono::duration<double>(after - began_).count()));
+  line_.show(fmt::format("{} of {} runs, {} failed{}", c.kept + c.ran, c.total, c.failed,
+                         time_left(std::chrono::duration<double>(after - began_).count())));
 }
 
 std::string Study::time_left(double spent) const {
@@ -270,7 +265,7 @@ std::vector<std::filesystem::path> Study::table_places() const {
 void Study::run() {
   take_folder();
   auto jobs = collect_jobs();
-  if (show_ && !jobs.empty() && ran_ == 0) {
+  if (line_ && !jobs.empty() && ran_ == 0) {
     io::tell("{}\n", forecast(jobs, [this](const RunRecord& r) { put(r); }));
     std::erase_if(jobs,
                   [this](const Job& job) { return waiting_.find(job.digest)->second->record.has_value(); });

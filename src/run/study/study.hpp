@@ -11,6 +11,7 @@
 #include "base/statistics.hpp"
 #include "casefile/study_spec.hpp"
 #include "io/output_folder.hpp"
+#include "io/progress_line.hpp"
 #include "io/table.hpp"
 #include "study/executor.hpp"
 
@@ -51,7 +52,6 @@ class Study {
   /// @param show  whether a progress line is wanted
   Study(casefile::StudySpec spec, std::filesystem::path folder, std::string name, Executor& executor,
         bool show);
-  ~Study();
 
   std::size_t add_point(Point point);
   /// The next seeds of a point. Nothing is read from disk or run before `run`.
@@ -100,7 +100,7 @@ class Study {
   std::optional<io::FolderLock> lock_;
   std::string name_;
   Executor& executor_;
-  bool show_;
+  io::ProgressLine line_;
   std::vector<Point> points_;
   std::multimap<std::string, Run*> waiting_;  ///< by digest: points can share a case
   std::vector<std::pair<std::string, double>> log_;

@@ -6,7 +6,7 @@
 #include "casefile/precisions.hpp"
 #include "cli/commands/case_argument.hpp"
 #include "cli/exit_codes.hpp"
-#include "cli/progress_line.hpp"
+#include "io/progress_line.hpp"
 #include "io/terminal.hpp"
 
 namespace edmill::cli {
@@ -28,7 +28,7 @@ struct Certify : CaseCommand<app::CertifyOptions> {
   int run() {
     name_file(".reference.csv");
     return interruptible(given_.read(), options_, [this](const auto& spec, auto& options) -> int {
-      ProgressLine line(quiet_);
+      io::ProgressLine line(quiet_);
       options.progress = [&](const std::string& precision, std::size_t events) {
         const auto all = options.collisions == 0 ? "" : fmt::format(" of {}", options.collisions);
         line.show(fmt::format("{}: {}{} events ", precision, events, all));
@@ -83,7 +83,7 @@ struct Prove : CaseCommand<app::ProveOptions> {
     if (options.collisions == 0)
       throw InputError(
           "prove: found neither --collisions nor --check, expected how many events, or a certificate");
-    ProgressLine line(quiet_);
+    io::ProgressLine line(quiet_);
     options.progress = [&](long bits, std::size_t events) {
       if (events % 16 == 0)
         line.show(fmt::format("{} bits: {} of {} events ", bits, events, options.collisions));

@@ -8,11 +8,11 @@
 #include "cli/commands/case_argument.hpp"
 #include "cli/commands/logs.hpp"
 #include "cli/exit_codes.hpp"
-#include "cli/progress_line.hpp"
 #include "dem/contact_rates.hpp"
 #include "dem/deck.hpp"
 #include "dem/import_dump.hpp"
 #include "io/output_folder.hpp"
+#include "io/progress_line.hpp"
 #include "io/terminal.hpp"
 
 namespace edmill::cli {
@@ -129,7 +129,7 @@ struct Import : CaseCommand<dem::ImportOptions> {
       options_.origin[static_cast<Eigen::Index>(k)] =
           quantity_from("--shift", shift_[k], casefile::Dimension::length);
     return interruptible(given_.read(), options_, [this](const auto& spec, auto& options) {
-      ProgressLine line(quiet_);
+      io::ProgressLine line(quiet_);
       if (line)
         options.progress = [&line](double time, std::uint64_t contacts) {
           line.show(time, std::nullopt, contacts);

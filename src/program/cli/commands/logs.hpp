@@ -6,8 +6,8 @@
 #include "app/judge.hpp"
 #include "cli/commands/case_argument.hpp"
 #include "cli/exit_codes.hpp"
-#include "cli/progress_line.hpp"
 #include "io/output_folder.hpp"
+#include "io/progress_line.hpp"
 #include "io/terminal.hpp"
 
 namespace edmill::cli {
@@ -105,7 +105,7 @@ struct Audit {
   int run() {
     return interruptible(given_.read(), options_, [this](const casefile::CaseSpec& spec, auto& options) {
       return judgement_.of([&] {
-        ProgressLine line(judgement_.quiet);
+        io::ProgressLine line(judgement_.quiet);
         if (line) {
           std::optional<double> end;
           if (spec.end_time) end = spec.end_time->to<double>();

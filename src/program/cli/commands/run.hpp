@@ -14,7 +14,7 @@
 #include "casefile/quantity.hpp"
 #include "cli/commands/case_argument.hpp"
 #include "cli/exit_codes.hpp"
-#include "cli/progress_line.hpp"
+#include "io/progress_line.hpp"
 #include "io/terminal.hpp"
 #include "report/embedded.hpp"
 #include "report/report_page.hpp"
@@ -101,7 +101,7 @@ class RunCommand {
 
   /// Does `work` with a progress line on a terminal, and tells of the run.
   int with_progress(app::RunOptions& options, const auto& work) const {
-    ProgressLine line(quiet_);
+    io::ProgressLine line(quiet_);
     if (line)
       options.progress = [&](const run::Progress& p) {
         line.show(p.now, p.end, p.collisions, p.milling_dose);
@@ -122,7 +122,7 @@ class RunCommand {
     app::DigitsOptions options;
     options.interrupt = &interrupt_flag();
     listen_for_signals();
-    ProgressLine line(quiet_);
+    io::ProgressLine line(quiet_);
     options.progress = [&](const std::string& scalar, std::size_t events, double expected) {
       line.show(fmt::format("{}: {} of about {:.0f} events ", scalar, events, expected));
     };

@@ -6,7 +6,7 @@
 #include "casefile/quantity.hpp"
 #include "cli/commands/case_argument.hpp"
 #include "cli/exit_codes.hpp"
-#include "cli/progress_line.hpp"
+#include "io/progress_line.hpp"
 #include "io/terminal.hpp"
 #include "run/sensitivity.hpp"
 
@@ -48,7 +48,7 @@ struct Bifurcation : CaseCommand<app::BifurcationOptions> {
     }
     name_file(".bifurcation.svg");
     return interruptible(given_.read(), options_, [this](const auto& spec, auto& options) {
-      ProgressLine line(quiet_);
+      io::ProgressLine line(quiet_);
       options.progress = [&](std::size_t step) {
         line.show(fmt::format("{} of {} values ", step, options.steps));
       };
@@ -87,7 +87,7 @@ struct Sensitivity : CaseCommand<run::SensitivityOptions> {
   int run() {
     name_file(".sensitivity.csv");
     return interruptible(given_.read(), options_, [this](const auto& spec, auto& options) {
-      ProgressLine line(quiet_);
+      io::ProgressLine line(quiet_);
       options.progress = [&line](const std::string& precision, std::size_t events) {
         line.show(fmt::format("{}: {} events ", precision, events));
       };

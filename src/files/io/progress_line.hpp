@@ -11,7 +11,7 @@
 
 #include "io/terminal.hpp"
 
-namespace edmill::cli {
+namespace edmill::io {
 
 /// The line of progress on standard error; it goes with this object.
 class ProgressLine {
@@ -26,7 +26,7 @@ class ProgressLine {
   explicit operator bool() const { return shows_; }
   void show(const std::string& text) {
     if (!shows_) return;
-    io::tell("{}{}", no_line, text);
+    tell("{}{}", no_line, text);
     visible_ = true;
   }
   /// @param now           simulated time [s]
@@ -55,7 +55,7 @@ class ProgressLine {
   }
   /// Takes the line away.
   void clear() {
-    if (visible_) io::tell("{}", no_line);
+    if (visible_) tell("{}", no_line);
     visible_ = false;
   }
 
@@ -72,4 +72,4 @@ class ProgressLine {
   Clock::time_point shown_ = Clock::now();
 };
 
-}  // namespace edmill::cli
+}  // namespace edmill::io
