@@ -59,12 +59,10 @@ std::vector<double> areas_of(const RunFolder& run) {
   for (const auto& surface : casefile::build_mill<double>(run.spec).vessel.surfaces())
     areas.push_back(surface.area());
   double balls = 0;
-  const auto add_balls = [&](const casefile::BallSpec& ball, double count) {
+  run.spec.for_each_ball([&](const casefile::BallSpec& ball) {
     const double d = ball.diameter.to<double>();
-    balls += count * numerics::pi<double>() * d * d;
-  };
-  for (const auto& ball : run.spec.balls) add_balls(ball, 1);
-  for (const auto& batch : run.spec.batches) add_balls(batch, batch.count);
+    balls += ball.count * numerics::pi<double>() * d * d;
+  });
   areas.push_back(balls);
   return areas;
 }

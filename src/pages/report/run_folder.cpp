@@ -43,11 +43,9 @@ double largest_energy(const casefile::CaseSpec& spec) {
                walls = mill.motion.wall_speed(extent);
   const double square = centre * centre + walls * walls + 4 * norm<double>(mill.gravity) * extent;
   double heaviest = 0;
-  const auto weigh = [&](const casefile::BallSpec& ball) {
+  spec.for_each_ball([&](const casefile::BallSpec& ball) {
     heaviest = std::max(heaviest, ball.density.to<double>() * std::pow(ball.diameter.to<double>(), 3) / 2);
-  };
-  for (const auto& ball : spec.balls) weigh(ball);
-  for (const auto& batch : spec.batches) weigh(batch);
+  });
   return std::log10(heaviest * square);
 }
 
