@@ -97,12 +97,6 @@ class PairSearch {
     return {position_after(flight, gravity_, age), flight.velocity, age};
   }
 
-  /// First contact from `now` on; both flights started before or at `now`.
-  PairAnswer<Real> operator()(const Flight<Real>& i, const Flight<Real>& j, const Instant<Real>& now,
-                              const Real& radius_sum) const {
-    return (*this)(state(i, now), j, now, radius_sum);
-  }
-
   /// The filter: false when the two are proven never to meet, as nearly all are, by bounds that hold for the
   /// whole run. No branch but the last.
   bool may_meet(const State& i, const Flight<Real>& j, const Instant<Real>& now,
@@ -112,6 +106,7 @@ class PairSearch {
   }
   const PairFilter<Real>& filter() const { return filter_; }
 
+  /// First contact from `now` on; both flights started before or at `now`.
   PairAnswer<Real> operator()(const State& i, const Flight<Real>& j, const Instant<Real>& now,
                               const Real& radius_sum) const {
     const Relative s = relative(i, j, now, radius_sum);

@@ -63,7 +63,7 @@ TEST(PairSearch, TheErrorOfATimeStaysBelowItsBound) {
         const double t = clock.elapsed(f->start, now) + until;
         f->position = meeting + sign * apart - t * (f->velocity + t / 2 * mill.gravity);
       }
-      const auto answer = search(i, j, now, 2 * radius);
+      const auto answer = search(search.state(i, now), j, now, 2 * radius);
       if (answer.verdict != Verdict::contact || answer.delay == 0) continue;
       const auto exact = exact_delay(i, j, now, 2 * radius, mill);
       ASSERT_TRUE(exact.has_value());

@@ -103,9 +103,9 @@ class Trial {
     EXPECT_EQ(found.count(other) == 1, candidate);
     if (!candidate) {
       // The proof holds in the wide scalar, too.
-      const auto truth = wide_(dynamics::flight_cast<float128>(swarm_.flights[self_]),
-                               dynamics::flight_cast<float128>(flight),
-                               dynamics::instant_cast<float128>(swarm_.now), float128(sum));
+      const auto now = dynamics::instant_cast<float128>(swarm_.now);
+      const auto own = wide_.state(dynamics::flight_cast<float128>(swarm_.flights[self_]), now);
+      const auto truth = wide_(own, dynamics::flight_cast<float128>(flight), now, float128(sum));
       EXPECT_NE(truth.verdict, Verdict::contact);
       return "passed";
     }
