@@ -158,11 +158,13 @@ class WallSearch {
   std::optional<Root> polish(const Curve& curve, const Bracket& bracket) const;
   std::optional<Root> close_in(const Functions& functions, int wall, const Real& from, const Real& to,
                                const Approach& approach, const Real& value_error) const;
-  /// A bracket of a root is narrow enough: less than the resolution. toms748 begins with a bracket of one
-  /// resolution, so that a first step which cuts an eighth off is its last.
-  bool is_closed(const Real& low, const Real& high) const {
-    const Real middle = low + (high - low) / 2;
-    return high - low <= resolution() * 7 / 8 || middle <= low || middle >= high;
+  /// Whether a bracket of a root is narrow enough: less than the resolution. toms748 begins with a bracket of
+  /// one resolution, so that a first step which cuts an eighth off is its last.
+  auto closed() const {
+    return [this](const Real& low, const Real& high) {
+      const Real middle = low + (high - low) / 2;
+      return high - low <= resolution() * 7 / 8 || middle <= low || middle >= high;
+    };
   }
   /// Well above the rounding of a computed gap over its slope, or toms748 would follow noise.
   Real resolution() const { return 8 * epsilon<Real>() * mill_.clock.period(); }

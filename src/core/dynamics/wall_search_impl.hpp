@@ -426,10 +426,9 @@ auto WallSearch<M, V>::polish(const Curve& curve, const Bracket& bracket) const 
     return polish(curve, behind);
   }
   const auto gap = [&](const Real& t) { return Real(curve.at(t).value); };
-  const auto closed = [this](const Real& low, const Real& high) { return is_closed(low, high); };
   std::uintmax_t iterations = 500;
   const auto root =
-      boost::math::tools::toms748_solve(gap, left.t, right.t, left.value, right.value, closed, iterations);
+      boost::math::tools::toms748_solve(gap, left.t, right.t, left.value, right.value, closed(), iterations);
   EDMILL_REQUIRE(iterations < 500, "root polishing ran out of iterations");
   const Point end = curve.at(root.first);
   EDMILL_REQUIRE(end.value >= 0, "root polishing lost the sign change");
@@ -490,7 +489,6 @@ auto WallSearch<M, V>::close_in(const Functions& functions, int wall, const Real
       continue;
     }
     const auto gap = [&](const Real& time) { return functions.gap_nearby(wall, time, pose, t); };
-    const auto closed = [this](const Real& low, const Real& high) { return is_closed(low, high); };
     const Real time_error = -value_error / slope;
     // Rounding moves the place where the computed gap changes its sign: step on until both signs are seen.
     Real low = centre - 4 * unit, high = centre + 4 * unit, at_low = gap(low), at_high = gap(high);
@@ -511,7 +509,7 @@ auto WallSearch<M, V>::close_in(const Functions& functions, int wall, const Real
     if (!(low > from && high < to)) return std::nullopt;
     std::uintmax_t iterations = 100;
     const Real root =
-        boost::math::tools::toms748_solve(gap, low, high, at_low, at_high, closed, iterations).first;
+        boost::math::tools::toms748_solve(gap, low, high, at_low, at_high, closed(), iterations).first;
     Root found{root, resolution() + 4 * time_error};
     if constexpr (is_wide) found.pose = pose_at(root);
     return found;
