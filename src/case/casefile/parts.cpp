@@ -191,19 +191,6 @@ Joints<Quantity> read_joints(Section& mill) {
   return joints;
 }
 
-std::vector<Joint<Quantity>> spex_joints(const auto& spex) {
-  const Quantity frequency = Quantity{1} / spex.period;
-  Joint<Quantity> swing, arm, turn;
-  swing.axis[2] = 1;
-  swing.angle = {1, 4};
-  swing.swings.push_back({in_turns(spex.theta_max), frequency, {1, 4}});
-  arm.rotates = false;
-  arm.shift[0] = spex.arm;
-  turn.axis[0] = 1;
-  turn.swings.push_back({in_turns(spex.gamma_max), frequency, {0}});
-  return {swing, arm, turn};
-}
-
 /// What the ranges of single parameters do not say.
 void require_shape(Section&, const auto&) {}
 void require_shape(Section& vessel, const model::Capsule<Quantity>& capsule) {
@@ -451,7 +438,7 @@ std::vector<model::Joint<Quantity>> joints_of(const MotionSpec& motion) {
         if constexpr (requires { m.joints(); })
           return m.joints().list;
         else
-          return spex_joints(m);
+          return model::spex_joints(m.arm, in_turns(m.theta_max), in_turns(m.gamma_max), m.period).list;
       },
       motion);
 }

@@ -59,8 +59,7 @@ std::string text_of(const std::variant<Part...>& part) {
   return text;
 }
 
-/// Any motion as joints from the ground to the vessel. The SPEX turns about z by theta = theta_max cos(w t) +
-/// pi/2, goes the arm's length along x, turns about x by gamma = gamma_max sin(w t). (2.2), (2.5), (2.7')
+/// Any motion as joints from the ground to the vessel.
 std::vector<model::Joint<Quantity>> joints_of(const MotionSpec& motion);
 
 /// The joints with what each turns in a drive period, exactly.

@@ -95,16 +95,10 @@ template <class Real>
 model::Joints<Real> joints_of(const model::ChainMotion<Real>& chain) {
   return chain.joints();
 }
-/// theta about Z, arm along x', gamma about x'. Angles that swing need no amplitudes here.
+/// It is asked only whether angles swing: their unit does not matter.
 template <class Real>
 model::Joints<Real> joints_of(const model::SpexMotion<Real>& spex) {
-  auto theta = model::axis_joint<Real>(true, 2), arm = model::axis_joint<Real>(false, 0),
-       gamma = model::axis_joint<Real>(true, 0);
-  theta.angle = Real(1) / 4;
-  arm.shift[0] = spex.arm();
-  theta.swings.push_back({spex.theta_max(), Real(1), Real(0)});
-  gamma.swings.push_back({spex.gamma_max(), Real(1), Real(0)});
-  return {{theta, arm, gamma}, spex.period()};
+  return model::spex_joints<Real>(spex.arm(), spex.theta_max(), spex.gamma_max(), spex.period());
 }
 
 template <class Real>

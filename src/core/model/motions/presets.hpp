@@ -110,6 +110,22 @@ struct Vibratory {
   }
 };
 
+/// The SPEX as a chain: it turns about z by theta = theta_max cos(w t) + pi/2, goes the arm's length along x,
+/// turns about x by gamma = gamma_max sin(w t). (2.2), (2.5), (2.7')
+/// @param theta_max, gamma_max  [turns]
+template <class Number>
+Joints<Number> spex_joints(const Number& arm, const Number& theta_max, const Number& gamma_max,
+                           const Number& period) {
+  const Number frequency = Number{1} / period, quarter = Number{1} / Number{4};
+  Joint<Number> theta = axis_joint<Number>(true, 2), shift{.rotates = false},
+                gamma = axis_joint<Number>(true, 0);
+  theta.angle = quarter;
+  theta.swings.push_back({theta_max, frequency, quarter});
+  shift.shift[0] = arm;
+  gamma.swings.push_back({gamma_max, frequency, Number{}});
+  return {{theta, shift, gamma}, period};
+}
+
 namespace detail {
 
 inline constexpr Parameter spex_arm{"arm", Dimension::length, "from the fulcrum to the centre of the vessel",
