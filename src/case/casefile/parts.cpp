@@ -531,9 +531,7 @@ void require_travel(std::vector<Section>& entries, const CaseSpec& spec) {
 
 std::string describe(const PistonSpec& piston) {
   std::string text = fmt::format("{:g} m", piston.distance.to<double>());
-  if (!piston.speed.zero())
-    text += fmt::format(" {} {:g} m/s t", piston.speed.negative() ? '-' : '+',
-                        std::abs(piston.speed.to<double>()));
+  if (!piston.speed.zero()) text += term(piston.speed.to<double>()) + " m/s t";
   return text + equation_of(piston.swings, false) + " inward";
 }
 

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "base/scalar.hpp"
 #include "casefile/section.hpp"
 
@@ -26,8 +24,7 @@ std::string choices_of_precision() {
 }
 
 bool is_precision(const std::string& name) {
-  const auto& all = precisions();
-  return chosen_digits_of(name) > 0 || std::find(all.begin(), all.end(), name) != all.end();
+  return name == "double" || name == "float128" || chosen_digits_of(name) > 0;
 }
 
 double digits_of(const std::string& precision) {
