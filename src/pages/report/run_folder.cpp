@@ -84,17 +84,6 @@ double duration_of(const std::string& file) {
   return std::sscanf(line.c_str(), "# from %lf s to %lf s", &from, &until) == 2 ? until - from : 0;
 }
 
-/// The column of a variable's rate in a table of trends; nothing where it has none.
-std::optional<std::size_t> place_of_rate(const casefile::OutputSpec& output, int variable) {
-  std::size_t place = 1;  // after the time
-  for (const auto& column : output.columns)
-    for (const auto statistic : column.statistics) {
-      if (column.variable == variable && statistic == casefile::Statistic::rate) return place;
-      ++place;
-    }
-  return std::nullopt;
-}
-
 /// Drops a last interval that is shorter than the first: its rate has another variance.
 Series whole(Series s) {
   if (s.size() > 1 && s.back().end - s.back().begin < (1 - 1e-6) * (s.front().end - s.front().begin))
@@ -232,10 +221,14 @@ Series intervals_of(const casefile::OutputSpec& output, const OutputTable& table
   return series;
 }
 
-std::optional<Series> series_of(const casefile::OutputSpec& output, const OutputTable& table, int variable,
-                                double start) {
-  const auto place = place_of_rate(output, variable);
-  return place ? std::optional(intervals_of(output, table, *place, start)) : std::nullopt;
+std::optional<std::size_t> place_of_rate(const casefile::OutputSpec& output, int variable) {
+  std::size_t place = 1;  // after the time
+  for (const auto& column : output.columns)
+    for (const auto statistic : column.statistics) {
+      if (column.variable == variable && statistic == casefile::Statistic::rate) return place;
+      ++place;
+    }
+  return std::nullopt;
 }
 
 std::optional<Series> rate_of(const RunFolder& run, const char* variable, std::size_t most, int partner) {
@@ -248,7 +241,8 @@ std::optional<Series> rate_of(const RunFolder& run, const char* variable, std::s
   if (!output) return std::nullopt;
   const auto table = read_table(run.file_of(*output), "a table of trends");
   if (table.numbers.empty()) return std::nullopt;
-  return coarser(whole(*series_of(*output, table, row, run.spec.initial_time.to<double>())), most);
+  const double start = run.spec.initial_time.to<double>();
+  return coarser(whole(intervals_of(*output, table, *place_of_rate(*output, row), start)), most);
 }
 
 Series coarser(const Series& series, std::size_t most) {

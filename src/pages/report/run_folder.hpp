@@ -79,9 +79,8 @@ using Series = std::vector<Interval>;
 /// [s]
 Series intervals_of(const casefile::OutputSpec& output, const OutputTable& table, std::size_t column,
                     double start);
-/// A rate in a table of trends. @return nothing when the table has no such column
-std::optional<Series> series_of(const casefile::OutputSpec& output, const OutputTable& table, int variable,
-                                double start);
+/// The column of a variable's rate in a table of trends; nothing where it has none.
+std::optional<std::size_t> place_of_rate(const casefile::OutputSpec& output, int variable);
 
 /// Intervals merged so that there are at most `most` of them; the last can be shorter.
 Series coarser(const Series& series, std::size_t most);

@@ -42,14 +42,15 @@ TEST(Series, FindsItsColumnAmongOthers) {
   output.columns.push_back({dose, {Statistic::sum, Statistic::rate}, "", "", "", false});
   report::OutputTable table;
   table.numbers = {{1, 10, 11, 12, 13}, {2, 20, 21, 22, 23}};
-  const auto series = report::series_of(output, table, dose, 0.5);
-  ASSERT_TRUE(series.has_value());
-  ASSERT_EQ(series->size(), 2u);
-  EXPECT_EQ((*series)[0].rate, 13);
-  EXPECT_EQ((*series)[1].rate, 23);
-  EXPECT_EQ((*series)[0].begin, 0.5);
-  EXPECT_EQ((*series)[1].begin, 1);
-  EXPECT_FALSE(report::series_of(output, table, *model::find_variable("collision"), 0).has_value());
+  const auto place = report::place_of_rate(output, dose);
+  ASSERT_TRUE(place.has_value());
+  const auto series = report::intervals_of(output, table, *place, 0.5);
+  ASSERT_EQ(series.size(), 2u);
+  EXPECT_EQ(series[0].rate, 13);
+  EXPECT_EQ(series[1].rate, 23);
+  EXPECT_EQ(series[0].begin, 0.5);
+  EXPECT_EQ(series[1].begin, 1);
+  EXPECT_FALSE(report::place_of_rate(output, *model::find_variable("collision")).has_value());
 }
 
 }  // namespace
