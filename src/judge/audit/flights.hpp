@@ -76,7 +76,8 @@ class Flights : Judge {
     const double time = end.event->time;
     settle_held(track, end.event);
     if (!track.state_known || time < track.start) return;
-    const double off = judge_state(ball, track, end, false);
+    put_rows_of_end(ball, track, end);
+    const double off = judge_end(ball, track, end, false);
     const double until = std::min(time, track.broken_from);
     // Balls are searched with radii that are smaller by the tolerance, if that leaves half of them.
     const double speed = size(track.flight.velocity) + tolerances_.gravity * (time - track.start);
@@ -85,7 +86,7 @@ class Flights : Judge {
     if (slack > radius_of(ball) / 2) {
       findings_.unresolved(Check::missed);
       track.pending.clear();
-      judge_state(ball, track, end, true);
+      judge_end(ball, track, end, true);
       return;
     }
     findings_.judged(Check::missed);
@@ -100,7 +101,7 @@ class Flights : Judge {
     bool reported = std::isfinite(track.broken_from);
     if (missed) reported |= report_missed(ball, *missed, end, off, missed_at);
     settle_pending(track, end, off, reported ? missed_at : time);
-    if (!reported) judge_state(ball, track, end, true);
+    if (!reported) judge_end(ball, track, end, true);
   }
 
   /// At the end of the log.
@@ -277,23 +278,26 @@ class Flights : Judge {
            size(Vec(logged.velocity_before - velocity)) <= 10 * near * std::max(size(velocity), 1.0);
   }
 
-  /// Position, velocity and spin at the end of a flight.
-  /// @return the distance from the end of the flight, 0 when within the tolerances [m]
-  double judge_state(int ball, const Track& track, const FlightEnd& end, bool report_it) {
-    const auto& has = available_.body[end.body];
+  void put_rows_of_end(int ball, const Track& track, const FlightEnd& end) {
     rows_.clear();
     equations_.of_flight({.from = {.position = track.flight.position,
                                    .velocity_after = track.flight.velocity,
                                    .spin_after = track.spin},
                           .to = end.state(),
                           .had = {.position = true, .velocity_after = true, .spin_after = track.spin_known},
-                          .has = has,
+                          .has = available_.body[end.body],
                           .begin = track.start,
                           .end = end.event->time,
                           .radius = radius_of(ball),
                           .body = static_cast<int>(end.body)},
                          case_.mill.gravity, rows_);
-    const auto judge_end = [&](Check check, bool violated, double off, double found, const char* note) {
+  }
+
+  /// Position, velocity and spin at the end of a flight, by its rows.
+  /// @return the distance from the end of the flight, 0 when within the tolerances [m]
+  double judge_end(int ball, const Track& track, const FlightEnd& end, bool report_it) {
+    const auto& has = available_.body[end.body];
+    const auto judge_equation = [&](Check check, bool violated, double off, double found, const char* note) {
       findings_.judged(check);
       if (!violated) return;
       Finding at_end{*end.event, kind_of(check), off, found, 0, note};
@@ -307,8 +311,8 @@ class Flights : Judge {
       if (row.equation == Check::spin_kept) {
         const bool none = size(end.state().spin_before) == 0;
         if (report_it)
-          judge_end(row.equation, row.is_violated(), row.size, row.size,
-                    none ? "the spin is 0 before the impact" : "");
+          judge_equation(row.equation, row.is_violated(), row.size, row.size,
+                         none ? "the spin is 0 before the impact" : "");
       } else if (has.velocity_before) {
         ends_elsewhere = ends_elsewhere || row.is_violated();
         const bool of_place = row.kind == RowKind::place;
@@ -321,7 +325,7 @@ class Flights : Judge {
     }
     if (report_it && has.position && has.velocity_before) {
       if (resolved)
-        judge_end(Check::flight, ends_elsewhere, off, off_velocity, "");
+        judge_equation(Check::flight, ends_elsewhere, off, off_velocity, "");
       else
         findings_.unresolved(Check::flight);
     }
