@@ -35,7 +35,7 @@ namespace {
 
 using io::content_of, io::JsonText;
 
-/// A run that a page shows while it goes on.
+/// A run that a page shows while it is computed.
 class Session : private Observer<double> {
  public:
   /// @param settings  "section.key=value" over the text, whose own outputs are left out
@@ -50,7 +50,7 @@ class Session : private Observer<double> {
     run_.attach(*this);
   }
 
-  /// What stands still, as JSON: radii, walls as meshes, names of partners, the period.
+  /// What does not change during the run, as JSON: radii, walls as meshes, names of partners, the period.
   void scene(JsonText& json) const {
     json.add("version", version());
     json.add("period", mill_.motion.period());

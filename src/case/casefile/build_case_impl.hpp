@@ -275,7 +275,7 @@ class Crowd {
 /// Moves balls apart, from places inside the vessel where they may overlap, until none is closer to another
 /// or to a wall than `share` of its gaps. The moves are projections: each pair that is too close is parted
 /// along the line of its centres, each ball beyond a wall goes back along the normal.
-/// @param moved  how far each wall stands inside the vessel, for pistons; empty where none does [m]
+/// @param moved  how far each wall is inside the vessel, for pistons; empty where none does [m]
 /// @return false when they were not apart after a number of sweeps that depends on nothing but their number
 inline bool push_apart(const model::AnyVessel<double>& vessel, const std::vector<double>& moved,
                        std::vector<CrowdBall>& balls, double share) {

@@ -140,7 +140,7 @@ class KeyReader {
   bool complete() const { return complete_; }
 
  private:
-  /// Reports an absent key that nothing stands in for.
+  /// Reports an absent key that has no default and is not optional.
   void require_presence(const Parameter& p, const std::string& expected);
 
   Section& section_;
@@ -280,8 +280,8 @@ class KeyLister {
   template <class Value>
   void operator()(const Parameter& p, const Value& value) const {
     if (!p.key) return;
-    constexpr bool optional = requires { value.has_value(); }
-    , list = requires { entry_of(value); };
+    constexpr bool optional = requires { value.has_value(); };
+    constexpr bool list = requires { entry_of(value); };
     if constexpr (requires { typename Value::Kinds; })
       add_choice<typename Value::Kinds>(p);
     else

@@ -57,7 +57,7 @@ struct DeckCase {
     return std::stod(
         fmt::format("{:.14g}", balls[ball].mass / (4.0 / 3 * numerics::pi<double>() * r * r * r)));
   }
-  /// No joint turns: the vessel translates, or stands still.
+  /// No joint turns: the vessel translates, or is at rest.
   bool translates() const { return std::ranges::none_of(joints.list, &model::Joint<double>::rotates); }
 };
 
@@ -190,7 +190,7 @@ std::string atoms_of(const DeckCase& c, const char* spin, bool also_at_rest) {
   return text + sets;
 }
 
-/// Says in the deck, for `facts_of_deck`, and to the user what stands for a round wall.
+/// Says in the deck, for `facts_of_deck`, and to the user what represents a round wall.
 void tell_facets(DeckCase& c, const std::vector<WallMesh>& meshes, Deck& deck) {
   const int facets = c.options.facets;
   const bool is_round =

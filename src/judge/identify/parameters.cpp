@@ -309,7 +309,7 @@ void add_other_laws(const Section& section, Assumptions nominal, std::vector<Par
   }
 }
 
-/// Those of the contact laws, and one number of each other law that may stand in their place.
+/// Those of the contact laws, and one number of each other law that a code may use instead.
 void add_laws(const Assumptions& nominal, std::vector<Parameter>& list) {
   using Laws = std::vector<Law*>;
   const auto& spec = nominal.spec;

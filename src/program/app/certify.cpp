@@ -416,7 +416,7 @@ void find_lost_digits(RunEstimate& e, double enough, const casefile::CaseSpec& s
   if (!(events > 0)) return;
   e.lost_per_event = lost() / events;
   if (e.precision == "double") return;
-  // Few balls can rest longer, and hop more often, in the true motion than in double: it goes on as in the
+  // Few balls can rest longer, and hop more often, in the true motion than in double: it continues as in the
   // later half of the time so far.
   const double first = times.front(), reached = times.back(), half = (first + reached) / 2;
   if (all) {
