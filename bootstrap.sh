@@ -15,7 +15,7 @@ program_packages=(
   g++ cmake ninja-build git ca-certificates
   "libboost1.81-dev|libboost-dev" libeigen3-dev libfmt-dev libcli11-dev libtomlplusplus-dev
   libmpfr-dev libgmp-dev "libflint-arb-dev|libflint-dev" libtbb-dev libhdf5-dev libpugixml-dev zlib1g-dev libzstd-dev libopenmpi-dev openmpi-bin
-  nlohmann-json3-dev libjs-three
+  nlohmann-json3-dev
 )
 
 test_packages=(

@@ -88,7 +88,8 @@ if(EMSCRIPTEN)
                       -sEXPORTED_RUNTIME_METHODS=ccall,FS -sEXPORTED_FUNCTIONS=_malloc,_free)
   set(page ${CMAKE_BINARY_DIR}/edmill.html)
   find_program(PYTHON3 python3 NO_CMAKE_FIND_ROOT_PATH REQUIRED)
-  file(GLOB parts CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/bindings/browser/*.html ${CMAKE_SOURCE_DIR}/src/bindings/browser/*.css ${CMAKE_SOURCE_DIR}/src/bindings/browser/*.js)
+  file(GLOB parts CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/bindings/browser/*.html ${CMAKE_SOURCE_DIR}/src/bindings/browser/*.css ${CMAKE_SOURCE_DIR}/src/bindings/browser/*.js
+       ${CMAKE_SOURCE_DIR}/src/pages/report/mill_view.js)
   add_custom_command(OUTPUT ${page} DEPENDS edmill_page ${parts} ${CMAKE_SOURCE_DIR}/cmake/assemble_page.py
                      COMMAND ${PYTHON3} ${CMAKE_SOURCE_DIR}/cmake/assemble_page.py ${CMAKE_BINARY_DIR}/edmill_page ${page} VERBATIM)
   add_custom_target(page ALL DEPENDS ${page})

@@ -11,6 +11,7 @@ import sys
 
 SOURCE = pathlib.Path(__file__).resolve().parents[1]
 PARTS = SOURCE / "src/bindings/browser"
+VIEW = SOURCE / "src/pages/report/mill_view.js"
 EXAMPLES = SOURCE / "docs/examples"
 CASES = {"SPEX 8000, 28 balls": "demo.toml", "planetary mill": "planetary.toml", "shaken box": "shaken_box.toml",
          "steel and alumina, with a piston": "materials.toml"}
@@ -18,7 +19,7 @@ CASES = {"SPEX 8000, 28 balls": "demo.toml", "planetary mill": "planetary.toml",
 
 def main(engine, place):
     def read(name):
-        return (PARTS / name).read_text(encoding="utf-8")
+        return (PARTS / name).read_text(encoding="utf-8")  # or a whole path
 
     def script(name):
         """Without comments and indentation: the file is to stay small."""
@@ -33,7 +34,7 @@ def main(engine, place):
     proven = {"case": (reference / "three_balls.toml").read_text(encoding="utf-8"),
               "events": [[row[1], int(row[2]), int(row[4]) if row[3] == "ball" else -1 - int(row[4])] for row in rows[1:201]]}
     worker = pathlib.Path(engine + ".js").read_text(encoding="utf-8") + script("worker.js")
-    parts = {"style": read("page.css"), "script": "".join(map(script, ("engine.js", "picture.js", "page.js", "lessons.js"))), "worker": json.dumps(worker).replace("</", "<\\/"),
+    parts = {"style": read("page.css"), "script": "".join(map(script, ("engine.js", VIEW, "picture.js", "page.js", "lessons.js"))), "worker": json.dumps(worker).replace("</", "<\\/"),
              "cases": json.dumps(cases).replace("</", "<\\/"), "proven": json.dumps(proven),
              "certificate": json.dumps(read("three_balls.certificate")),
              "engine": base64.b64encode(compressed).decode()}

@@ -82,6 +82,7 @@ async function begin() {
   scene = answer;
   scene.size = 0;
   scene.meshes = Object.values(scene.walls);
+  view.target = scene.middle;
   rates = [], last_dose = [0, 0], ended = false, chunk = 0.03;
   const first = (await ask({what: 'advance', time: 0})).answer;
   if (own !== run_number) return;
@@ -243,15 +244,7 @@ for (const what of ['dragover', 'drop'])
     for (const file of event.dataTransfer.files)
       give(!file.name.endsWith('.toml') ? 'log' : see ? 'open' : 'judged-case', file);
   });
-$('mill').addEventListener('keydown', event => {
-  const turns = {ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1]}[event.key];
-  if (!turns) return;
-  event.preventDefault();
-  turn(...turns);
-});
-$('mill').addEventListener('pointermove', event => {
-  if (event.buttons & 1) turn(event.movementX / 100, event.movementY / 100);
-});
+view.listen(draw);
 $('judge').addEventListener('submit', event => {
   event.preventDefault();
   judge('audit');

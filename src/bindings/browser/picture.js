@@ -1,60 +1,23 @@
 // The mill in motion, numbers and charts.
 
-const view = {azimuth: 0.6, elevation: 0.35};
+const view = new MillView($('mill'), [0, 0, 0], 1, 0.6, 0.35);
 let scene = null, frame = null;
 
-const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-
-function camera() {
-  const [ca, sa, ce, se] = [Math.cos(view.azimuth), Math.sin(view.azimuth), Math.cos(view.elevation), Math.sin(view.elevation)];
-  return {right: [ca, 0, -sa], up: [-sa * se, ce, -ca * se], towards: [sa * ce, se, ca * ce]};
-}
-
 function draw() {
-  const canvas = $('mill'), context = canvas.getContext('2d');
-  context.clearRect(0, 0, canvas.width, canvas.height);
-  if (!scene || !frame) return;
-  const colours = getComputedStyle(document.documentElement);
-  const {right, up, towards} = camera();
-  const [origin, x, y, z] = frame.vessel;
-  const outside = p => [0, 1, 2].map(k => origin[k] + x[k] * p[0] + y[k] * p[1] + z[k] * p[2]);
+  if (!scene || !frame) return view.draw([], [], {});
+  const [origin, ...axes] = frame.vessel;
+  const outside = p => [0, 1, 2].map(k => origin[k] + axes.reduce((sum, axis, c) => sum + axis[k] * p[c], 0));
+  const walls = scene.meshes.map(wall => ({points: wall.points.map(outside), flat: wall.faces.length === 1}));
   // What the vessel has swept so far is in the picture.
-  for (const wall of scene.meshes)
-    for (const point of wall.points) scene.size = Math.max(scene.size, Math.hypot(...outside(point).map((c, k) => c - scene.middle[k])));
-  const scale = 0.47 * Math.min(canvas.width, canvas.height) / scene.size;
-  const seen = p => {
-    const d = [p[0] - scene.middle[0], p[1] - scene.middle[1], p[2] - scene.middle[2]];
-    return [canvas.width / 2 + scale * dot(d, right), canvas.height / 2 - scale * dot(d, up), dot(d, towards)];
-  };
-  context.strokeStyle = colours.getPropertyValue('--line');
-  for (const wall of scene.meshes)
-    for (const face of wall.faces) {
-      context.beginPath();
-      face.forEach((corner, k) => {
-        const [u, v] = seen(outside(wall.points[corner]));
-        if (k) context.lineTo(u, v); else context.moveTo(u, v);
-      });
-      context.closePath();
-      context.stroke();
-    }
-  const balls = scene.radii.map((radius, k) => [...seen(frame.places[k]), radius * scale, k]);
-  balls.sort((a, b) => a[2] - b[2]);
-  const colour = colours.getPropertyValue('--ball').trim(), edge = colours.getPropertyValue('--card').trim();
-  const last = frame.last && [frame.last.ball, frame.last.with_wall ? -1 : frame.last.partner];
-  for (const [u, v, , radius, k] of balls) {
-    context.beginPath();
-    context.arc(u, v, Math.max(radius, 1), 0, 2 * Math.PI);
-    context.fillStyle = last && last.includes(k) ? '#c2410c' : colour;
-    context.fill();
-    context.strokeStyle = edge;
-    context.stroke();
+  const reach = Math.max(...walls.flatMap(({points}) => points.map(p => Math.hypot(...p.map((c, k) => c - scene.middle[k])))));
+  if (reach > scene.size) {
+    view.distance = scene.size > 0 ? view.distance * reach / scene.size : 3.6 * reach;
+    scene.size = reach;
   }
-}
-
-function turn(azimuth, elevation) {
-  view.azimuth += azimuth;
-  view.elevation = Math.max(-1.5, Math.min(1.5, view.elevation + elevation));
-  draw();
+  const colours = getComputedStyle(document.documentElement), line = colours.getPropertyValue('--soft').trim();
+  const last = frame.last && [frame.last.ball, frame.last.with_wall ? -1 : frame.last.partner];
+  const colour = k => last && last.includes(k) ? '#c2410c' : colours.getPropertyValue('--ball').trim();
+  view.draw(walls, scene.radii.map((radius, k) => ({radius, place: frame.places[k], colour: colour(k)})), {colour: line, opacity: 0.12, edge: line});
 }
 
 // ---- Numbers and charts

@@ -8,7 +8,7 @@ namespace edmill {
 std::string version();   ///< "0.1.0"
 std::string commit();    ///< short commit, "-dirty" when files were changed, "unknown" outside a checkout
 std::string compiler();  ///< "GNU 12.2.0, Release"
-/// What was found of that edmill can do without: "MPI, three.js"
+/// What was found of that edmill can do without: "MPI"
 std::string optional_parts();
 
 }  // namespace edmill

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -222,7 +223,10 @@ InputFile::~InputFile() = default;
 
 std::string read_whole(const std::string& path, const std::string& expected) {
   InputFile in(path, expected);
-  return {std::istreambuf_iterator<char>(in), {}};
+  std::string text;
+  for (std::array<char, 65536> block; in.read(block.data(), block.size()) || in.gcount() > 0;)
+    text.append(block.data(), static_cast<std::size_t>(in.gcount()));
+  return text;
 }
 
 std::string content_of(const fs::path& file) {

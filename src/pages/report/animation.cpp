@@ -10,7 +10,6 @@
 #include <sstream>
 
 #include "base/errors.hpp"
-#include "report/embedded.hpp"
 #include "report/sections.hpp"
 
 namespace edmill::report {
@@ -154,48 +153,30 @@ std::vector<double> fractions_of(const Animation& animation) {
   return fractions;
 }
 
-/// Corners of the triangles of all walls, by their places in the list of all points.
-Json triangles_of(const std::vector<model::Mesh>& walls) {
-  Json triangles = Json::array();
-  int first = 0;
-  for (const auto& wall : walls) {
-    for (const auto& face : wall.faces)
-      for (std::size_t k = 2; k < face.size(); ++k)
-        for (const int corner : {face[0], face[k - 1], face[k]}) triangles.push_back(first + corner);
-    first += static_cast<int>(wall.points.size());
+/// Each wall: its corners, and how it moves in the vessel in each frame, if it does.
+Json walls_of(const MovingVessel& vessel, const std::vector<double>& fractions, double steps) {
+  Json walls = Json::array();
+  for (std::size_t k = 0; k < vessel.walls.size(); ++k) {
+    Json points = Json::array(), shifts = Json::array();
+    for (const auto& point : vessel.walls[k].points) points.push_back(millimetres(point, 10 * steps));
+    walls.push_back({{"points", std::move(points)}, {"flat", vessel.walls[k].faces.size() == 1}});
+    if (vessel.shifts[k].keys.size() < 2) continue;
+    for (const double fraction : fractions) append(shifts, 1000 * vessel.shifts[k].at(fraction), 10 * steps);
+    walls.back()["shifts"] = std::move(shifts);
   }
-  return triangles;
-}
-
-/// Lists each wall that moves in the vessel: its part of the list of all points, and its shift in each frame.
-Json pistons_of(const MovingVessel& vessel, const std::vector<double>& fractions, double steps) {
-  Json pistons = Json::array();
-  std::size_t first = 0;
-  for (std::size_t wall = 0; wall < vessel.walls.size(); ++wall) {
-    const std::size_t count = vessel.walls[wall].points.size();
-    if (const auto& shift = vessel.shifts[wall]; shift.keys.size() > 1) {
-      Json shifts = Json::array();
-      for (const double fraction : fractions) append(shifts, 1000 * shift.at(fraction), 10 * steps);
-      pistons.push_back({{"first", first}, {"count", count}, {"shifts", std::move(shifts)}});
-    }
-    first += count;
-  }
-  return pistons;
+  return walls;
 }
 
 /// Adds <script type="application/json" id="frames">, which page.js plays. Lengths in millimetres:
 ///   {duration, eye, target,
-///    vessel: {points, triangles, colour, opacity, pistons, poses: [x, y, z, qx, qy, qz, qw of each frame]},
+///    vessel: {walls: [{points, flat, shifts}], colour, opacity, poses: [x, y, z, qx, qy, qz, qw of each frame]},
 ///    spheres: {radii, colours, places: [x, y, z of each sphere, frame by frame]}}
 /// Frames divide the playback into equal parts, from its beginning to its end.
 void add_frames(pugi::xml_node parent, const Animation& animation) {
   const auto& vessel = animation.vessel;
   const auto fractions = fractions_of(animation);
   const double steps = steps_of(animation);
-  Json points = Json::array(), poses = Json::array(), places = Json::array(), radii = Json::array(),
-       colours = Json::array();
-  for (const auto& wall : vessel.walls)
-    for (const auto& point : wall.points) append(points, 1000 * point, 10 * steps);
+  Json poses = Json::array(), places = Json::array(), radii = Json::array(), colours = Json::array();
   for (const auto& sphere : animation.spheres) {
     radii.push_back(1000 * sphere.radius);
     colours.push_back(sphere.colour);
@@ -210,11 +191,9 @@ void add_frames(pugi::xml_node parent, const Animation& animation) {
                       {"eye", millimetres(animation.eye, steps)},
                       {"target", millimetres(animation.target, steps)},
                       {"vessel",
-                       {{"points", points},
-                        {"triangles", triangles_of(vessel.walls)},
+                       {{"walls", walls_of(vessel, fractions, steps)},
                         {"colour", vessel.colour},
                         {"opacity", vessel.opacity},
-                        {"pistons", pistons_of(vessel, fractions, steps)},
                         {"poses", poses}}},
                       {"spheres", {{"radii", radii}, {"colours", colours}, {"places", places}}}};
   add(parent, "script", {{"type", "application/json"}, {"id", "frames"}}, scene.dump());
@@ -341,13 +320,6 @@ void add_animation(pugi::xml_node main, const RunFolder& run) {
   const auto animation = read_animation(run.file_of(*output));
   auto stage = add(section, "div", {{"class", "stage"}});
   add_still(stage, animation);
-  if (three_js.empty()) {
-    add(section, "p", {{"class", "missing"}},
-        "A still picture: this edmill was built without three.js (Debian: libjs-three). The animation itself "
-        "is in " +
-            run.file_of(*output).filename().string() + ".");
-    return;
-  }
   add_frames(section, animation);
   add_player(section, animation, output->animation.speed.to<double>());
 }

@@ -105,8 +105,7 @@ std::string page_of(const Page& page) {
                      "program"_a = escaped(fmt::format("edmill {} ({})", page.version, page.commit)),
                      "main"_a = plot::html_of(page.main), "style"_a = page_css,
                      "contents"_a = contents_of(page.main),
-                     "player"_a = fmt::format("<script>\n{}</script>\n", figures_js) + page.scripts,
-                     "player_note"_a = page.note);
+                     "player"_a = fmt::format("<script>\n{}</script>\n", figures_js) + page.scripts);
 }
 
 std::string typeset(const std::string& label) {

@@ -28,14 +28,6 @@ std::string subtitle_of(const RunFolder& run) {
                             brief(60 / casefile::period_of(spec.mill).to<double>()));
 }
 
-std::string player() {
-  return fmt::format(
-      "<script type=\"x-shader/x-vertex\" id=\"ball-vertex\">\n{}</script>\n"
-      "<script type=\"x-shader/x-fragment\" id=\"ball-fragment\">\n{}</script>\n"
-      "<script>\n/* {}*/\n{}\n{}</script>\n<script>\n{}</script>\n",
-      ball_vert, ball_frag, three_licence, three_js, three_orbit_js, page_js);
-}
-
 std::string law_text(const casefile::ContactSpec& c) {
   std::string text = c.name();
   c.parameters([&](const model::Parameter& p, const casefile::Quantity& value) {
@@ -157,9 +149,7 @@ std::string page_of_run(const RunFolder& run) {
   auto main = add(document, "main");
   add_headline(main, run);
   add_warnings(main, run);
-  auto pair = add(main, "div", {{"class", "pair"}});
-  add_animation(pair, run);
-  add_ward(pair, run);
+  add_animation(main, run);
   add_rates(main, run);
   add_spectra(main, run);
   add_vessel(main, run);
@@ -171,7 +161,7 @@ std::string page_of_run(const RunFolder& run) {
   const bool plays = static_cast<bool>(main.select_node("//div[@id='player']"));
   const auto title = std::filesystem::path(run.facts.text("case_file")).filename().string();
   return page_of({title, subtitle_of(run), run.facts.text("version"), run.facts.text("commit"), document,
-                  plays ? player() : "", plays ? "The animation is played by three.js (MIT licence)." : ""});
+                  plays ? fmt::format("<script>\n{}{}</script>\n", mill_view_js, page_js) : ""});
 }
 
 }  // namespace

@@ -18,13 +18,12 @@ struct Page {
   std::string title, subtitle;
   std::string version, commit;  ///< of the program that made what the page shows
   const pugi::xml_document& main;
-  std::string scripts = {}, note = {};  ///< whole <script> elements, and what the foot says of them
+  std::string scripts = {};  ///< whole <script> elements
 };
 
 std::string page_of(const Page& page);
 
 // The parts of a report. Each adds a <section>, or one line that names the missing output.
-void add_ward(pugi::xml_node main, const RunFolder& run);
 void add_animation(pugi::xml_node main, const RunFolder& run);
 void add_rates(pugi::xml_node main, const RunFolder& run);
 void add_spectra(pugi::xml_node main, const RunFolder& run);
@@ -81,19 +80,5 @@ plot::Chart over_time(const RunFolder& run, const std::string& id, const std::st
                       const std::string& y_title);
 /// Draws it from 0, or the least value, to a little above the highest.
 void draw_fitted(pugi::xml_node grid, plot::Chart chart);
-
-/// A row of regression/ward/thesis.csv.
-struct WardCase {
-  std::string powder, charge_ratio, diameter;  ///< [g], [1], [mm], as printed
-  int balls = 0;
-  std::string restitution;
-  double inverse_dose_rate = 0;          ///< table 5.5 [s/J]
-  std::optional<double> collision_rate;  ///< table 5.6 [1/s]
-};
-
-/// The case of the thesis with exactly the same mill, vessel, gravity, contact law, balls and powder. The
-/// least separation speed, which the thesis does not have, the seed, times and the placement of the balls are
-/// free.
-std::optional<WardCase> ward_case_of(const casefile::CaseSpec& spec);
 
 }  // namespace edmill::report

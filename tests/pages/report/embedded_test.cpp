@@ -14,11 +14,9 @@ TEST_F(Embedded, FilesAreThereByteForByte) {
   const std::filesystem::path sources = EDMILL_SOURCE_DIR;
   EXPECT_EQ(page_css, contents(sources / "src/pages/report/page.css"));
   EXPECT_EQ(page_html, contents(sources / "src/pages/report/page.html"));
-  EXPECT_EQ(thesis_csv, contents(sources / "regression/ward/thesis.csv"));
   EXPECT_EQ(terms_toml, contents(sources / "src/pages/report/terms.toml"));
   EXPECT_EQ(page_js, contents(sources / "src/pages/report/page.js"));
-  EXPECT_EQ(three_js, contents(EDMILL_THREE_JS));
-  EXPECT_EQ(three_orbit_js, contents(EDMILL_THREE_ORBIT_JS));
+  EXPECT_EQ(mill_view_js, contents(sources / "src/pages/report/mill_view.js"));
 }
 
 }  // namespace

@@ -32,10 +32,11 @@ FARTHEST = """
       const at = (k, scale) => (Math.abs(p[k] - mill.eye[k]) + radius) / (scale * depth);
       farthest = Math.max(farthest, depth > radius ? Math.max(at(0, wide), at(1, high)) : Infinity);
     };
-    const {points, poses} = mill.vessel, {radii, places} = mill.spheres, triple = (a, k) => a.slice(3 * k, 3 * k + 3);
+    const {walls, poses} = mill.vessel, {radii, places} = mill.spheres, triple = (a, k) => a.slice(3 * k, 3 * k + 3);
+    const points = walls.flatMap(wall => wall.points);
     for (let frame = 0; frame < poses.length / 7; ++frame) {
       const pose = poses.slice(7 * frame, 7 * frame + 7);
       radii.forEach((radius, k) => see(triple(places, frame * radii.length + k), radius));
-      for (let k = 0; k < points.length / 3; ++k) see(rounds(triple(points, k), pose.slice(3)).map((x, c) => x + pose[c]), 0);
+      for (const point of points) see(rounds(point, pose.slice(3)).map((x, c) => x + pose[c]), 0);
     }
     return farthest"""

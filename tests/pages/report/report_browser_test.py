@@ -329,7 +329,7 @@ replicas = 2
         self.assert_good_runs(case for case in sorted(EXAMPLES.glob("*.toml"))
                               if ".sweep" not in case.name and ".optimize" not in case.name)
 
-    def test_8_without_webgl_the_still_picture_stays(self):
+    def test_8_without_a_canvas_the_still_picture_stays(self):
         script = self.browser.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument",
                                               {"source": "HTMLCanvasElement.prototype.getContext = () => null;"})
         self.browser.get((self.folder / "run/report.html").as_uri())

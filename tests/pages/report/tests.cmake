@@ -1,4 +1,4 @@
-foreach(name series_test ward_test mill_drawing_test report_page_test report_animation_test embedded_test)
+foreach(name series_test mill_drawing_test report_page_test report_animation_test embedded_test)
   edmill_test(${name} report/${name}.cpp LIBRARIES pugixml::pugixml nlohmann_json::nlohmann_json)
 endforeach()
 # The page in Debian's chromium: chromium-driver, python3-selenium.
@@ -7,4 +7,3 @@ edmill_script(report_browser_long report/report_browser_test.py ${CMAKE_BINARY_D
 # axe-core is not in Debian: cmake -DEDMILL_AXE=/path/to/axe.min.js
 set(EDMILL_AXE ${CMAKE_BINARY_DIR}/axe.min.js CACHE FILEPATH "axe-core, which judges the accessibility of pages")
 edmill_script(accessibility_long report/accessibility_test.py ${EDMILL_AXE} ${CMAKE_BINARY_DIR}/accessibility LONG 600)
-target_compile_definitions(report_tests PRIVATE EDMILL_THREE_JS="${THREE_JS}" EDMILL_THREE_ORBIT_JS="${THREE_ORBIT_JS}")
