@@ -40,30 +40,22 @@ std::string chosen(double digits) {
 using run::Event;
 using run::Number;
 
-/// The first events of a case in one scalar, and how long they took.
-struct Sequence {
-  std::string precision;
-  std::vector<Event> events;
-  double seconds = 0;
-  bool collapsed = false;  ///< the run has ended in inelastic collapse
-};
-
-Sequence first_events(const std::string& precision, const casefile::CaseSpec& spec,
-                      const CertifyOptions& options) {
-  Sequence sequence{precision, {}};
-  const auto begin = std::chrono::steady_clock::now();
-  auto& events = sequence.events;
-  const auto source = run::make_source(precision, spec, options.collisions == 0, options.interrupt);
-  while (const std::size_t left = options.left_after(events.size())) {
-    const auto more = source->next(std::min<std::size_t>(64, left));
+/// Number of events to the end of the case: a run in double has about as many as the true motion.
+/// @param progress  called with the scalar and the number of events so far
+double count_events(const casefile::CaseSpec& spec, const std::atomic<bool>* interrupt, const auto& progress) {
+  constexpr double longest = 5;  // [s] of processor time
+  const auto source = run::make_source("double", spec, true, interrupt);
+  const double begin = run::cpu_seconds(), first = source->reached();
+  double events = 0;
+  for (;;) {
+    const auto more = source->pass(1024);
     Interruption::check();
-    if (more.empty()) break;
-    events.insert(events.end(), more.begin(), more.end());
-    options.progress(precision, events.size());
+    if (more == 0) return events;
+    events += static_cast<double>(more);
+    if (spec.end_time && run::cpu_seconds() - begin > longest)
+      return events * (spec.end_time->to<double>() - first) / (source->reached() - first);
+    progress("double", events);
   }
-  sequence.collapsed = source->has_collapsed();
-  sequence.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return sequence;
 }
 
 /// Takes events of two runs as long as these have the same bodies. @return how many
@@ -113,39 +105,28 @@ std::string describe(const Event& e) {
 /// What is found on the way to a certain sequence.
 class Certifier {
  public:
-  Certifier(const casefile::CaseSpec& spec, const CertifyOptions& options) : spec_(spec), options_(options) {}
+  Certifier(const casefile::CaseSpec& spec, const CertifyOptions& options)
+      : spec_(spec),
+        options_(options),
+        expected_(options.collisions > 0
+                      ? static_cast<double>(options.collisions)
+                      : count_events(spec, options.interrupt, [&](const std::string& precision, double events) {
+                          options.progress(precision, static_cast<std::size_t>(events));
+                        })) {}
 
-  /// @return whether the matter is settled: certain or impossible
-  bool by_fixed_scalars() {
-    const auto& precisions = casefile::precisions();
-    Sequence narrow = first_events(precisions.front(), spec_, options_);
-    for (std::size_t k = 1; k < precisions.size(); ++k) {
-      Sequence wide = first_events(precisions[k], spec_, options_);
-      Agreement agreement;
-      take(agreement, narrow.events, wide.events);
-      tell({narrow.precision, wide.precision, agreement, narrow.seconds + wide.seconds});
-      // A wider scalar follows a collapse for some events more.
-      const bool collapsed = narrow.collapsed || wide.collapsed;
-      auto events = wide.events;
-      if (collapsed) events.resize(std::min(narrow.events.size(), events.size()));
-      const bool all =
-          agreement.events() == events.size() && (collapsed || narrow.events.size() == events.size());
-      expected_ = events.size();
-      if (settles(all, agreement, events)) return true;
-      narrow = std::move(wide);
-    }
-    return false;
-  }
-
-  /// With as many digits as the last two scalars lead to expect, and more where these do not suffice.
-  void by_chosen_digits() {
+  /// In the fixed scalars, then with as many digits as the last two lead to expect, and more where these do
+  /// not suffice.
+  void run() {
+    const auto& fixed = casefile::precisions();
+    for (std::size_t k = 1; k < fixed.size(); ++k)
+      if (side_by_side(fixed[k - 1], fixed[k])) return;
     for (int attempt = 0; attempt < 8; ++attempt) {
       const unsigned digits = digits_needed(), more = wider_than(digits);
       if (more > most_digits) {
         result.undecided = fmt::format("more than {} digits are needed", most_digits);
         return;
       }
-      if (side_by_side(digits, more)) return;
+      if (side_by_side(chosen(digits), chosen(more))) return;
     }
     result.undecided = "eight attempts with more and more digits do not agree";
   }
@@ -153,25 +134,20 @@ class Certifier {
   Certification result;
 
  private:
-  void tell(Evidence evidence) {
-    result.evidence.push_back(std::move(evidence));
-    options_.found(result.evidence.back());
-  }
-
   unsigned digits_needed() const {
     const auto& last = result.evidence.back();
     const double events = static_cast<double>(last.agreement.events());
     const double had = casefile::digits_of(last.narrow);
-    const bool all = last.agreement.events() == expected_;
-    const double left = all ? last.agreement.least_digits() : 0;
+    const double left = events == expected_ ? last.agreement.least_digits() : 0;
     const double lost = std::max(had - left, 0.0) / std::max(events, 1.0);
-    const double needed = options_.digits + 1.05 * lost * static_cast<double>(expected_) + 10;
+    const double needed = options_.digits + 1.05 * lost * expected_ + 10;
     return static_cast<unsigned>(std::min<double>(std::max(needed, 1.2 * had), most_digits));
   }
 
-  bool side_by_side(unsigned digits, unsigned more) {
+  /// @return whether these two scalars settle the matter: the events are certain, or cannot be
+  bool side_by_side(const std::string& narrow, const std::string& wide) {
     const auto begin = std::chrono::steady_clock::now();
-    SideBySide runs(spec_, chosen(digits), chosen(more), options_.collisions == 0, options_.interrupt);
+    SideBySide runs(spec_, narrow, wide, options_.collisions == 0, options_.interrupt);
     std::vector<Event> events;
     // The sequence is written with so many; each number of a long one with all its digits would fill the
     // memory.
@@ -184,17 +160,13 @@ class Certifier {
         for (std::size_t k = 0; k < model::logged_count; ++k) event[k] = event[k].rounded();
         events.push_back(std::move(event));
       }
-      options_.progress(chosen(more), events.size());
+      options_.progress(wide, events.size());
     }
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-    tell({chosen(digits), chosen(more), runs.agreement(), took.count()});
+    result.evidence.push_back({narrow, wide, runs.agreement(), took.count()});
+    options_.found(result.evidence.back());
     const bool all = !runs.diverged() && !runs.uneven();
-    if (all) expected_ = events.size();
-    return settles(all, runs.agreement(), events);
-  }
-
-  /// Whether two runs with these events in common, all of them or not, settle the matter; then takes them.
-  bool settles(bool all, const Agreement& agreement, std::vector<Event>& events) {
+    if (all) expected_ = static_cast<double>(events.size());
     if (all && events.size() < options_.collisions)
       throw InputError(fmt::format("{}: the case ends after {} collisions, {} are requested", spec_.file,
                                    events.size(), options_.collisions));
@@ -203,19 +175,18 @@ class Certifier {
     if (by_rule != events.end()) {
       result.undecided = fmt::format(
           "event {}, {}, has another contact of its ball at the same time in every scalar: a rule and not "
-          "the "
-          "equations orders them",
+          "the equations orders them",
           by_rule - events.begin(), describe(*by_rule));
       return true;
     }
-    if (!all || agreement.least_digits() < options_.digits) return false;
+    if (!all || runs.agreement().least_digits() < options_.digits) return false;
     result.events = std::move(events);
     return true;
   }
 
   const casefile::CaseSpec& spec_;
   const CertifyOptions& options_;
-  std::size_t expected_ = 0;  ///< events, as the widest run so far has them
+  double expected_;  ///< number of events
 };
 
 }  // namespace
@@ -307,7 +278,7 @@ Certification certify(const casefile::CaseSpec& spec, const CertifyOptions& opti
   io::NamedFile file(options.file);
   const Interruption scope(options.interrupt);
   Certifier certifier(spec, options);
-  if (!certifier.by_fixed_scalars()) certifier.by_chosen_digits();
+  certifier.run();
   auto result = std::move(certifier.result);
   if (!result.events.empty())
     file.write([&](std::ostream& out) { write_reference(out, spec, options, result); });
@@ -327,13 +298,11 @@ Shadow shadow(const casefile::CaseSpec& spec, const std::string& precision, cons
   SideBySide runs(spec, precision, wider, true, interrupt);
   while (!runs.next(64).empty()) {
   }
-  return {.narrow = precision,
-          .wide = wider,
-          .agreement = runs.agreement(),
-          .diverged = runs.diverged(),
-          .uneven = runs.uneven(),
-          .interrupted = interrupt && *interrupt,
-          .balls = spec.ball_count()};
+  return {{precision, wider, runs.agreement()},
+          runs.diverged(),
+          runs.uneven(),
+          interrupt && *interrupt,
+          spec.ball_count()};
 }
 
 std::string Evidence::text() const {
@@ -364,23 +333,6 @@ std::string Shadow::text() const {
 }
 
 namespace {
-
-/// Events to the end of the case: a run in double has about as many as the true motion.
-double count_events(const casefile::CaseSpec& spec, const DigitsOptions& options) {
-  constexpr double longest = 5;  // [s] of processor time
-  const auto source = run::make_source("double", spec, true, options.interrupt);
-  const double begin = run::cpu_seconds(), first = source->reached();
-  double events = 0;
-  for (;;) {
-    const auto more = source->pass(1024);
-    Interruption::check();
-    if (more == 0) return events;
-    events += static_cast<double>(more);
-    if (spec.end_time && run::cpu_seconds() - begin > longest)
-      return events * (spec.end_time->to<double>() - first) / (source->reached() - first);
-    options.progress("double", static_cast<std::size_t>(events), events);
-  }
-}
 
 std::string by_rule(const run::Event& event) {
   return fmt::format(
@@ -437,7 +389,9 @@ RunEstimate estimate_digits(const casefile::CaseSpec& spec, const std::string& p
   RunEstimate e;
   const std::clock_t begin = std::clock();
   e.precision = precision;
-  e.events = count_events(spec, options);
+  e.events = count_events(spec, options.interrupt, [&](const std::string& scalar, double events) {
+    options.progress(scalar, static_cast<std::size_t>(events), events);
+  });
   find_lost_digits(e, precision.empty() ? 200 : 40, spec, options);
   if (precision.empty()) {
     e.digits = *spec.digits;

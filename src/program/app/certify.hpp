@@ -82,10 +82,10 @@ class SideBySide {
   bool uneven_ = false;
 };
 
-/// How far the first events agree in two scalars.
+/// How far the first events agree in two scalars, the narrower first.
 struct Evidence {
-  std::string narrow, wide;  ///< names of the scalars
-  Agreement agreement;
+  std::string narrow{}, wide{};  ///< names of the scalars
+  Agreement agreement{};
   double seconds = 0;  ///< that both took
 
   /// "double and float128: 40 events in common; digits: time 12.3 ..."
@@ -123,11 +123,9 @@ Certification certify(const casefile::CaseSpec& spec, const CertifyOptions& opti
 unsigned wider_than(unsigned digits);
 
 /// Two runs of a case side by side.
-struct Shadow {
-  std::string narrow, wide;  ///< names of the scalars
-  Agreement agreement;
-  std::optional<std::pair<run::Event, run::Event>> diverged;  ///< the first events that differ
-  bool uneven = false;                                        ///< one has an event more before the end
+struct Shadow : Evidence {
+  std::optional<std::pair<run::Event, run::Event>> diverged{};  ///< the first events that differ
+  bool uneven = false;                                          ///< one has an event more before the end
   bool interrupted = false;
   std::size_t balls = 0;
 

@@ -110,8 +110,7 @@ class Agreement:
 
 @dataclasses.dataclass(frozen=True)
 class CertifiedEvent:
-    """An impact on which two scalars agree. SI. Numbers have all digits of the wider scalar; those that were asked for are
-    certain."""
+    """An impact on which two scalars agree. SI. Numbers have ten digits more than were asked for, which are certain."""
     ball: int
     partner_kind: str  #: "wall" or "ball"
     partner: int
