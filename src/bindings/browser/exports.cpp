@@ -1,5 +1,6 @@
 // What the page calls, as C functions: texts in, JSON out. A text is valid until the next call.
 #include <emscripten.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -13,11 +14,12 @@
 #include <vector>
 
 #include "audit/audit.hpp"
+#include "base/clean_text.hpp"
 #include "base/digest.hpp"
 #include "base/errors.hpp"
 #include "base/version.hpp"
-#include "browser/case_with_values.hpp"
 #include "casefile/build_case.hpp"
+#include "casefile/section.hpp"
 #include "check.hpp"
 #include "compare/comparison.hpp"
 #include "edmill/run.hpp"
@@ -34,6 +36,57 @@ namespace edmill::browser {
 namespace {
 
 using io::content_of, io::JsonText;
+
+/// The text of a case with another value of a key, or another section.
+std::string with_setting(const std::string& text, const std::string& key, const std::string& value) {
+  const auto root = toml::parse(text);
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  const auto dot = key.rfind('.');
+  const auto* node = casefile::node_at(root, key);
+  const auto* table = dot == key.npos ? nullptr : casefile::node_at(root, key.substr(0, dot));
+  const auto assigned = key.substr(dot + 1) + " = " + value;  // dot + 1 is 0 without one
+  if (dot == key.npos) {
+    std::erase_if(lines, [&, inside = false](const std::string& line) mutable {
+      if (const auto name = line.find_first_not_of(" ["); trimmed(line).starts_with('['))
+        inside =
+            line.compare(name, key.size(), key) == 0 && line.find_first_of(".] ", name) == name + key.size();
+      return inside;
+    });
+    lines.insert(lines.begin(), assigned);
+  } else if (node || (table && table->as_table()->is_inline())) {
+    const auto& [begin, end, path] = (node ? node : table)->source();
+    auto& line = lines.at(begin.line - 1);
+    if (node)
+      line.replace(begin.column - 1, end.column - begin.column, value);
+    else
+      line.insert(end.column - 2, ", " + assigned);
+  } else if (table) {
+    lines.insert(lines.begin() + table->source().begin.line, assigned);
+  } else {
+    lines.insert(lines.end(), {"", "[" + key.substr(0, dot) + "]", assigned});
+  }
+  return fmt::format("{}\n", fmt::join(lines, "\n"));
+}
+
+/// The text of a case with its settings as values, so that it is the same case without them. Where the text
+/// does not allow that, they follow as comments.
+/// @param log  whether an output "collisions" is added unless the case has one
+std::string text_with_values(const casefile::CaseSpec& spec, bool log) try {
+  auto text = spec.text;
+  for (const auto& setting : spec.settings) {
+    const auto equals = setting.find('=');
+    text = with_setting(text, setting.substr(0, equals), setting.substr(equals + 1));
+  }
+  const auto same = casefile::parse_case(text, spec.file);
+  if (same.digest != spec.digest) return casefile::text_with_settings(spec);
+  const auto is_log = [](const auto& output) { return output.type == "collisions"; };
+  const bool has_log = std::any_of(same.outputs.begin(), same.outputs.end(), is_log);
+  return text + (log && !has_log ? "\n[[output]]\ntype = \"collisions\"\n" : "");
+} catch (const std::exception&) {
+  return casefile::text_with_settings(spec);
+}
 
 /// A run that a page shows while it is computed.
 class Session : private Observer<double> {
