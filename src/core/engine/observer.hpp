@@ -34,8 +34,6 @@ class Observer {
  public:
   virtual ~Observer() = default;
   virtual void on_impact(const Impact<Real>& impact, Simulation<Real>& simulation) = 0;
-  /// At the end of the run, whatever ended it.
-  virtual void on_end(const Simulation<Real>&) {}
   /// What it has gathered, for a checkpoint.
   virtual void archive(Archive&) {}
 };

@@ -343,7 +343,7 @@ void judge_facts(const model::Mill<double>& mill, ContactAudit& audit) {
                             .allowed = allowed,
                             .of = of});
   };
-  for (Eigen::Index k = 0; k < 3 && !facts.of_list(); ++k)
+  for (Eigen::Index k = 0; k < 3; ++k)
     add(fmt::format("gravity along {}", "XYZ"[k]), facts.statistics.gravity[k],
         facts.statistics.gravity_half_width[k], mill.gravity[k], 1e-3 * norm<double>(mill.gravity) + 1e-3,
         Judged::Of::log, "m/s^2");
@@ -356,7 +356,6 @@ void judge_facts(const model::Mill<double>& mill, ContactAudit& audit) {
   if (const double all = facts.dose(); all > 0)
     add("dose with no wall or ball", facts.doses[static_cast<std::size_t>(ContactClass::unexplained)] / all,
         0, 0, 0.01, Judged::Of::walls);
-  if (facts.of_list()) return;
   if (const double factor = facts.statistics.way_factor; factor != 0)  // balls move
     add("displacements over those by velocities", factor, 0, 1, 0.01);
   add("contacts missed at walls", static_cast<double>(audit.missed_at_walls), 0, 0, 0, Judged::Of::walls);
@@ -449,7 +448,7 @@ ContactAudit audit_contacts(const casefile::CaseSpec& spec, const std::string& f
   // Balls of another size meet the walls elsewhere.
   const double size = audit.facts.radius_factor;
   const bool is_other_size = size != 1 && size != 0;
-  if (!is_other_size && !audit.facts.of_list()) judge_places(spec, at_walls, interrupt, audit);
+  if (!is_other_size) judge_places(spec, at_walls, interrupt, audit);
   if (audit.jumps() > 0)
     leave_out(audit, "balls jump", [](const Judged& j) { return j.name == "dose with no wall or ball"; });
   if (is_other_size || (!audit.causes.empty() && audit.causes[0].key.starts_with("ball")))

@@ -79,25 +79,6 @@ ContactLogFacts read_facts(const std::string& file) {
   return facts;
 }
 
-/// Columns under Lethe's names, but for those of vectors.
-constexpr const char* id_column = "particle_id";
-constexpr const char* boundary_column = "boundary_id";
-constexpr const char* begin_column = "start_time";
-constexpr const char* end_column = "end_time";
-
-/// A vector, in columns start_particle_velocity_x and so on.
-struct ListedVector {
-  const char *when, *what;
-  BallState Contact::*state;
-  Vector BallState::*value;
-};
-constexpr ListedVector listed_vectors[] = {
-    {"start", "velocity", &Contact::before, &BallState::velocity},
-    {"end", "velocity", &Contact::after, &BallState::velocity},
-    {"start", "angular_velocity", &Contact::before, &BallState::spin},
-    {"end", "angular_velocity", &Contact::after, &BallState::spin},
-};
-
 }  // namespace
 
 double ContactLogFacts::dose() const { return std::accumulate(doses.begin(), doses.end(), 0.0); }
@@ -157,14 +138,6 @@ ContactLogReader::ContactLogReader(const std::string& file)
     throw InputError(fmt::format("{}:{}: found other columns, expected {}", file, csv_.line(), header()));
 }
 
-void ContactLogReader::need_frames() const {
-  if (facts_.of_list())
-    throw InputError(
-        csv_.file() +
-        ": found a list of contacts with walls, expected contacts of frames: those between balls "
-        "have a part of the dose");
-}
-
 std::optional<Contact> ContactLogReader::next() {
   while (csv_.next_row())
     if (auto contact = parse()) return contact;
@@ -215,48 +188,6 @@ std::optional<Contact> ContactLogReader::parse() {
     return std::nullopt;
   }
   return c;
-}
-
-bool is_contact_list(const std::string& file) {
-  if (io::is_stream(file) || !io::is_readable(file)) return false;
-  io::InputFile in(file, "a dump or a list of contacts");
-  std::string line;
-  while (std::getline(in, line) && line.starts_with("#")) {
-  }
-  return line.find(boundary_column) != std::string::npos && line.find(begin_column) != std::string::npos &&
-         line.find(end_column) != std::string::npos;
-}
-
-std::vector<ListedContact> read_contact_list(const std::string& file) {
-  io::CsvReader csv(file, "a list of contacts");
-  const auto id = csv.needed_column(id_column), boundary = csv.needed_column(boundary_column),
-             begin = csv.needed_column(begin_column), end = csv.needed_column(end_column);
-  const auto mass = csv.column("mass"), diameter = csv.column("diameter");
-  std::vector<std::size_t> components;
-  for (const auto& vector : listed_vectors)
-    for (const char axis : {'x', 'y', 'z'})
-      components.push_back(
-          csv.needed_column(fmt::format("{}_particle_{}_{}", vector.when, vector.what, axis)).value_or(0));
-  csv.throw_problems();
-  constexpr int most = std::numeric_limits<int>::max();
-  std::vector<ListedContact> list;
-  while (csv.next_row()) {
-    ListedContact c;
-    c.ball = csv.whole(*id, "the number of a ball", 0, most).value_or(0);
-    c.boundary = csv.whole(*boundary, "the number of a wall", 0, most).value_or(0);
-    c.begin = csv.finite(*begin).value_or(0);
-    c.end = csv.finite(*end).value_or(0);
-    if (c.end < c.begin) csv.bad_field(*end, "a time after the begin of the contact");
-    auto component = components.begin();
-    for (const auto& vector : listed_vectors)
-      for (double& part : c.*vector.state.*vector.value) part = csv.finite(*component++).value_or(0);
-    if (mass) c.mass = csv.finite(*mass);
-    if (diameter) c.diameter = csv.finite(*diameter);
-    list.push_back(c);
-  }
-  csv.throw_problems();
-  std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.end < b.end; });
-  return list;
 }
 
 }  // namespace edmill::dem

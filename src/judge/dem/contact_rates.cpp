@@ -28,7 +28,6 @@ struct Window {
 /// too, if it is long enough [s]
 ContactRates rates_of_contacts(const std::string& file, const Window& window, double transient) {
   ContactLogReader log(file);
-  log.need_frames();
   ContactRates r{.log = file};
   if (log.facts().last < 2 * transient) transient = 0;
   r.first = std::max({window.from, log.facts().first, transient});

@@ -1,6 +1,5 @@
-// Contacts that last: what happened to balls between frames in which they fly, and tables of them: what
-// `edmill import` writes and `audit`, `compare` and `limit` read, and lists of other codes, which it reads.
-// docs/dem.md
+// Contacts that last: what happened to balls between frames in which they fly, and logs of them, which
+// `edmill import` writes and `audit`, `compare` and `limit` read. docs/dem.md
 #pragma once
 
 #include <array>
@@ -142,8 +141,6 @@ struct ContactLogFacts {
   }
   double dose() const;
   double duration() const { return last - first; }
-  /// Made from a list of contacts with walls: no frames, no pairs, no gravity, no places.
-  bool of_list() const { return frames == 0; }
 };
 
 /// Collects rows on disk until the facts are known.
@@ -166,8 +163,6 @@ class ContactLogReader {
   explicit ContactLogReader(const std::string& file);
 
   const ContactLogFacts& facts() const { return facts_; }
-  /// @throws InputError for a log of a list, whose dose rate is not that of all contacts
-  void need_frames() const;
   /// The next contact; nothing at the end. @throws InputError with the bad lines
   std::optional<Contact> next();
 
@@ -177,17 +172,5 @@ class ContactLogReader {
   ContactLogFacts facts_;
   io::CsvReader csv_;
 };
-
-/// A contact of a ball with a wall as a code has found it by itself, in SI. The states have no places.
-struct ListedContact : Contact {
-  int boundary = 0;  ///< of the file, as the ball's number
-  std::optional<double> mass, diameter;
-};
-
-/// Whether a file is a list of such contacts, by its header: Lethe's log of collisions with walls, or a table
-/// with its columns. A stream is none: it can be read once.
-bool is_contact_list(const std::string& file);
-/// By the end of the contacts. @throws InputError with the bad lines
-std::vector<ListedContact> read_contact_list(const std::string& file);
 
 }  // namespace edmill::dem

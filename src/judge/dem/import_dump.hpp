@@ -1,4 +1,4 @@
-// A dump of frames, or a list of contacts with walls, becomes a log of contacts.
+// A dump of frames becomes a log of contacts.
 #pragma once
 
 #include <atomic>
@@ -38,8 +38,7 @@ struct Imported {
 };
 
 /// Memory does not depend on the length of a dump of frames.
-/// @throws InputError when it cannot be read, lacks what is needed or has other balls than the case, or other
-/// walls than a list needs
+/// @throws InputError when it cannot be read, lacks what is needed or has other balls than the case
 Imported import_dump(const casefile::CaseSpec& spec, const ImportOptions& options, ContactLogWriter& log);
 
 std::string table(const Imported& imported, const std::string& log);

@@ -328,19 +328,15 @@ Eigen::VectorXd sensitivity(const Residuals& sample, const Assumptions& base, co
   return {};
 }
 
-double linear_misfit(const Residuals& sample, const Eigen::VectorXd& rows, const Eigen::MatrixXd& slopes,
-                     Eigen::VectorXd& change) {
+double linear_misfit(const Residuals& sample, const Eigen::VectorXd& rows, const Eigen::VectorXd& slope) {
   Eigen::VectorXd left = rows;
   const auto scales = scales_for(rows);
-  change.setZero(slopes.cols());
   for (std::size_t round = 0; round < scales.size() + 2; ++round) {
-    const Eigen::VectorXd weights = weights_of(left, scales[std::min(round, scales.size() - 1)]);
-    const Eigen::MatrixXd weighted = weights.asDiagonal() * slopes;
-    const Eigen::MatrixXd squares = weighted.transpose() * slopes;
-    const Eigen::VectorXd x = squares.ldlt().solve(-(weighted.transpose() * rows));
-    if (!x.allFinite()) break;
-    change = x;
-    left = rows + slopes * x;
+    const Eigen::VectorXd weighted =
+        weights_of(left, scales[std::min(round, scales.size() - 1)]).cwiseProduct(slope);
+    const double change = -weighted.dot(rows) / weighted.dot(slope);
+    if (!std::isfinite(change)) break;
+    left = rows + slope * change;
   }
   return misfit(sample, left);
 }

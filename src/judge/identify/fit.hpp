@@ -134,10 +134,8 @@ void fit(const Residuals& sample, Hypothesis& tried);
 Eigen::VectorXd sensitivity(const Residuals& sample, const Assumptions& base, const Eigen::VectorXd& rows,
                             const Parameter& number);
 
-/// The misfit that the best change of some numbers leaves if the rows are linear in them.
-/// @param slopes  of the rows, by each number
-/// @param change  becomes that of each number, in its unit of a fit
-double linear_misfit(const Residuals& sample, const Eigen::VectorXd& rows, const Eigen::MatrixXd& slopes,
-                     Eigen::VectorXd& change);
+/// The misfit that the best change of a number leaves if the rows are linear in it.
+/// @param slope  of the rows, by the number
+double linear_misfit(const Residuals& sample, const Eigen::VectorXd& rows, const Eigen::VectorXd& slope);
 
 }  // namespace edmill::identify

@@ -242,41 +242,6 @@ class Evidence {
     return best;
   }
 
-  /// Two numbers of the case, fitted together: those whose linear fit promises most.
-  std::vector<Hypothesis> best_pairs(const std::vector<Parameter>& numbers, std::size_t most) const {
-    const auto& sample = early_or_whole(nominal_);
-    const Eigen::VectorXd rows = sample.rows(nominal_);
-    std::vector<std::pair<const Parameter*, Eigen::VectorXd>> sensitive;
-    for (const auto& p : numbers)
-      if (Eigen::VectorXd slope = sensitivity(sample, nominal_, rows, p); slope.size() > 0)
-        sensitive.emplace_back(&p, std::move(slope));
-    struct Pair {
-      std::array<const Parameter*, 2> numbers;
-      Eigen::VectorXd change;
-    };
-    std::vector<std::pair<double, Pair>> order;
-    for (auto one = sensitive.begin(); one != sensitive.end(); ++one)
-      for (auto two = std::next(one); two != sensitive.end(); ++two) {
-        Pair pair{{one->first, two->first}, {}};
-        Eigen::MatrixXd slopes(rows.size(), 2);
-        slopes << one->second, two->second;
-        const double left = linear_misfit(sample, rows, slopes, pair.change);
-        order.emplace_back(left, std::move(pair));
-      }
-    std::vector<Hypothesis> best;
-    for (const auto& pair : best_of(std::move(order), most)) {
-      std::vector<Hypothesis> tried(2, {nominal_});
-      for (const int share : {0, 1})
-        for (std::size_t k = 0; k < 2; ++k) {
-          const auto& p = *pair.numbers[k];
-          tried[share].numbers.push_back(p);
-          tried[share].values.push_back(p.value + share * pair.change[k] * p.change);
-        }
-      best.push_back(best_fitted(std::move(tried)));
-    }
-    return best;
-  }
-
   /// The numbers whose fit promises most in parts of the log that contain this share of the rows violated
   /// with the base.
   std::vector<Parameter> best_in_parts(const Assumptions& base, const std::vector<Parameter>& numbers,
@@ -314,20 +279,18 @@ class Evidence {
                                         const std::vector<Parameter>& numbers,
                                         const std::vector<SharedSubset>& parts, std::size_t most) const {
     const Eigen::VectorXd rows = sample.rows(base);
-    Eigen::VectorXd change;
     std::vector<std::pair<double, Parameter>> order;
     for (const auto& p : numbers) {
       const Eigen::VectorXd slope = sensitivity(sample, base, rows, p);
       if (slope.size() == 0) continue;
-      if (parts.empty()) order.emplace_back(linear_misfit(sample, rows, slope, change), p);
+      if (parts.empty()) order.emplace_back(linear_misfit(sample, rows, slope), p);
       for (const auto& part : parts) {
         if (!fits(*part, p)) continue;
         Eigen::VectorXd inside = slope;
         for (std::size_t k = 0; k < sample.count(); ++k)
           if (!part->holds(sample.of_case()[k].at)) inside[k] = 0;
         if (inside == slope || inside.isZero(0)) continue;
-        order.emplace_back(linear_misfit(sample, rows, inside, change),
-                           restricted_to(part, p, parts_.size()));
+        order.emplace_back(linear_misfit(sample, rows, inside), restricted_to(part, p, parts_.size()));
       }
     }
     return best_of(std::move(order), most);
@@ -429,13 +392,12 @@ struct Stage {
   const char* name;                                     ///< null: it is reported with the stage before
   std::size_t size, bases = 1;                          ///< of the hypotheses that it extends, and how many
   std::size_t mistakes = 0, numbers = 0, in_parts = 0;  ///< tried on top of each, the most promising
-  std::size_t pairs = 0;                                ///< of numbers of the case, fitted together
   double share = 0.9;  ///< of the rows violated with a base that a part must contain
 };
 constexpr Stage stages[] = {
     {.name = "single causes", .size = 0, .mistakes = 8, .numbers = 6},
     {.name = "causes in a part of the log", .size = 0, .in_parts = 8},
-    {.name = "two causes together", .size = 1, .bases = 10, .mistakes = 2, .numbers = 5, .pairs = 12},
+    {.name = "two causes together", .size = 1, .bases = 10, .mistakes = 2, .numbers = 5},
     {.name = "two causes, of parts of the log", .size = 0, .in_parts = 4, .share = 0.2},
     {.name = nullptr, .size = 1, .bases = 10, .in_parts = 3},
     {.name = "three causes together", .size = 2, .bases = 4, .mistakes = 2, .numbers = 3, .in_parts = 3}};
@@ -523,7 +485,7 @@ class Searcher {
   }
 
   void extend(const Stage& stage) {
-    if (stage.pairs > 0) resample();
+    if (stage.size == 1 && stage.name) resample();
     std::vector<Hypothesis> more;
     for (const auto& base : best_of_size(stage.size, stage.bases, stage.in_parts > 0)) {
       const auto assumed = base.assumed();
@@ -540,8 +502,6 @@ class Searcher {
         for (const auto& p : numbers_)
           if (p.is_periodic()) add({p});
     }
-    if (stage.pairs > 0 && !is_interrupted())
-      for (auto& pair : evidence_->best_pairs(numbers_, stage.pairs)) more.push_back(std::move(pair));
     sort(more);
     tried_.insert(tried_.end(), more.begin(), more.end());
     more.resize(std::min(most_judged, more.size()), {nominal_});

@@ -25,7 +25,7 @@ class Outputs : public engine::Observer<Real> {
   ~Outputs() override;
 
   void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override;
-  void on_end(const engine::Simulation<Real>& simulation) override;
+  void on_end(const engine::Simulation<Real>& simulation);
   void archive(Archive& a) override;
   /// Writes what is left of all files.
   /// @param goes_on  a run that goes on later adds its rows to files of other runs only then

@@ -37,9 +37,6 @@ diameter = "8 mm"
 density = "8 g/cm3"
 )";
 
-/// What the small code finds by itself is its list of contacts with walls.
-enum class Made { frames, list };
-
 /// The files of a run of the small code, removed with it.
 class Files {
  public:
@@ -47,14 +44,14 @@ class Files {
       : time_step_(deck.time_step),
         folder_(std::filesystem::temp_directory_path() / ("edmill_contacts_" + std::to_string(::getpid()))) {
     std::filesystem::create_directories(folder_);
-    small_dem::Run(deck).write(folder_ / "frames.dump", folder_ / "list.csv");
+    small_dem::Run(deck).write(folder_ / "frames.dump");
   }
   ~Files() { std::filesystem::remove_all(folder_); }
 
-  dem::ContactAudit audited(Made made, const std::vector<std::string>& settings = {}) const {
+  dem::ContactAudit audited(const std::vector<std::string>& settings = {}) const {
     const auto spec = casefile::parse_case(box, "box.toml", settings);
     dem::ImportOptions options;
-    options.dump = folder_ / (made == Made::frames ? "frames.dump" : "list.csv"),
+    options.dump = folder_ / "frames.dump";
     options.time_step = time_step_;
     dem::ContactLogWriter writer;
     const auto imported = dem::import_dump(spec, options, writer);
@@ -72,7 +69,7 @@ class Files {
 };
 
 dem::ContactAudit audited(const small_dem::Deck& deck, const std::vector<std::string>& settings = {}) {
-  return Files(deck).audited(Made::frames, settings);
+  return Files(deck).audited(settings);
 }
 
 const dem::Judged* named(const dem::ContactAudit& audit, const std::string& name) {
@@ -213,45 +210,5 @@ void mistakes_are_named(std::size_t every) {
 }
 TEST(LastingContacts, MistakesAreNamedWithTheirValues) { mistakes_are_named(5); }
 TEST(LastingContacts, LongAllMistakesAreNamedWithTheirValues) { mistakes_are_named(1); }
-
-TEST(LastingContacts, AListOfContactsIsJudgedAsFramesAre) {
-  for (const unsigned seed : {1u, 2u}) {
-    small_dem::Deck deck;
-    deck.seed = seed, deck.duration = 0.5;
-    const Files files(deck);
-    const auto by_list = files.audited(Made::list), by_frames = files.audited(Made::frames);
-    EXPECT_EQ(by_list.verdict, compare::Verdict::agree) << "seed " << seed << "\n" << dem::table(by_list);
-    for (const auto* name : {"restitution at walls", "friction at walls"}) {
-      ASSERT_TRUE(named(by_list, name));
-      EXPECT_NEAR(named(by_list, name)->found.value, named(by_frames, name)->found.value, 0.002);
-    }
-    const auto walls = static_cast<std::size_t>(dem::ContactClass::wall);
-    EXPECT_NEAR(by_list.facts.doses[walls] / by_frames.facts.doses[walls], 1, 0.1);
-  }
-  small_dem::Deck weak;
-  weak.duration = 0.4, weak.friction = 0.3;
-  const auto audit = Files(weak).audited(Made::list);
-  EXPECT_EQ(audit.verdict, compare::Verdict::differ);
-  EXPECT_NEAR(named(audit, "friction at walls")->found.value, 0.3, 0.01);
-  small_dem::Deck light;
-  light.duration = 0.2, light.density = 7800;
-  EXPECT_EQ(Files(light).audited(Made::list).verdict, compare::Verdict::differ);
-}
-
-TEST(LastingContacts, AListNeedsWallsThatAreFlatAndDoNotTurn) {
-  small_dem::Deck deck;
-  deck.duration = 0.1;
-  for (const auto& settings : std::vector<std::vector<std::string>>{
-           {"vessel={type=\"cylinder\",diameter=\"36 mm\",height=\"57 mm\"}"},
-           {"mill={type=\"drum\",speed=\"60 rpm\"}"}}) {
-    try {
-      Files(deck).audited(Made::list, settings);
-      ADD_FAILURE() << settings.front();
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find("walls are flat and do not turn"), std::string::npos)
-          << error.what();
-    }
-  }
-}
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <optional>
 #include <random>
 #include <string>
 #include <utility>
@@ -55,8 +54,7 @@ class Run {
         w(d.balls),
         f(d.balls),
         torque(d.balls),
-        springs(d.balls * (6 + d.balls)),
-        begun(d.balls * 6) {
+        springs(d.balls * (6 + d.balls)) {
     const double effective = d.mass() / std::sqrt(d.radius) * std::pow(2.868 / d.contact_time, 2.5);
     wall_stiffness = 4.0 / 3 * effective * std::sqrt(d.radius);
     pair_stiffness = 4.0 / 3 * effective * std::sqrt(d.radius / 2);
@@ -70,15 +68,9 @@ class Run {
       }
   }
 
-  /// Writes the frames as LAMMPS does, and the contacts with walls as Lethe does.
-  void write(const std::string& file, const std::string& list_file = "/dev/null") {
+  /// Writes the frames as LAMMPS does.
+  void write(const std::string& file) {
     std::FILE* out = std::fopen(file.c_str(), "w");
-    list = std::fopen(list_file.c_str(), "w");
-    std::fputs("particle_id,diameter,mass,boundary_id,start_time,end_time", list);
-    for (const char* when : {"start", "end"})
-      for (const char* what : {"velocity", "angular_velocity"})
-        for (const char axis : {'x', 'y', 'z'}) std::fprintf(list, ",%s_particle_%s_%c", when, what, axis);
-    std::fputc('\n', list);
     const auto every = static_cast<long>(std::lround(d.frames / d.time_step));
     const auto steps = static_cast<long>(std::lround(d.duration / d.time_step));
     forces(0);
@@ -96,28 +88,10 @@ class Run {
       for (std::size_t i = 0; i < d.balls; ++i)
         v[i] = v[i] + f[i] * (h / 2 / d.mass()), w[i] = w[i] + torque[i] * (h / 2 / inertia());
     }
-    std::fclose(out), std::fclose(list);
+    std::fclose(out);
   }
 
  private:
-  struct State {
-    double time = 0;
-    V velocity{}, spin{};
-  };
-
-  /// Follows whether a ball touches a wall.
-  void note(std::size_t ball, std::size_t wall, bool touches, double t) {
-    auto& known = begun[6 * ball + wall];
-    if (touches && !known) known = {t, v[ball], w[ball]};
-    if (touches || !known) return;
-    const State& s = *known;
-    std::fprintf(list, "%zu,%.15g,%.15g,%zu,%.15g,%.15g", ball, 2 * d.radius, d.mass(), 10 + wall, s.time, t);
-    for (const V& vector : {s.velocity, s.spin, v[ball], w[ball]})
-      for (const double a : vector) std::fprintf(list, ",%.15g", a);
-    std::fputc('\n', list);
-    known.reset();
-  }
-
   double inertia() const { return 0.4 * d.mass() * d.radius * d.radius; }
 
   void frame(std::FILE* out, long step) const {
@@ -174,7 +148,6 @@ class Run {
         const auto here = static_cast<int>(wall);
         const bool missing = here == d.missing_wall || static_cast<int>(k) == d.periodic_axis;
         const double overlap = missing ? -1 : side * (x[i][k] - centre[k]) + d.radius - d.half[k];
-        note(i, wall, overlap > 0, t);
         V& spring = springs[(6 + d.balls) * i + wall];
         if (overlap <= 0) {
           spring = {};
@@ -206,8 +179,6 @@ class Run {
   Deck d;
   std::vector<V> x, v, w, f, torque;
   std::vector<V> springs;                   ///< of each ball with the walls and with the balls before it
-  std::vector<std::optional<State>> begun;  ///< by ball and wall
-  std::FILE* list = nullptr;
   double wall_stiffness = 0, pair_stiffness = 0;
 };
 

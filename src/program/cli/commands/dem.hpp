@@ -101,7 +101,7 @@ struct Import : CaseCommand<dem::ImportOptions> {
     command
         .add_option("dump", options_.dump,
                     "frames: `dump custom` of LAMMPS (text or binary) or LIGGGHTS, or a table, also "
-                    "compressed; - for standard input; or a list of contacts with walls, as Lethe writes it")
+                    "compressed; - for standard input")
         ->required();
     given_.add_to(command, "--case");
     command.add_option("--out", out_, "log of contacts (CSV; default: contacts.csv)");
