@@ -169,8 +169,8 @@ Json walls_of(const MovingVessel& vessel, const std::vector<double>& fractions, 
 
 /// Adds <script type="application/json" id="frames">, which page.js plays. Lengths in millimetres:
 ///   {duration, eye, target,
-///    vessel: {walls: [{points, flat, shifts}], colour, opacity, poses: [x, y, z, qx, qy, qz, qw of each frame]},
-///    spheres: {radii, colours, places: [x, y, z of each sphere, frame by frame]}}
+///    vessel: {walls: [{points, flat, shifts}], colour, opacity, poses: [x, y, z, qx, qy, qz, qw of each
+///    frame]}, spheres: {radii, colours, places: [x, y, z of each sphere, frame by frame]}}
 /// Frames divide the playback into equal parts, from its beginning to its end.
 void add_frames(pugi::xml_node parent, const Animation& animation) {
   const auto& vessel = animation.vessel;
@@ -199,51 +199,6 @@ void add_frames(pugi::xml_node parent, const Animation& animation) {
   add(parent, "script", {{"type", "application/json"}, {"id", "frames"}}, scene.dump());
 }
 
-/// Adds an <svg> of the first frame, seen along the Z axis.
-void add_still(pugi::xml_node parent, const Animation& animation) {
-  const auto& vessel = animation.vessel;
-  const auto pose = vessel.pose(0);
-  const Vec3<double> centre = pose.translation();
-  // In percent of the picture, whose strokes have one width for vessels of any size; y upwards.
-  const double reach = 1.25 * vessel.reach(), percent = 50 / reach;
-  const auto x = [&](double place) { return percent * (place - centre[0] + reach); };
-  const auto y = [&](double place) { return percent * (centre[1] + reach - place); };
-  auto svg = add(parent, "svg",
-                 {{"class", "still"},
-                  {"viewBox", "0 0 100 100"},
-                  {"role", "img"},
-                  {"aria-label", "The vessel and its balls at the beginning of the animation"}});
-  const auto outline = [&](const plot::Points& points) {
-    std::string path;
-    for (const auto& p : points)
-      path += fmt::format("{}{:.2f} {:.2f}", path.empty() ? "M" : "L", x(p.first), y(p.second));
-    add(svg, "path", {{"class", "vessel"}, {"d", path + "Z"}});
-  };
-  plot::Points all;
-  std::vector<plot::Points> flat;
-  for (const auto& wall : vessel.walls) {
-    plot::Points points;
-    for (const auto& point : wall.points) {
-      const Vec3<double> place = pose * point;
-      points.emplace_back(place[0], place[1]);
-    }
-    all.insert(all.end(), points.begin(), points.end());
-    if (wall.faces.size() == 1) flat.push_back(std::move(points));
-  }
-  outline(plot::hull_of(std::move(all)));
-  for (const auto& wall : flat) outline(wall);
-  std::vector<std::pair<Vec3<double>, const MovingSphere*>> spheres;
-  for (const auto& sphere : animation.spheres) spheres.emplace_back(sphere.place.at(0), &sphere);
-  std::ranges::stable_sort(spheres, {}, [](const auto& sphere) { return sphere.first[2]; });
-  for (const auto& [place, sphere] : spheres)
-    add(svg, "circle",
-        {{"class", "ball"},
-         {"cx", fmt::format("{:.2f}", x(place[0]))},
-         {"cy", fmt::format("{:.2f}", y(place[1]))},
-         {"r", fmt::format("{:.2f}", percent * sphere->radius)},
-         {"fill", sphere->colour}});
-}
-
 /// Says in words how fast the playback is; a speed of 1 is real time.
 std::string pace(double speed) {
   const double factor = std::max(speed, 1 / speed);
@@ -251,9 +206,9 @@ std::string pace(double speed) {
   return fmt::format("{} {} times", speed > 1 ? "Sped up" : "Slowed down", readable(factor, 2));
 }
 
-/// The controls, hidden until page.js plays. The slider counts milliseconds in the mill.
+/// The controls. The slider counts milliseconds in the mill.
 void add_player(pugi::xml_node section, const Animation& animation, double speed) {
-  auto player = add(section, "div", {{"id", "player"}, {"hidden", "hidden"}});
+  auto player = add(section, "div", {{"id", "player"}});
   auto controls = add(player, "div", {{"class", "controls"}});
   add(controls, "button", {{"type", "button"}, {"id", "play"}}, "Play");
   add(controls, "input",
@@ -293,13 +248,6 @@ Eigen::Isometry3d MovingVessel::pose(double fraction) const {
   return Eigen::Translation3d(origin) * turned(before).slerp(share, turned(after));
 }
 
-double MovingVessel::reach() const {
-  double reach = 0;
-  for (const auto& wall : walls)
-    for (const auto& point : wall.points) reach = std::max(reach, norm<double>(point));
-  return reach;
-}
-
 Animation read_animation(const std::filesystem::path& file) {
   pugi::xml_document document;
   const auto result = document.load_file(file.c_str());
@@ -318,8 +266,7 @@ void add_animation(pugi::xml_node main, const RunFolder& run) {
   const auto* output = run.output("animation", [](const auto&) { return true; });
   if (!output) return add_missing(section, "animation", "type = \"animation\"");
   const auto animation = read_animation(run.file_of(*output));
-  auto stage = add(section, "div", {{"class", "stage"}});
-  add_still(stage, animation);
+  add(section, "div", {{"class", "stage"}});
   add_frames(section, animation);
   add_player(section, animation, output->animation.speed.to<double>());
 }

@@ -43,8 +43,6 @@ struct MovingVessel {
 
   /// Turned the short way between keys.
   Eigen::Isometry3d pose(double fraction) const;
-  /// Largest distance of a point from the vessel's centre [m].
-  double reach() const;
 };
 
 struct Animation {

@@ -24,9 +24,9 @@ function stateAt({ vessel, spheres }, fraction) {
   return { walls, balls: spheres.radii.map((radius, k) => ({ radius, colour: spheres.colours[k], place: places.slice(3 * k, 3 * k + 3) })) };
 }
 
-function play(canvas) {
+function play() {
   const mill = JSON.parse(document.getElementById("frames").textContent);
-  const stage = document.querySelector(".stage"), button = document.getElementById("play"), slider = document.getElementById("time");
+  const stage = document.querySelector(".stage"), canvas = document.createElement("canvas"), button = document.getElementById("play"), slider = document.getElementById("time");
   const clock = document.getElementById("clock"), end = Number(slider.max);
   const decimals = Math.max(0, 3 - Math.floor(Math.log10(end))); // thousandths of the whole, or finer
   const view = new MillView(canvas, mill.target, mill.eye[2] - mill.target[2]);
@@ -79,10 +79,7 @@ function play(canvas) {
   canvas.setAttribute("role", "application"); // it takes keys
   canvas.setAttribute("aria-label", "The vessel and its balls as they move; arrow keys turn it, + and - zoom");
   stage.append(canvas);
-  document.getElementById("player").hidden = false;
-  document.body.classList.add("plays"); // in place of the still picture
   setPlaying(!matchMedia("(prefers-reduced-motion: reduce)").matches);
 }
 
-const canvas = document.createElement("canvas");
-if (canvas.getContext("2d")) play(canvas); // else the still picture stays
+play();

@@ -1,16 +1,17 @@
 #include "study/executor.hpp"
 
 #include <fmt/format.h>
+#include <tbb/concurrent_queue.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <condition_variable>
 #include <cstdlib>
-#include <mutex>
+#include <thread>
 #include <utility>
 
 #include "base/errors.hpp"
@@ -95,42 +96,34 @@ class Workers {
         control_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_) + 1),
         arena_(threads_, 0) {}
   ~Workers() {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return running_ == 0; });
+    wait(milliseconds::max(), [this] { return running_ == 0; });
   }
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
   int threads() const { return threads_; }
-  bool has_idle() const {
-    const std::lock_guard lock(mutex_);
-    return running_ < threads_;
-  }
-  bool busy() const {
-    const std::lock_guard lock(mutex_);
-    return running_ > 0 || !finished_.empty();
-  }
+  bool has_idle() const { return running_ < threads_; }
+  bool busy() const { return running_ > 0 || !finished_.empty(); }
   void start(const Job& job) {
-    {
-      const std::lock_guard lock(mutex_);
-      ++running_;
-    }
+    ++running_;
     arena_.enqueue([this, job] {
-      auto record = do_job(job);
-      const std::lock_guard lock(mutex_);
-      finished_.push_back(std::move(record));
+      finished_.push(do_job(job));
       --running_;
-      changed_.notify_all();
     });
   }
   /// Records since the last call; waits briefly for one when jobs are running.
-  std::vector<RunRecord> finished(milliseconds wait) {
-    std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, wait, [&] { return !finished_.empty(); });
-    return std::exchange(finished_, {});
+  std::vector<RunRecord> finished(milliseconds longest) {
+    wait(longest, [this] { return !finished_.empty(); });
+    std::vector<RunRecord> records;
+    for (RunRecord record; finished_.try_pop(record);) records.push_back(std::move(record));
+    return records;
   }
 
  private:
+  static void wait(milliseconds longest, const auto& is_over) {
+    for (milliseconds waited{0}; !is_over() && waited < longest; ++waited)
+      std::this_thread::sleep_for(milliseconds(1));
+  }
   RunRecord do_job(const Job& job) const {
     try {
       return run_(job);
@@ -145,10 +138,8 @@ class Workers {
   RunFunction run_;
   tbb::global_control control_;  ///< without it TBB limits itself to the number of cores
   tbb::task_arena arena_;
-  mutable std::mutex mutex_;
-  std::condition_variable changed_;
-  int running_ = 0;
-  std::vector<RunRecord> finished_;
+  std::atomic<int> running_ = 0;
+  tbb::concurrent_queue<RunRecord> finished_;
 };
 
 Executor::Executor(Ranks& ranks, int threads, RunFunction run, std::atomic<bool>& interrupt)
