@@ -105,9 +105,8 @@ class Session : private Observer<double> {
 
   /// What does not change during the run, as JSON: radii, walls as meshes, names of partners, the period.
   void scene(JsonText& json) const {
-    json.add("version", version());
-    json.add("period", mill_.motion.period());
-    json.add("start", spec_.statistics_start.to<double>());
+    json.add("version", version(), "period", mill_.motion.period(), "start",
+             spec_.statistics_start.to<double>());
     std::vector<double> radii;
     for (const auto& batch : spec_.batches)
       radii.insert(radii.end(), batch.count, batch.diameter.to<double>() / 2);
@@ -116,16 +115,12 @@ class Session : private Observer<double> {
     const auto partners = casefile::partners_of(spec_);
     std::vector<std::string> names;
     for (int k = 0; k < partners.count(); ++k) names.push_back(partners[k].label);
-    json.add("partners", names);
-    json.add("middle", mill_.motion.middle());
+    json.add("partners", names, "middle", mill_.motion.middle());
     json.begin("walls");
     int wall = 0;
     for (const auto& surface : mill_.vessel.surfaces()) {
       const auto mesh = model::mesh_of(surface);
-      json.begin(std::to_string(wall++));
-      json.add("points", mesh.points);
-      json.add("faces", mesh.faces);
-      json.end();
+      json.add_group(std::to_string(wall++), "points", mesh.points, "faces", mesh.faces);
     }
     json.end();
   }
@@ -148,31 +143,20 @@ class Session : private Observer<double> {
   void frame(JsonText& json) {
     const double now = run_.time();
     const auto summary = run_.summary();
-    json.add("time", now);
-    json.add("impacts", impacts_);
-    json.add("ended", !going_on_);
-    json.add("end_reason", summary.end_reason);
+    json.add("time", now, "impacts", impacts_, "ended", !going_on_, "end_reason", summary.end_reason);
     std::vector<Vector<double>> places;
     for (int k = 0; k < run_.ball_count(); ++k) places.push_back(run_.ball(k).position);
     json.add("places", places);
     const auto frame = output::vessel_frame(mill_.motion, now);
     json.add("vessel", std::array{frame.origin, frame.x, frame.y, frame.z});
-    if (impacts_ > 0) {
-      json.begin("last");
-      json.add("ball", last_.ball);
-      json.add("partner", last_.partner);
-      json.add("with_wall", last_.with_wall);
-      json.add("approach_speed", last_.approach_speed);
-      json.add("separation_speed", last_.separation_speed);
-      json.add("milling_dose", last_.milling_dose);
-      json.end();
-    }
+    if (impacts_ > 0)
+      json.add_group("last", "ball", last_.ball, "partner", last_.partner, "with_wall", last_.with_wall,
+                     "approach_speed", last_.approach_speed, "separation_speed", last_.separation_speed,
+                     "milling_dose", last_.milling_dose);
     if (now > summary.start_time) {
-      json.add("dose", summary.milling_dose);
-      json.add("dose_rate", summary.milling_dose_rate());
+      json.add("dose", summary.milling_dose, "dose_rate", summary.milling_dose_rate());
       if (summary.milling_dose_rate_half_width) json.add("half_width", *summary.milling_dose_rate_half_width);
-      json.add("collisions", summary.collisions);
-      json.add("dose_by_partner", summary.dose_by_partner);
+      json.add("collisions", summary.collisions, "dose_by_partner", summary.dose_by_partner);
     }
     json.add("speeds", by_speed_);
   }
@@ -321,9 +305,7 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_first_impacts(int most) {
     FirstImpacts found(most);
     run.attach(found);
     run.finish();
-    json.add("time", found.times);
-    json.add("ball", found.balls);
-    json.add("partner", found.partners);
+    json.add("time", found.times, "ball", found.balls, "partner", found.partners);
   });
 }
 
@@ -368,8 +350,7 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_compare() {
     options.a = "/reference";
     options.b = "/log";
     const auto comparison = compare::compare(options);
-    json.add("verdict", compare::name_of(comparison.verdict));
-    json.add("table", compare::table(comparison));
+    json.add("verdict", compare::name_of(comparison.verdict), "table", compare::table(comparison));
   });
 }
 }

@@ -29,8 +29,17 @@ class JsonText {
     text_ += "}";
     first_ = false;
   }
-  /// A value, as `of` writes it.
-  void add(std::string_view key, const auto& value) { put(key, of(value)); }
+  /// Keys, each with its value after it, as `of` writes it.
+  void add(std::string_view key, const auto& value, const auto&... more) {
+    put(key, of(value));
+    if constexpr (sizeof...(more) > 0) add(more...);
+  }
+  /// A group of such keys.
+  void add_group(std::string_view key, const auto&... keys_and_values) {
+    begin(key);
+    add(keys_and_values...);
+    end();
+  }
   void group(std::string_view key, const auto& fill) {
     begin(key);
     fill();

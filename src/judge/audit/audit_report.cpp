@@ -33,14 +33,8 @@ double share_of(const Audit& a, Kind kind) {
 }
 
 void put_finding(io::JsonText& json, const Finding& f) {
-  json.add("line", f.line);
-  json.add("time", f.time);
-  json.add("ball", f.ball);
-  json.add("partner_kind", f.with_wall ? "wall" : "ball");
-  json.add("partner", f.partner);
-  json.add("size", f.size);
-  json.add("found", f.found);
-  json.add("expected", f.expected);
+  json.add("line", f.line, "time", f.time, "ball", f.ball, "partner_kind", f.with_wall ? "wall" : "ball");
+  json.add("partner", f.partner, "size", f.size, "found", f.found, "expected", f.expected);
   if (*f.note != '\0') json.add("note", f.note);
 }
 
@@ -65,11 +59,8 @@ void put_violations(io::JsonText& json, const Audit& a) {
       "violations", a.findings.ranked(), [](Kind kind) { return info(kind).name; },
       [&](Kind kind) {
         const Tally& tally = a.findings.of(kind);
-        json.add("count", tally.count);
-        json.add("share", share_of(a, kind));
-        json.add("worst", tally.worst);
-        json.add("unit", info(kind).unit);
-        json.add("meaning", info(kind).meaning);
+        json.add("count", tally.count, "share", share_of(a, kind), "worst", tally.worst, "unit",
+                 info(kind).unit, "meaning", info(kind).meaning);
         if (!tally.notes.empty())
           json.group("notes", [&] {
             for (const auto& [note, count] : tally.notes) json.add(note, count);
@@ -125,38 +116,20 @@ std::string table(const Audit& a) {
 }
 
 void put_json(io::JsonText& json, const Audit& a) {
-  json.add("format", "edmill audit 2");
-  json.add("version", version());
-  json.add("commit", commit());
-  json.add("verdict", name_of(a.verdict));
-  json.add("case", a.case_name);
-  json.add("log", a.log_name);
-  json.add("events", a.events);
-  json.add("first_time", a.first);
-  json.add("last_time", a.last);
-  json.add("interrupted", a.interrupted ? "yes" : "no");
-  json.add("tolerance", a.tolerances.relative);
-  json.add("gap_tolerance", a.tolerances.gap);
+  json.add("format", "edmill audit 2", "version", version(), "commit", commit(), "verdict",
+           name_of(a.verdict));
+  json.add("case", a.case_name, "log", a.log_name, "events", a.events, "first_time", a.first);
+  json.add("last_time", a.last, "interrupted", a.interrupted ? "yes" : "no", "tolerance",
+           a.tolerances.relative, "gap_tolerance", a.tolerances.gap);
   json.add("time_rounding", rounding_of(std::max(std::abs(a.first), std::abs(a.last))));
   put_violations(json, a);
-  json.groups("looks_like", a.diagnoses, &Diagnosis::name, [&](const Diagnosis& d) {
-    json.add("events", d.events);
-    json.add("of", d.of);
-    json.add("text", d.text);
-  });
-  json.begin("energy");
-  json.add("impacts", a.energies.impacts);
-  json.add("wall_work", a.energies.wall_work.value());
-  json.add("milling_dose", a.energies.milling_dose.value());
-  json.add("supplied", a.energies.supplied.value());
-  json.add("supplying_impacts", a.energies.supplying);
-  json.add("kinetic_change", a.energies.kinetic_change.value());
-  json.add("closure", a.energies.closure());
-  json.end();
-  json.begin("energy_created");
-  json.add("impacts", a.energies.creating);
-  json.add("energy", a.energies.created);
-  json.end();
+  json.groups("looks_like", a.diagnoses, &Diagnosis::name,
+              [&](const Diagnosis& d) { json.add("events", d.events, "of", d.of, "text", d.text); });
+  json.add_group("energy", "impacts", a.energies.impacts, "wall_work", a.energies.wall_work.value(),
+                 "milling_dose", a.energies.milling_dose.value(), "supplied", a.energies.supplied.value(),
+                 "supplying_impacts", a.energies.supplying, "kinetic_change",
+                 a.energies.kinetic_change.value(), "closure", a.energies.closure());
+  json.add_group("energy_created", "impacts", a.energies.creating, "energy", a.energies.created);
   json.begin("checked");
   for (std::size_t k = 0; k < check_count; ++k)
     json.add(checks[k].name, a.findings.judged_number(static_cast<Check>(k)));

@@ -26,21 +26,15 @@ std::string with_interval(const std::optional<double>& value, const std::optiona
 
 void put(io::JsonText& json, std::string_view key, const Event& e) {
   json.begin(key);
-  json.add("line", e.line);
-  json.add("ball", e.ball);
-  json.add("partner_kind", e.with_wall ? "wall" : "ball");
-  json.add("partner", e.partner);
+  json.add("line", e.line, "ball", e.ball, "partner_kind", e.with_wall ? "wall" : "ball", "partner",
+           e.partner);
   for (std::size_t v = 0; v < model::logged_count; ++v) json.add(model::logged_quantities[v].name, e[v]);
   json.end();
 }
 
 void put_log(io::JsonText& json, std::string_view key, const LogScan& scan) {
-  json.begin(key);
-  json.add("file", scan.file);
-  json.add("events", scan.events);
-  json.add("first_time", scan.first);
-  json.add("last_time", scan.last);
-  json.end();
+  json.add_group(key, "file", scan.file, "events", scan.events, "first_time", scan.first, "last_time",
+                 scan.last);
 }
 
 }  // namespace
@@ -98,27 +92,20 @@ std::string table(const Comparison& c) {
 
 std::string to_json(const Comparison& c) {
   io::JsonText json;
-  json.add("format", "edmill comparison 1");
-  json.add("version", version());
-  json.add("commit", commit());
-  json.add("verdict", name_of(c.verdict));
+  json.add("format", "edmill comparison 1", "version", version(), "commit", commit(), "verdict",
+           name_of(c.verdict));
   put_log(json, "a", c.a);
   put_log(json, "b", c.b);
   json.add("tolerance", c.options.event_tolerance());
 
   const auto& e = c.events;
   json.begin("event_by_event");
-  json.add("agreeing", e.agreeing);
-  json.add("horizon", e.agreeing > 0 ? std::optional(e.horizon) : std::nullopt);
-  json.add("same_partners", e.same_partners);
-  if (c.events_verdict) {
-    json.add("asked_for", *c.options.events);
-    json.add("verdict", name_of(*c.events_verdict));
-  }
+  json.add("agreeing", e.agreeing, "horizon", e.agreeing > 0 ? std::optional(e.horizon) : std::nullopt,
+           "same_partners", e.same_partners);
+  if (c.events_verdict) json.add("asked_for", *c.options.events, "verdict", name_of(*c.events_verdict));
   if (e.first) {
     json.begin("first_difference");
-    json.add("quantity", e.first->quantity);
-    json.add("relative_difference", e.first->relative_difference);
+    json.add("quantity", e.first->quantity, "relative_difference", e.first->relative_difference);
     put(json, "a", e.first->a);
     put(json, "b", e.first->b);
     json.end();
@@ -132,20 +119,13 @@ std::string to_json(const Comparison& c) {
 
   if (c.times.count > 0) {
     json.begin("statistics");
-    json.add("from", c.times.from);
-    json.add("until", c.times.until());
-    json.add("batch_length", c.times.length);
-    json.add("batches", c.times.count);
+    json.add("from", c.times.from, "until", c.times.until(), "batch_length", c.times.length, "batches",
+             c.times.count);
     json.groups("quantities", c.quantities, &Quantity::name, [&](const auto& q) {
-      json.add("unit", q.unit);
-      json.add("a", q.a);
-      json.add("a_ci95", q.a_half_width);
-      json.add("b", q.b);
-      json.add("b_ci95", q.b_half_width);
-      json.add("difference", q.difference);
-      json.add(q.difference && !q.a ? "limit95" : "difference_ci95", q.half_width);
-      json.add("probability", q.probability);
-      json.add("verdict", name_of(q.verdict));
+      json.add("unit", q.unit, "a", q.a, "a_ci95", q.a_half_width);
+      json.add("b", q.b, "b_ci95", q.b_half_width, "difference", q.difference);
+      json.add(q.difference && !q.a ? "limit95" : "difference_ci95", q.half_width, "probability",
+               q.probability, "verdict", name_of(q.verdict));
       if (!q.reason.empty()) json.add("reason", q.reason);
     });
     json.end();

@@ -160,22 +160,12 @@ std::string table(const ContactComparison& c) {
 
 std::string to_json(const ContactComparison& c) {
   io::JsonText json;
-  json.add("format", "edmill contact comparison 1");
-  json.add("verdict", word_for(c.verdict));
-  for (const auto* r : {&c.a, &c.b}) {
-    json.begin(r == &c.a ? "a" : "b");
-    json.add("log", r->log);
-    json.add("from", r->first);
-    json.add("until", r->last);
-    json.add("contact_time", r->contact_time);
-    json.add("single_rate", r->single_rate);
-    json.add("grouped_dose_share", r->grouped);
-    json.add("milling_dose_rate", r->dose_rate);
-    json.add("milling_dose_rate_half_width", r->half_width);
-    json.end();
-  }
-  json.add("difference", c.ratio - 1);
-  json.add("half_width", c.half_width);
+  json.add("format", "edmill contact comparison 1", "verdict", word_for(c.verdict));
+  for (const auto* r : {&c.a, &c.b})
+    json.add_group(r == &c.a ? "a" : "b", "log", r->log, "from", r->first, "until", r->last, "contact_time",
+                   r->contact_time, "single_rate", r->single_rate, "grouped_dose_share", r->grouped,
+                   "milling_dose_rate", r->dose_rate, "milling_dose_rate_half_width", r->half_width);
+  json.add("difference", c.ratio - 1, "half_width", c.half_width);
   if (c.within) json.add("within", *c.within);
   return json.finish();
 }
@@ -231,20 +221,12 @@ std::string to_json(const Limit& limit) {
   io::JsonText json;
   json.add("format", "edmill limit 1");
   json.groups("points", limit.points, &ContactRates::log, [&](const ContactRates& p) {
-    json.add("contact_time", p.contact_time);
-    json.add("milling_dose_rate", p.dose_rate);
-    json.add("half_width", p.half_width);
+    json.add("contact_time", p.contact_time, "milling_dose_rate", p.dose_rate, "half_width", p.half_width);
   });
-  json.add("limit", limit.at_zero.dose_rate);
-  json.add("half_width", limit.at_zero.half_width);
-  json.add("slope", limit.slope);
-  if (const auto& c = limit.to_edmill) {
-    json.add("edmill", c->a.dose_rate);
-    json.add("edmill_half_width", c->a.half_width);
-    json.add("ratio", c->ratio);
-    json.add("ratio_half_width", c->half_width);
-    json.add("verdict", word_for(c->verdict));
-  }
+  json.add("limit", limit.at_zero.dose_rate, "half_width", limit.at_zero.half_width, "slope", limit.slope);
+  if (const auto& c = limit.to_edmill)
+    json.add("edmill", c->a.dose_rate, "edmill_half_width", c->a.half_width, "ratio", c->ratio,
+             "ratio_half_width", c->half_width, "verdict", word_for(c->verdict));
   return json.finish();
 }
 

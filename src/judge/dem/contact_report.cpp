@@ -69,51 +69,34 @@ std::string table(const ContactAudit& a) {
 
 std::string to_json(const ContactAudit& a) {
   io::JsonText json;
-  json.add("format", "edmill contact audit 2");
-  json.add("version", version());
-  json.add("verdict", verdicts[static_cast<std::size_t>(a.verdict)]);
-  json.add("case", a.case_name);
-  json.add("log", a.log_name);
-  json.add("contacts", a.facts.contacts);
-  json.add("frames", a.facts.frames);
-  json.add("frame_interval", a.facts.statistics.interval);
-  json.add("contact_time", a.facts.statistics.contact_time);
+  json.add("format", "edmill contact audit 2", "version", version(), "verdict",
+           verdicts[static_cast<std::size_t>(a.verdict)]);
+  json.add("case", a.case_name, "log", a.log_name, "contacts", a.facts.contacts);
+  json.add("frames", a.facts.frames, "frame_interval", a.facts.statistics.interval, "contact_time",
+           a.facts.statistics.contact_time);
   json.begin("classes");
   for (std::size_t k = 0; k < contact_class_names.size(); ++k)
-    json.group(contact_class_names[k], [&] {
-      json.add("contacts", a.counts[k]);
-      json.add("milling_dose", a.facts.doses[k]);
-    });
+    json.group(contact_class_names[k],
+               [&] { json.add("contacts", a.counts[k], "milling_dose", a.facts.doses[k]); });
   json.end();
-  json.add("milling_dose_rate", a.dose_rate);
-  json.add("milling_dose_rate_half_width", a.dose_rate_half_width);
+  json.add("milling_dose_rate", a.dose_rate, "milling_dose_rate_half_width", a.dose_rate_half_width);
   json.groups("values", a.judged, &Judged::name, [&](const Judged& j) {
-    json.add("found", j.found.value);
-    json.add("low", j.found.low);
-    json.add("high", j.found.high);
-    json.add("contacts", j.found.count);
-    json.add("dose_share", j.dose_share);
-    json.add("expected", j.expected);
-    json.add("allowed", j.allowed);
-    json.add("judged", j.known());
-    json.add("agrees", j.agrees());
+    json.add("found", j.found.value, "low", j.found.low, "high", j.found.high);
+    json.add("contacts", j.found.count, "dose_share", j.dose_share, "expected", j.expected);
+    json.add("allowed", j.allowed, "judged", j.known(), "agrees", j.agrees());
     if (!j.equation.empty()) json.add("equation", j.equation);
   });
-  json.add("wall_distance", a.wall_distance);
-  json.add("wall_resolution", a.wall_resolution);
+  json.add("wall_distance", a.wall_distance, "wall_resolution", a.wall_resolution);
   const auto ratio_of = [](const auto& s) { return fmt::format("{:.4g}", s.ratio); };
   json.groups("slips", a.slips, ratio_of, [&](const auto& s) {
     for (const auto* m : {&s.of_walls, &s.of_balls}) {
       if (!m->known()) continue;
-      json.add(m == &s.of_walls ? "walls" : "balls", m->value);
-      json.add(m == &s.of_walls ? "walls_half_width" : "balls_half_width", m->half_width());
+      json.add(m == &s.of_walls ? "walls" : "balls", m->value,
+               m == &s.of_walls ? "walls_half_width" : "balls_half_width", m->half_width());
     }
   });
   json.groups("causes", a.causes, &GeometryCause::key, [&](const GeometryCause& c) {
-    json.add("value", c.value);
-    json.add("half_width", c.half_width);
-    json.add("expected", c.expected);
-    json.add("left", c.left);
+    json.add("value", c.value, "half_width", c.half_width, "expected", c.expected, "left", c.left);
   });
   return json.finish();
 }

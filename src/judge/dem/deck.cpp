@@ -48,7 +48,11 @@ struct DeckCase {
   /// By the names under which the texts have them.
   fmt::dynamic_format_arg_store<fmt::format_context> fields = {};
 
-  void add(const char* name, const auto& value) { fields.push_back(fmt::arg(name, value)); }
+  /// Names, each with its value after it.
+  void add(const char* name, const auto& value, const auto&... more) {
+    fields.push_back(fmt::arg(name, value));
+    if constexpr (sizeof...(more) > 0) add(more...);
+  }
   std::string filled(std::string_view text) const { return fmt::vformat(text, fields); }
 
   /// As it was given: the mass came from it.
@@ -244,9 +248,7 @@ std::string put_in_vessel(DeckCase& c) {
     masses += fmt::format("{}, ", c.balls[k].mass);
     radii += fmt::format("{}, ", c.balls[k].radius);
   }
-  c.add("pose", pose_in_python(c));
-  c.add("masses", masses);
-  c.add("radii", radii);
+  c.add("pose", pose_in_python(c), "masses", masses, "radii", radii);
   return c.filled(lammps_frame_in);
 }
 
@@ -261,12 +263,10 @@ Deck lammps_deck(DeckCase& c) {
       vessel += fmt::format("variable move{} equal {}\n", "xyz"[k], formulas[k].text);
   }
   const bool moves = !in_vessel && c.mill.motion.wall_speed(0) > 0;
-  c.add("frame", in_vessel ? "vessel" : "laboratory");
-  c.add("balls", atoms_of(c, "omega {} {} {}", true));
+  c.add("frame", in_vessel ? "vessel" : "laboratory", "balls", atoms_of(c, "omega {} {} {}", true));
   c.add("tsuji", tsuji_of(c, c.of_balls));
   c.add("vessel", vessel + region_of(c, moves ? " move v_movex v_movey v_movez" : ""));
-  c.add("wall_tsuji", tsuji_of(c, c.of_walls));
-  c.add("weight", in_vessel ? "" : weight_of(c.mill.gravity));
+  c.add("wall_tsuji", tsuji_of(c, c.of_walls), "weight", in_vessel ? "" : weight_of(c.mill.gravity));
   Deck deck{
       {{c.options.name + ".in", c.filled(lammps_in)}}, fmt::format("lmp -in {}.in", c.options.name), {}};
   if (in_vessel)
@@ -398,13 +398,9 @@ Deck liggghts_deck(DeckCase& c) {
   }
   const Chain chain(c);
   tell_facets(c, meshes, deck);
-  c.add("balls", atoms_of(c, "omegax {} omegay {} omegaz {}", false));
-  c.add("rates", chain.lines);
-  c.add("walls", walls);
-  c.add("mesh_count", meshes.size());
-  c.add("meshes", names);
-  c.add("moves", moves_of(chain, meshes));
-  c.add("weight", weight_of(c.mill.gravity));
+  c.add("balls", atoms_of(c, "omegax {} omegay {} omegaz {}", false), "rates", chain.lines, "walls", walls,
+        "mesh_count", meshes.size(), "meshes", names);
+  c.add("moves", moves_of(chain, meshes), "weight", weight_of(c.mill.gravity));
   deck.files.front() = {c.options.name + ".in", c.filled(liggghts_in)};
   return deck;
 }
@@ -450,8 +446,8 @@ Deck yade_deck(DeckCase& c) {
   c.add("balls", balls);
   if (planes) {
     const auto place = displacement_formulas(c, "t");
-    c.add("half", fmt::format("{}", fmt::join(box->half, ", ")));
-    c.add("place", fmt::format("{}, {}, {}", place[0].text, place[1].text, place[2].text));
+    c.add("half", fmt::format("{}", fmt::join(box->half, ", ")), "place",
+          fmt::format("{}, {}, {}", place[0].text, place[1].text, place[2].text));
     c.add("walls", c.filled(yade_planes_in));
   } else {
     c.add("pose", pose_in_python(c));
@@ -494,29 +490,18 @@ Deck make_deck(const casefile::CaseSpec& spec, const DeckOptions& options) {
   // A ball at an edge between two triangles of YADE touches both, so that they must be few.
   if (c.options.facets == 0) c.options.facets = options.code == "yade" ? 24 : 128;
   const long steps = std::lround(duration / time_step);
-  c.add("file", spec.file);
-  c.add("version", version());
-  c.add("digest", spec.digest);
-  c.add("name", options.name);
-  c.add("contact_time", options.contact_time);
-  c.add("speed", options.speed);
-  c.add("restitution", c.of_balls.restitution);
-  c.add("wall_restitution", c.of_walls.restitution);
-  c.add("en", formula_restitution(c.of_balls.damping));
-  c.add("wall_en", formula_restitution(c.of_walls.damping));
-  c.add("friction", c.of_balls.friction);
-  c.add("wall_friction", c.of_walls.friction);
+  c.add("file", spec.file, "version", version(), "digest", spec.digest, "name", options.name, "contact_time",
+        options.contact_time);
+  c.add("speed", options.speed, "restitution", c.of_balls.restitution, "wall_restitution",
+        c.of_walls.restitution, "en", formula_restitution(c.of_balls.damping), "wall_en",
+        formula_restitution(c.of_walls.damping));
+  c.add("friction", c.of_balls.friction, "wall_friction", c.of_walls.friction);
   constexpr double poisson = 0.3;
-  c.add("young", young_for(options.contact_time, options.speed, largest.radius, largest.mass, poisson));
-  c.add("poisson", poisson);
-  c.add("gravity", fmt::format("{}", fmt::join(mill.gravity, ", ")));
-  c.add("reach", 1.5 * mill.motion.reach(mill.vessel.reach()));
-  c.add("skin", largest.radius / 2);
-  c.add("begin", begin);
-  c.add("time_step", time_step);
-  c.add("steps", steps);
-  c.add("frame_every", std::max(1L, std::lround(interval / time_step)));
-  c.add("thermo", std::max(1L, steps / 20));
+  c.add("young", young_for(options.contact_time, options.speed, largest.radius, largest.mass, poisson),
+        "poisson", poisson, "gravity", fmt::format("{}", fmt::join(mill.gravity, ", ")), "reach",
+        1.5 * mill.motion.reach(mill.vessel.reach()), "skin", largest.radius / 2);
+  c.add("begin", begin, "time_step", time_step, "steps", steps, "frame_every",
+        std::max(1L, std::lround(interval / time_step)), "thermo", std::max(1L, steps / 20));
   return options.code == "lammps"     ? lammps_deck(c)
          : options.code == "liggghts" ? liggghts_deck(c)
                                       : yade_deck(c);

@@ -126,18 +126,10 @@ void put_stepping(io::JsonText& json, const TimeStepping& stepping) {
   for (const auto& sign : signs)
     if (const auto& time = stepping.*sign.time) json.add(sign.key, *time);
   if (stepping.second_order) json.add("order", 2);
-  if (const auto& soft = stepping.soft) {
-    json.begin("soft_contacts");
-    json.add("duration", soft->duration);
-    json.add("low", soft->low);
-    json.add("high", soft->high);
-    json.add("logged_at", soft->at == LoggedAt::begin ? "begin" : "end");
-    json.add("contacts", soft->contacts);
-    json.add("exponent", soft->exponent);
-    json.add("spring", soft->spring);
-    json.add("modulus", soft->modulus);
-    json.end();
-  }
+  if (const auto& soft = stepping.soft)
+    json.add_group("soft_contacts", "duration", soft->duration, "low", soft->low, "high", soft->high,
+                   "logged_at", soft->at == LoggedAt::begin ? "begin" : "end", "contacts", soft->contacts,
+                   "exponent", soft->exponent, "spring", soft->spring, "modulus", soft->modulus);
   json.end();
 }
 
@@ -145,35 +137,24 @@ void put_stepping(io::JsonText& json, const TimeStepping& stepping) {
 
 void put_json(io::JsonText& json, const Identification& found) {
   json.begin("identified");
-  json.add("events", found.events);
-  json.add("violations", found.violations);
+  json.add("events", found.events, "violations", found.violations);
   if (found.too_few) json.add("ended", "too few impacts");
   if (found.interrupted) json.add("ended", "interrupted");
   if (found.follows) json.add("follows", *found.follows);
-  json.begin("tried");
-  json.add("numbers", found.tried.numbers);
-  json.add("mistakes", found.tried.mistakes);
-  json.add("parts", found.tried.parts);
-  json.add("stages", fmt::format("{}", fmt::join(found.tried.stages, "; ")));
-  json.end();
+  json.add_group("tried", "numbers", found.tried.numbers, "mistakes", found.tried.mistakes, "parts",
+                 found.tried.parts, "stages", fmt::format("{}", fmt::join(found.tried.stages, "; ")));
   json.begin("causes");
   for (std::size_t k = 0; k < found.causes.size(); ++k) {
     const auto& cause = found.causes[k];
     json.begin(std::to_string(k + 1));
-    json.add("text", cause.text());
-    json.add("explains", cause.explains);
+    json.add("text", cause.text(), "explains", cause.explains);
     if (!cause.others.empty()) json.add("others", cause.others);
-    if (cause.could_follow > 0) {
-      json.add("follows", cause.follows);
-      json.add("could_follow", cause.could_follow);
-    }
+    if (cause.could_follow > 0) json.add("follows", cause.follows, "could_follow", cause.could_follow);
     json.add("gain", cause.gain);
     json.numbered("mistakes", cause.mistakes);
     const auto key_of = [](const Found& v) { return v.number.key; };
     json.groups("values", cause.values, key_of, [&](const auto& v) {
-      json.add("value", v.value);
-      json.add("half_width", v.half_width);
-      json.add("nominal", v.number.value);
+      json.add("value", v.value, "half_width", v.half_width, "nominal", v.number.value);
       if (!v.number.in_place_of.empty()) json.add("in_place_of", v.number.in_place_of);
       if (!v.number.equation.empty()) json.add("equation", v.number.equation);
     });
