@@ -61,8 +61,8 @@ edmill_take_rooms(edmill_core core/base core/model core/dynamics core/engine cor
 edmill_together(double ${double})
 edmill_together(wide ${wide})
 set_property(SOURCE ${CMAKE_SOURCE_DIR}/src/bindings/core_alone/toml.cpp PROPERTY SKIP_PRECOMPILE_HEADERS ON)
-add_executable(edmill_core_alone src/bindings/core_alone/main.cpp src/program/app/run.cpp src/pages/report/result_table.cpp
-               src/run/run/make_run.cpp)
+add_executable(edmill_core_alone src/bindings/core_alone/main.cpp src/program/app/run.cpp src/program/cli/exit_codes.cpp
+               src/pages/report/result_table.cpp src/run/run/make_run.cpp)
 set_target_properties(edmill_core_alone PROPERTIES OUTPUT_NAME edmill-core)
 target_link_libraries(edmill_core_alone PRIVATE edmill_core)
 

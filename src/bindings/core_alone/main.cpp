@@ -1,7 +1,4 @@
 // Runs of cases by the core alone, for machines that have none of the libraries of the whole program.
-#include <atomic>
-#include <csignal>
-#include <cstring>
 #include <string>
 #include <vector>
 
@@ -23,9 +20,6 @@ namespace cli = edmill::cli;
 constexpr const char* usage =
     "usage: edmill-core [--checkpoint INTERVAL] CASE.toml FOLDER double|float128 [key=value ...]\n"
     "       edmill-core resume FOLDER\n";
-
-std::atomic<bool> interrupted{false};
-volatile std::sig_atomic_t last_signal = 0;
 
 using Words = std::vector<std::string>;
 
@@ -63,40 +57,25 @@ RunResult run(const Words& words, RunOptions options) {
   return edmill::app::run(precision, spec, options);
 }
 
-int with_signal(int code) { return code == cli::interrupted ? code + last_signal : code; }
-
-int tell(const RunResult& result) {
-  if (!result.error.empty()) edmill::io::tell("edmill-core: {}\n", result.error);
-  edmill::io::print_text(result.table);
-  if (const int error = edmill::io::output_error()) {
-    edmill::io::tell("edmill-core: standard output: {}\n", std::strerror(error));
-    return cli::internal_error;
+int do_command(const Words& words) {
+  if (!looks_right(words)) {
+    edmill::io::tell_text(usage);
+    return cli::bad_input;
   }
-  return with_signal(cli::code_of(result.end_reason));
+  RunOptions options;
+  options.interrupt = &cli::interrupt_flag();
+  options.begun = cli::listen_for_signals;
+  options.without_locks = [](const auto& place) {
+    edmill::io::tell("edmill: {}: this file system has no locks\n", place.string());
+  };
+  const auto result = words[0] == "resume" ? resume(words, options) : run(words, options);
+  if (!result.error.empty()) edmill::io::tell("edmill: {}\n", result.error);
+  edmill::io::print_text(result.table);
+  return cli::plus_signal(cli::code_of(result.end_reason));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const Words words(argv + 1, argv + argc);
-  if (!looks_right(words)) return edmill::io::tell_text(usage), cli::bad_input;
-  for (const int signal : {SIGINT, SIGTERM})
-    std::signal(signal, [](int number) {
-      last_signal = number;
-      interrupted = true;
-    });
-  RunOptions options;
-  options.interrupt = &interrupted;
-  options.without_locks = [](const auto& place) {
-    edmill::io::tell("edmill-core: {}: this file system has no locks\n", place.string());
-  };
-  try {
-    return tell(words[0] == "resume" ? resume(words, options) : run(words, options));
-  } catch (const InputError& error) {
-    for (const auto& problem : error.problems()) edmill::io::tell("{}\n", problem);
-    return cli::bad_input;
-  } catch (const std::exception& error) {
-    edmill::io::tell("edmill-core: {}\n", error.what());
-    return interrupted ? with_signal(cli::interrupted) : cli::internal_error;
-  }
+  return cli::as_program([&] { return do_command({argv + 1, argv + argc}); });
 }

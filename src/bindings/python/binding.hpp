@@ -60,7 +60,7 @@ class Unlocked {
  public:
   Unlocked() : state_(PyEval_SaveThread()) {}
   ~Unlocked() {
-    call_python([this] { return PyEval_RestoreThread(state_), 0; });
+    call_python([this] { PyEval_RestoreThread(state_); });
   }
 
  private:

@@ -214,19 +214,9 @@ py::tuple deck_of(const Case& the_case, const std::string& code, const std::stri
 py::dict import_dump(const Case& the_case, const std::string& dump, const std::string& out,
                      const std::string& deck, std::optional<double> time_step,
                      std::optional<std::string> units, bool in_vessel) {
-  dem::ImportOptions options;
-  options.dump = dump;
-  options.deck = deck;
-  options.time_step = time_step;
-  options.units = units;
-  options.in_vessel = in_vessel;
-  const auto imported = with_interrupt(options, [&](const dem::ImportOptions& o) {
-    io::NamedFile file(out);
-    dem::ContactLogWriter log;
-    auto result = dem::import_dump(CaseAccess::spec(the_case), o, log);
-    file.write([&](std::ostream& stream) { log.write(stream, result.facts); });
-    return result;
-  });
+  const dem::ImportOptions options{
+      .dump = dump, .log = out, .deck = deck, .time_step = time_step, .units = units, .in_vessel = in_vessel};
+  const auto imported = with_interrupt(options, dem::import_dump, CaseAccess::spec(the_case));
   py::dict classes;
   const auto& facts = imported.facts;
   for (std::size_t k = 0; k < dem::contact_class_names.size(); ++k)

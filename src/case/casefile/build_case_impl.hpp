@@ -231,7 +231,10 @@ class Crowd {
     for (const auto& ball : balls_) begin_.push_back(ball.place);
     pairs_.clear();
     Place low = begin_.front(), high = low;
-    for (const auto& p : begin_) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    for (const auto& p : begin_) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
     std::array<int, 3> cells;
     for (int axis = 0; axis < 3; ++axis)
       cells[axis] = static_cast<int>(std::clamp((high[axis] - low[axis]) / (widest_ + skin()), 1.0, 64.0));

@@ -54,7 +54,7 @@ struct ContactAudit {
   std::string case_name, log_name;
   ContactLogFacts facts;
   compare::Verdict verdict = compare::Verdict::too_few;
-  std::array<std::uint64_t, contact_class_names.size()> counts{};
+  ByClass<std::uint64_t> counts{};
   double magnitude = 0;  ///< sum of the doses of all contacts, each without its sign [J]
   std::uint64_t missed_at_walls = 0, missed_between_balls = 0;
   std::vector<Judged> judged;

@@ -83,6 +83,15 @@ ContactLogFacts read_facts(const std::string& file) {
 
 double ContactLogFacts::dose() const { return std::accumulate(doses.begin(), doses.end(), 0.0); }
 
+std::string class_table(const ByClass<double>& doses, const ByClass<std::uint64_t>& counts) {
+  auto out = fmt::format("  {:<14}{:>10}{:>13}\n", "contacts", "number", "of the dose");
+  const double all = std::accumulate(doses.begin(), doses.end(), 0.0);
+  for (std::size_t k = 0; k < doses.size(); ++k)
+    out += fmt::format("  {:<14}{:>10}{:>12.2f}%\n", contact_class_names[k], counts[k],
+                       all != 0 ? 100 * doses[k] / all : 0);
+  return out;
+}
+
 ContactLogWriter::ContactLogWriter() : rows_(std::tmpfile(), std::fclose) {
   if (!rows_)
     throw InputError("found no room for a temporary file, expected a folder for them that can be written");

@@ -24,24 +24,20 @@ struct Window {
   bool compared = false;  ///< with that of another record: nothing beside it counts, and it is not empty
 };
 
-/// @param transient  until when a run that it is compared with takes no statistics, which a log leaves out,
-/// too, if it is long enough [s]
-ContactRates rates_of_contacts(const std::string& file, const Window& window, double transient) {
-  ContactLogReader log(file);
-  ContactRates r{.log = file};
-  if (log.facts().last < 2 * transient) transient = 0;
-  r.first = std::max({window.from, log.facts().first, transient});
-  r.last = std::min(window.until, log.facts().last);
+/// The rates of a record within a window. @param what  it consists of @param next  gives the next contact
+ContactRates rates_of(const std::string& log, const char* what, double first, double last,
+                      const Window& window, const auto& next) {
+  ContactRates r{.log = log, .first = std::max(first, window.from), .last = std::min(last, window.until)};
   if (window.compared && !(r.last > r.first))
-    throw InputError(file + ": found no frames in the time that is compared, expected some");
+    throw InputError(fmt::format("{}: found no {} in the time that is compared, expected some", log, what));
   if (!window.compared && !(r.last > window.from))
-    throw InputError(fmt::format("{}: found a record that ends at {} s, expected one beyond {} s", file,
+    throw InputError(fmt::format("{}: found a record that ends at {} s, expected one beyond {} s", log,
                                  r.last, window.from));
   DoseRate rate(r.first, r.last);
   std::vector<double> durations;
   double all = 0, grouped = 0;
   std::uint64_t singles = 0;
-  while (const auto c = log.next()) {
+  while (const std::optional<Contact> c = next()) {
     const double time = (c->begin + c->end) / 2;
     if (window.compared && (time < r.first || time > r.last)) continue;
     rate.add(time, c->dose);
@@ -53,7 +49,7 @@ ContactRates rates_of_contacts(const std::string& file, const Window& window, do
   }
   if (!window.compared && durations.size() < 20)
     throw InputError(
-        fmt::format("{}: found {} single contacts with walls, expected at least 20", file, durations.size()));
+        fmt::format("{}: found {} single {} with walls, expected at least 20", log, durations.size(), what));
   r.dose_rate = rate.mean();
   r.half_width = rate.half_width();
   r.contact_time = median_of(std::move(durations)).value;
@@ -62,29 +58,29 @@ ContactRates rates_of_contacts(const std::string& file, const Window& window, do
   return r;
 }
 
+/// @param transient  until when a run that it is compared with takes no statistics, which a log leaves out,
+/// too, if it is long enough [s]
+ContactRates rates_of_contacts(const std::string& file, const Window& window, double transient) {
+  ContactLogReader log(file);
+  const double first = log.facts().first, last = log.facts().last;
+  return rates_of(file, "contacts", last < 2 * transient ? first : std::max(first, transient), last, window,
+                  [&] { return log.next(); });
+}
+
 ContactRates rates_of_impacts(const std::string& place, const Window& window) {
   const auto scan = logs::scan_log(place);
   if (!scan.has[model::milling_dose])
     throw InputError(scan.file + ": found no column milling_dose, expected " +
                      (window.compared ? "one: the dose is compared" : "that of edmill's collision log"));
-  ContactRates r{.log = place};
-  r.first = std::max(window.from, scan.statistics_start.value_or(scan.first));
-  r.last = std::min(window.until, scan.last);
-  if (window.compared && !(r.last > r.first))
-    throw InputError(scan.file + ": found no impacts in the time that is compared, expected some");
-  DoseRate rate(r.first, r.last);
-  std::uint64_t impacts = 0;
   logs::EventLog log(place);
-  while (const auto event = log.next()) {
-    const double time = event->time;
-    if (window.compared && (time < r.first || time > r.last)) continue;
-    rate.add(time, event->milling_dose);
-    ++impacts;
-  }
-  r.dose_rate = rate.mean();
-  r.half_width = rate.half_width();
-  r.single_rate = static_cast<double>(impacts) / (r.last - r.first);
-  return r;
+  return rates_of(place, "impacts", scan.statistics_start.value_or(scan.first), scan.last, window, [&] {
+    const auto event = log.next();
+    if (!event) return std::optional<Contact>();
+    return std::optional(Contact{.kind = event->with_wall ? ContactClass::wall : ContactClass::pair,
+                                 .begin = event->time,
+                                 .end = event->time,
+                                 .dose = event->milling_dose});
+  });
 }
 
 std::string sentence(const ContactComparison& c) {
@@ -231,32 +227,26 @@ std::string to_json(const Limit& limit) {
 }
 
 std::string to_svg(const Limit& limit) {
-  plot::Chart chart;
-  chart.id = "limit";
-  chart.title = "dose rate over contact time";
-  chart.description = "dose rates of runs with contacts of several durations, and their limit";
-  double low = INFINITY, high = -INFINITY;
-  auto all = limit.points;
-  all.push_back(limit.at_zero);
-  if (limit.to_edmill) all.push_back(limit.to_edmill->a);
-  for (const auto& r : all) {
-    low = std::min(low, r.dose_rate - r.half_width);
-    high = std::max(high, r.dose_rate + r.half_width);
-  }
-  const double last = limit.points.front().contact_time, room = 0.08 * (high - low);
-  chart.x = {"contact time [us]", 0, 1.08e6 * last};
-  chart.y = {"dose rate [W]", low - room, high + room};
-  const auto bar = [&](double time, const ContactRates& r, const char* colour, const char* name) {
-    const double x = 1e6 * time;
-    chart.curves.push_back(
-        {name, colour, {{x, r.dose_rate - r.half_width}, {x, r.dose_rate + r.half_width}}});
+  const double last = 1e6 * limit.points.front().contact_time, value = limit.at_zero.dose_rate;
+  plot::Chart chart{"limit",
+                    "dose rate over contact time",
+                    "dose rates of runs with contacts of several durations, and their limit",
+                    {"contact time [us]", 0, 1.08 * last},
+                    {"dose rate [W]", INFINITY, -INFINITY}};
+  chart.curves.push_back({"line", "c0", {{0, value}, {last, value + 1e-6 * limit.slope * last}}});
+  const auto bar = [&](double x, const ContactRates& r, const char* colour, const char* name) {
+    const double low = r.dose_rate - r.half_width, high = r.dose_rate + r.half_width;
+    chart.y.low = std::min(chart.y.low, low);
+    chart.y.high = std::max(chart.y.high, high);
+    chart.curves.push_back({name, colour, {{x, low}, {x, high}}});
   };
-  const double value = limit.at_zero.dose_rate;
-  chart.curves.push_back({"line", "c0", {{0, value}, {1e6 * last, value + limit.slope * last}}});
-  bool first = true;
-  for (const auto& p : limit.points) bar(p.contact_time, p, "c1", std::exchange(first, false) ? "runs" : "");
+  for (const auto& p : limit.points)
+    bar(1e6 * p.contact_time, p, "c1", &p == &limit.points.front() ? "runs" : "");
   bar(0.004 * last, limit.at_zero, "c0", "limit");
   if (limit.to_edmill) bar(0.012 * last, limit.to_edmill->a, "c2", "edmill");
+  const double room = 0.08 * (chart.y.high - chart.y.low);
+  chart.y.low -= room;
+  chart.y.high += room;
   std::ostringstream out;
   plot::save(out, chart);
   return out.str();

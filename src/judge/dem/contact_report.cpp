@@ -34,16 +34,11 @@ std::string table(const ContactAudit& a) {
   const auto& f = a.facts;
   std::string out = fmt::format(
       "{}: {} contacts in {} frames, {:.3g} s apart, {:g} s to {:g} s; a contact lasts {:.3g} s{}\n"
-      "judged by {}\n\n  {:<14}{:>10}{:>12}\n",
+      "judged by {}\n\n{}\n"
+      "  dose rate, by the balance of energy: {:.4g} ± {:.2g} W\n\n  {:<44}{:<28}{:>10}{:>10}  {}\n",
       a.log_name, f.contacts, f.frames, f.statistics.interval, f.first, f.last, f.statistics.contact_time,
-      a.interrupted ? " (interrupted)" : "", a.case_name, "contacts", "number", "of the dose");
-  const double dose = f.dose();
-  for (std::size_t k = 0; k < contact_class_names.size(); ++k)
-    out += fmt::format("  {:<14}{:>10}{:>11.2f}%\n", contact_class_names[k], a.counts[k],
-                       dose != 0 ? 100 * f.doses[k] / dose : 0);
-  out += fmt::format(
-      "\n  dose rate, by the balance of energy: {:.4g} ± {:.2g} W\n\n  {:<44}{:<28}{:>10}{:>10}  {}\n",
-      a.dose_rate, a.dose_rate_half_width, "value", "found, 95 % interval", "case", "allowed", "");
+      a.interrupted ? " (interrupted)" : "", a.case_name, class_table(f.doses, a.counts), a.dose_rate,
+      a.dose_rate_half_width, "value", "found, 95 % interval", "case", "allowed", "");
   for (const auto& j : a.judged)
     if (!j.is_part || !j.agrees() || j.is_open())
       out += j.known() ? fmt::format("  {:<44}{:<28}{:>10.5g}{:>10.2g}  {}\n", j.name, interval(j.found),

@@ -24,6 +24,8 @@ namespace edmill::dem {
 enum class ContactClass { wall, pair, several, lasting, unexplained, missed, jump };
 inline constexpr std::array<const char*, 7> contact_class_names{"wall",        "pair",   "several", "lasting",
                                                                 "unexplained", "missed", "jump"};
+template <class Value>
+using ByClass = std::array<Value, contact_class_names.size()>;
 
 /// One contact, or a group of bodies whose contacts overlap in time. Of a single one the states are those at
 /// the touch and at the detachment, by the flights before and after; of others those of the frames around it.
@@ -118,7 +120,7 @@ struct ContactLogFacts {
   double mass_factor = 1,
          radius_factor = 1;  ///< of the dump's balls over the case's; 0 where it does not have them
   int facets = 0;            ///< of the prism that stands for a round wall; 0 for a round wall
-  std::array<double, contact_class_names.size()> doses{};  ///< by class [J]
+  ByClass<double> doses{};   ///< [J]
 
   /// The head of a log.
   static void fields(auto& self, auto&& field) {
@@ -142,6 +144,9 @@ struct ContactLogFacts {
   double dose() const;
   double duration() const { return last - first; }
 };
+
+/// Number of contacts of each class, and their share of the dose. @param doses  [J]
+std::string class_table(const ByClass<double>& doses, const ByClass<std::uint64_t>& counts);
 
 /// Collects rows on disk until the facts are known.
 class ContactLogWriter {

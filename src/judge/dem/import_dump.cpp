@@ -11,6 +11,7 @@
 #include "casefile/build_case.hpp"
 #include "dem/contacts.hpp"
 #include "dem/statistics.hpp"
+#include "io/output_folder.hpp"
 
 namespace edmill::dem {
 
@@ -36,7 +37,8 @@ void put_in_axes(BallState& ball, const identify::Axes& axes) {
 
 }  // namespace
 
-Imported import_dump(const casefile::CaseSpec& spec, const ImportOptions& options, ContactLogWriter& log) {
+Imported import_dump(const casefile::CaseSpec& spec, const ImportOptions& options) {
+  io::NamedFile file(options.log);
   const auto built = casefile::build_case<double>(spec);
   const auto& balls = built.the_case.balls;
   DumpFormat format{options.time_step, options.units.value_or("si")};
@@ -71,13 +73,14 @@ Imported import_dump(const casefile::CaseSpec& spec, const ImportOptions& option
   for (Frame frame; head.size() < first_frames && next(frame);) head.push_back(frame);
   if (head.size() < 3)
     throw InputError(fmt::format("{}: found {} frames, expected at least 3", options.dump, head.size()));
-  Imported result;
+  Imported result{.log = options.log};
   auto& facts = result.facts;
   facts.dump = options.dump;
   facts.facets = facets;
   facts.statistics = statistics_of(head, built.the_case.mill.gravity);
   facts.mass_factor = factor_of(ratios_of(reader.masses(), balls, &model::BallProperties<double>::mass));
   facts.radius_factor = factor_of(ratios_of(reader.radii(), balls, &model::BallProperties<double>::radius));
+  ContactLogWriter log;
   ContactFinder finder(vessel, facts.statistics, [&](const Contact& contact) {
     result.count(contact);
     log.add(contact);
@@ -95,6 +98,7 @@ Imported import_dump(const casefile::CaseSpec& spec, const ImportOptions& option
     if (result.interrupted) break;
   }
   finder.finish();
+  file.write([&](std::ostream& out) { log.write(out, facts); });
   return result;
 }
 
@@ -115,17 +119,14 @@ identify::Axes axes_from(const std::string& text) {
   return axes;
 }
 
-std::string table(const Imported& r, const std::string& log) {
+std::string table(const Imported& r) {
   const auto& f = r.facts;
-  std::string out = fmt::format(
-      "{}: {} frames, {:.3g} s apart, {:g} s to {:g} s{}\n{} contacts, to {}\n\n  {:<14}{:>10}{:>13}\n",
+  return fmt::format(
+      "{}: {} frames, {:.3g} s apart, {:g} s to {:g} s{}\n{} contacts, to {}\n\n{}\n"
+      "  milling dose, by the balance of energy: {:.6g} J, {:.4g} W\n",
       f.dump, f.frames, f.statistics.interval, f.first, f.last, r.interrupted ? " (interrupted)" : "",
-      f.contacts, log, "contacts", "number", "of the dose");
-  for (std::size_t k = 0; k < contact_class_names.size(); ++k)
-    out += fmt::format("  {:<14}{:>10}{:>12.2f}%\n", contact_class_names[k], r.counts[k],
-                       f.dose() != 0 ? 100 * f.doses[k] / f.dose() : 0);
-  return out + fmt::format("\n  milling dose, by the balance of energy: {:.6g} J, {:.4g} W\n", f.dose(),
-                           f.duration() > 0 ? f.dose() / f.duration() : 0);
+      f.contacts, r.log, class_table(f.doses, r.counts), f.dose(),
+      f.duration() > 0 ? f.dose() / f.duration() : 0);
 }
 
 }  // namespace edmill::dem

@@ -13,7 +13,7 @@
 namespace edmill::dem {
 
 struct ImportOptions {
-  std::string dump;
+  std::string dump, log;             ///< files to read and to write
   std::string deck;                  ///< that made it: tells time step, units and frame; none when empty
   std::optional<double> time_step;   ///< [s]
   std::optional<std::string> units;  ///< "si", "cgs", "mm", ...
@@ -21,12 +21,13 @@ struct ImportOptions {
   identify::Axes axes{};             ///< of the case, in those of the dump
   bool in_vessel = false;            ///< places and velocities are those in the vessel's frame
   const std::atomic<bool>* interrupt = nullptr;
-  std::function<void(double time, std::uint64_t contacts)> progress;
+  std::function<void(double time, std::uint64_t contacts)> progress = {};
 };
 
 struct Imported {
-  ContactLogFacts facts;
-  std::array<std::uint64_t, contact_class_names.size()> counts{};
+  std::string log;
+  ContactLogFacts facts = {};
+  ByClass<std::uint64_t> counts{};
   bool interrupted = false;  ///< what was read until then is in the log
 
   void count(const Contact& contact) {
@@ -37,11 +38,11 @@ struct Imported {
   }
 };
 
-/// Memory does not depend on the length of a dump of frames.
+/// Writes the log of contacts. Memory does not depend on the length of a dump of frames.
 /// @throws InputError when it cannot be read, lacks what is needed or has other balls than the case
-Imported import_dump(const casefile::CaseSpec& spec, const ImportOptions& options, ContactLogWriter& log);
+Imported import_dump(const casefile::CaseSpec& spec, const ImportOptions& options);
 
-std::string table(const Imported& imported, const std::string& log);
+std::string table(const Imported& imported);
 
 /// "x z -y": the case's X is the dump's x, its Y the dump's z, its Z the dump's -y. @throws InputError
 identify::Axes axes_from(const std::string& text);

@@ -151,7 +151,10 @@ std::string mill_drawing(const model::Mill<double>& mill) {
   for (const auto& vessel : p.vessel) all.insert(all.end(), vessel.begin(), vessel.end());
   for (const auto& mark : p.joints) all.push_back(mark.from);
   Vec3<double> low = all.front(), high = low;
-  for (const auto& q : all) low = low.cwiseMin(q), high = high.cwiseMax(q);
+  for (const auto& q : all) {
+    low = low.cwiseMin(q);
+    high = high.cwiseMax(q);
+  }
   const Vec3<double> middle = (low + high) / 2;
   const double scale = panel / (high - low).maxCoeff();
 

@@ -148,7 +148,9 @@ void add_speeds_over_time(pugi::xml_node grid, const RunFolder& run) {
     }
     const double time = (table.numbers[first][0] + table.numbers[last - 1][0]) / 2;
     mean.points.emplace_back(time, sum / static_cast<double>(last - first));
-    range.x.push_back(time), range.low.push_back(low), range.high.push_back(high);
+    range.x.push_back(time);
+    range.low.push_back(low);
+    range.high.push_back(high);
   }
   chart.curves.push_back(std::move(mean));
   chart.bands.push_back(std::move(range));

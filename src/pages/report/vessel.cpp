@@ -171,7 +171,10 @@ void add_sizes(pugi::xml_node section, const std::vector<Ball>& balls) {
   for (const auto& kind : by_size(balls)) {
     const auto [least, most] = std::ranges::minmax_element(kind, {}, &Ball::dose_rate);
     Ball all{0, 0};
-    for (const auto& ball : kind) all.dose_rate += ball.dose_rate, all.area += ball.area;
+    for (const auto& ball : kind) {
+      all.dose_rate += ball.dose_rate;
+      all.area += ball.area;
+    }
     rows.push_back({fmt::format("{} of {} mm", kind.size(), diameters_of(kind)),
                     readable(all.dose_rate / static_cast<double>(kind.size()), 3),
                     readable(least->dose_rate, 3), readable(most->dose_rate, 3),

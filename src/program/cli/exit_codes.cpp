@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <gmp.h>
 #include <unistd.h>
 
 #include <array>
@@ -18,6 +17,9 @@
 #include "io/atomic_file.hpp"
 #include "io/input_file.hpp"
 #include "io/terminal.hpp"
+#ifndef EDMILL_WITHOUT_MPFR
+#include <gmp.h>
+#endif
 
 namespace edmill::cli {
 
@@ -26,11 +28,6 @@ namespace {
 int failed(const std::string& problem, int code = internal_error) {
   print_problem(problem);
   return code;
-}
-
-void* or_throw(void* memory) {
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
 }
 
 std::atomic<bool> flag{false};
@@ -56,17 +53,22 @@ bool is_ignored(int signal) {
 /// Libraries may take signals before `main`, as UCX does, which comes with Debian 13's MPI: what the program
 /// was started with is noted before they are initialised.
 bool hangup_is_ignored = false;
+#ifdef __ELF__
 void note_hangup(int, char**, char**) { hangup_is_ignored = is_ignored(SIGHUP); }
 [[gnu::section(".preinit_array"), gnu::used]] void (*const before_libraries)(int, char**,
                                                                              char**) = note_hangup;
+#endif
 
 /// GMP ends the program when there is no memory; from here on it throws `std::bad_alloc`. Its functions are
 /// those of the whole process, so that the program may set them and the library may not.
 void throw_for_lack_of_memory() {
+#ifndef EDMILL_WITHOUT_MPFR
+  static const auto or_throw = [](void* memory) { return memory ? memory : throw std::bad_alloc(); };
   mp_set_memory_functions(
       [](std::size_t size) { return or_throw(std::malloc(size)); },
       [](void* old, std::size_t, std::size_t size) { return or_throw(std::realloc(old, size)); },
       [](void* memory, std::size_t) { std::free(memory); });
+#endif
 }
 
 /// Gives the stack its size: one that cannot grow ends the program without a word.

@@ -58,7 +58,10 @@ class Search {
 
   /// Takes runs from the budget, where it has so many.
   bool spend(std::uint64_t runs) {
-    if (used_ + runs > spec_.runs_max) return out_of_budget_ = true, false;
+    if (used_ + runs > spec_.runs_max) {
+      out_of_budget_ = true;
+      return false;
+    }
     used_ += runs;
     return true;
   }

@@ -53,14 +53,9 @@ class Files {
     dem::ImportOptions options;
     options.dump = folder_ / "frames.dump";
     options.time_step = time_step_;
-    dem::ContactLogWriter writer;
-    const auto imported = dem::import_dump(spec, options, writer);
-    const auto log = folder_ / "contacts.csv";
-    {
-      std::ofstream out(log);
-      writer.write(out, imported.facts);
-    }
-    return dem::audit_contacts(spec, log, nullptr);
+    options.log = folder_ / "contacts.csv";
+    dem::import_dump(spec, options);
+    return dem::audit_contacts(spec, options.log, nullptr);
   }
 
  private:

@@ -104,7 +104,7 @@ struct Import : CaseCommand<dem::ImportOptions> {
                     "compressed; - for standard input")
         ->required();
     given_.add_to(command, "--case");
-    command.add_option("--out", out_, "log of contacts (CSV; default: contacts.csv)");
+    command.add_option("--out", options_.log, "log of contacts (CSV; default: contacts.csv)");
     command.add_option("--deck", options_.deck, "input of the code, which gives time step, units and frame");
     add_quantity(command, "--timestep", options_.time_step, casefile::Dimension::time,
                  "of a dump that has no times");
@@ -123,7 +123,7 @@ struct Import : CaseCommand<dem::ImportOptions> {
   }
   int run() {
     options_.in_vessel = frame_ == "vessel";
-    if (out_.empty()) out_ = "contacts.csv";
+    if (options_.log.empty()) options_.log = "contacts.csv";
     if (!axes_.empty()) options_.axes = dem::axes_from(axes_);
     for (std::size_t k = 0; k < shift_.size(); ++k)
       options_.origin[static_cast<Eigen::Index>(k)] =
@@ -134,18 +134,15 @@ struct Import : CaseCommand<dem::ImportOptions> {
         options.progress = [&line](double time, std::uint64_t contacts) {
           line.show(time, std::nullopt, contacts);
         };
-      io::NamedFile file(out_);
-      dem::ContactLogWriter log;
-      const auto imported = dem::import_dump(spec, options, log);
+      const auto imported = dem::import_dump(spec, options);
       line.clear();
-      file.write([&](std::ostream& out) { log.write(out, imported.facts); });
-      if (!quiet_) io::print("{}", dem::table(imported, out_));
+      if (!quiet_) io::print("{}", dem::table(imported));
       return ok;
     });
   }
 
  private:
-  std::string out_, frame_, axes_;
+  std::string frame_, axes_;
   std::vector<std::string> shift_;
 };
 
