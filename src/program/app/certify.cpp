@@ -42,7 +42,8 @@ using run::Number;
 
 /// Number of events to the end of the case: a run in double has about as many as the true motion.
 /// @param progress  called with the scalar and the number of events so far
-double count_events(const casefile::CaseSpec& spec, const std::atomic<bool>* interrupt, const auto& progress) {
+double count_events(const casefile::CaseSpec& spec, const std::atomic<bool>* interrupt,
+                    const auto& progress) {
   constexpr double longest = 5;  // [s] of processor time
   const auto source = run::make_source("double", spec, true, interrupt);
   const double begin = run::cpu_seconds(), first = source->reached();
@@ -108,11 +109,12 @@ class Certifier {
   Certifier(const casefile::CaseSpec& spec, const CertifyOptions& options)
       : spec_(spec),
         options_(options),
-        expected_(options.collisions > 0
-                      ? static_cast<double>(options.collisions)
-                      : count_events(spec, options.interrupt, [&](const std::string& precision, double events) {
-                          options.progress(precision, static_cast<std::size_t>(events));
-                        })) {}
+        expected_(
+            options.collisions > 0
+                ? static_cast<double>(options.collisions)
+                : count_events(spec, options.interrupt, [&](const std::string& precision, double events) {
+                    options.progress(precision, static_cast<std::size_t>(events));
+                  })) {}
 
   /// In the fixed scalars, then with as many digits as the last two lead to expect, and more where these do
   /// not suffice.

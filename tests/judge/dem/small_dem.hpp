@@ -178,7 +178,7 @@ class Run {
 
   Deck d;
   std::vector<V> x, v, w, f, torque;
-  std::vector<V> springs;                   ///< of each ball with the walls and with the balls before it
+  std::vector<V> springs;  ///< of each ball with the walls and with the balls before it
   double wall_stiffness = 0, pair_stiffness = 0;
 };
 
