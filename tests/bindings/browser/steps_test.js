@@ -21,7 +21,7 @@ function page_with(cost) {
   let now = 0, time = 0, impacts = 0;
   const context = vm.createContext({
     $: id => elements[id], read: () => ({demo: ''}), scene: null, frame: null, rates: [], last_dose: [0, 0], console,
-    document: {createElement: () => new Element(), addEventListener() {}}, Option: Element, draw() {}, show_facts() {}, turn() {},
+    document: {createElement: () => new Element(), addEventListener() {}}, Option: Element, draw() {}, show_facts() {}, view: {listen() {}},
     take(answer) { context.frame = answer; }, mill: {start: async () => {}, stop() {}}, judging: {stop() {}},
     requestAnimationFrame: picture => setImmediate(() => picture(now += 16)),
     ask: async message => {
