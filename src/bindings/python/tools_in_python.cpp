@@ -11,9 +11,9 @@
 #include "app/run.hpp"
 #include "app/study.hpp"
 #include "base/errors.hpp"
+#include "decks/deck.hpp"
 #include "dem/contact_rates.hpp"
 #include "dem/contacts.hpp"
-#include "dem/deck.hpp"
 #include "dem/import_dump.hpp"
 #include "io/output_folder.hpp"
 #include "machines/machines.hpp"
@@ -203,7 +203,7 @@ void resume(const std::string& folder, const std::string& interval) {
 py::tuple deck_of(const Case& the_case, const std::string& code, const std::string& name, double contact_time,
                   double speed, std::optional<double> duration, std::optional<double> frames, int steps,
                   int facets) {
-  const auto deck = dem::make_deck(
+  const auto deck = decks::make_deck(
       CaseAccess::spec(the_case),
       {code, name, contact_time, speed, duration.value_or(0), frames.value_or(0), steps, facets});
   py::list files;

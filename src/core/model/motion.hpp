@@ -152,6 +152,10 @@ class AnyMotion {
   EDMILL_OF_MOTION(Real, acceleration_in_vessel)
   EDMILL_OF_MOTION(ErrorBounds<Real>, coordinate_errors)
   EDMILL_OF_MOTION(ErrorBounds<Real>, state_errors)
+  /// An inertial vector in components along the vessel's axes.
+  Vec3<Real> in_axes(const Pose& pose, const Vec3<Real>& v) const {
+    return {dot<Real>(axis_x(pose), v), dot<Real>(axis_y(pose), v), dot<Real>(axis_z(pose), v)};
+  }
 #undef EDMILL_BY_POSE
 #undef EDMILL_OF_MOTION
 

@@ -9,7 +9,7 @@
 
 #include "base/errors.hpp"
 #include "base/statistics.hpp"
-#include "dem/soft_contact.hpp"
+#include "decks/soft_contact.hpp"
 #include "identify/assumptions.hpp"
 
 namespace edmill::dem {
@@ -87,7 +87,7 @@ Measured measured_by(const Contact& c, const Vector& gravity, const Bodies& bodi
   const double separation = leave.separation / measured.approach, e = measured.law_restitution;
   // What presses before the bodies are closest is an approach, what presses later brakes; both alike have
   // the effect c.
-  measured.restitution = separation + (2 * press_effect(e) + e) * late - e * early;
+  measured.restitution = separation + (2 * decks::press_effect(e) + e) * late - e * early;
   const Vector left = leave.along - (flown_on.along - touch.along);
   if (measured.slip > 0)
     measured.slip_left = dot<double>(left, touch.along) / (measured.slip * measured.slip);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "dem/wall_mesh.hpp"
+#include "decks/wall_mesh.hpp"
 
 namespace edmill::dem {
 
@@ -33,7 +33,7 @@ double MovingVessel::gap(const Pose& pose, std::size_t ball, int wall, const Vec
   const Vector place = mill_.motion.position_in_vessel(pose, position);
   if (const auto* tube = prism(wall))
     return tube->radius - balls_[ball].radius -
-           dot<double>(place - tube->frame.origin, facet_normal(*tube, facets_, place));
+           dot<double>(place - tube->frame.origin, decks::facet_normal(*tube, facets_, place));
   return -inset(ball).overlap(wall, place);
 }
 
@@ -41,7 +41,7 @@ Vector MovingVessel::normal(const Pose& pose, std::size_t ball, int wall, const 
   const Vector p = mill_.motion.position_in_vessel(pose, position);
   const auto* tube = prism(wall);
   return mill_.motion.direction_to_inertial(
-      pose, tube ? Vector(-facet_normal(*tube, facets_, p)) : inset(ball).normal(wall, p));
+      pose, tube ? Vector(-decks::facet_normal(*tube, facets_, p)) : inset(ball).normal(wall, p));
 }
 
 double MovingVessel::energy(const Pose& pose, std::size_t ball, const BallState& state) const {
@@ -56,8 +56,8 @@ double MovingVessel::work(const Pose& from, const BallState& before, const Pose&
                           std::size_t ball, const Vector& gravity) const {
   const auto& m = mill_.motion;
   // Coriolis's force does no work.
-  const Vector force = in_axes(m, from, gravity - m.wall_acceleration(from, before.position)) +
-                       in_axes(m, to, gravity - m.wall_acceleration(to, after.position));
+  const Vector force = m.in_axes(from, gravity - m.wall_acceleration(from, before.position)) +
+                       m.in_axes(to, gravity - m.wall_acceleration(to, after.position));
   const Vector way = m.position_in_vessel(to, after.position) - m.position_in_vessel(from, before.position);
   const auto& b = balls_[ball];
   // The torque -J w' on a spin relative to the vessel.
@@ -72,10 +72,6 @@ BallState MovingVessel::inertial(const Pose& pose, const BallState& seen) const 
   const Vector place = m.to_inertial(pose, seen.position);
   return {place, m.direction_to_inertial(pose, seen.velocity) + m.wall_velocity(pose, place),
           m.direction_to_inertial(pose, seen.spin) + m.angular_velocity(pose)};
-}
-
-Vector in_axes(const model::AnyMotion<double>& m, const model::AnyPose<double>& pose, const Vector& v) {
-  return {dot<double>(m.axis_x(pose), v), dot<double>(m.axis_y(pose), v), dot<double>(m.axis_z(pose), v)};
 }
 
 BallState flown(const BallState& state, const Vector& gravity, double duration) {

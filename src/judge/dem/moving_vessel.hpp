@@ -58,10 +58,6 @@ class MovingVessel {
   std::vector<model::WallSurface<double>> surfaces_;
 };
 
-/// An inertial vector in components along the vessel's axes.
-Vector in_axes(const model::AnyMotion<double>& motion, const model::AnyPose<double>& pose,
-               const Vector& inertial);
-
 /// Free flight from a state.
 BallState flown(const BallState& state, const Vector& gravity, double duration);
 

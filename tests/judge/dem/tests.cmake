@@ -1,6 +1,4 @@
 edmill_test(lasting_contacts_test dem/lasting_contacts_test.cpp LONG SLOW TIMEOUT 600)
-edmill_test(soft_contact_test dem/soft_contact_test.cpp)
-edmill_test(wall_mesh_test dem/wall_mesh_test.cpp)
 edmill_test(frame_reader_test dem/frame_reader_test.cpp)
 add_executable(small_dem_dump judge/dem/small_dem_dump.cpp)
 target_compile_features(small_dem_dump PRIVATE cxx_std_20)

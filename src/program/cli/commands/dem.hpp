@@ -8,8 +8,8 @@
 #include "cli/commands/case_argument.hpp"
 #include "cli/commands/logs.hpp"
 #include "cli/exit_codes.hpp"
+#include "decks/deck.hpp"
 #include "dem/contact_rates.hpp"
-#include "dem/deck.hpp"
 #include "dem/import_dump.hpp"
 #include "io/output_folder.hpp"
 #include "io/progress_line.hpp"
@@ -39,7 +39,7 @@ CLI::Option* add_quantity(CLI::App& command, const std::string& name, auto& targ
       what);
 }
 
-struct Export : CaseCommand<dem::DeckOptions> {
+struct Export : CaseCommand<decks::DeckOptions> {
   static constexpr const char* name = "export";
   static constexpr const char* what = "write a case as the input of a DEM code";
 
@@ -48,7 +48,7 @@ struct Export : CaseCommand<dem::DeckOptions> {
     given_.add_to(command);
     command.add_option("--to", options_.code, "DEM code")
         ->required()
-        ->check(CLI::IsMember(std::vector<std::string>(dem::deck_codes.begin(), dem::deck_codes.end())));
+        ->check(CLI::IsMember(std::vector<std::string>(decks::deck_codes.begin(), decks::deck_codes.end())));
     command.add_option("--out", folder_, "folder for the deck (default: the working directory)");
     command.add_option("--name", options_.name, "base name of the files (default: deck)")
         ->check(problem_of_name);
@@ -71,7 +71,7 @@ struct Export : CaseCommand<dem::DeckOptions> {
   }
   int run() {
     const auto spec = given_.read();
-    const auto deck = dem::make_deck(spec, options_);
+    const auto deck = decks::make_deck(spec, options_);
     const std::filesystem::path folder(folder_);
     for (const auto& file : deck.files) io::NamedFile(folder / file.name).write(file.text);
     if (quiet_) return ok;

@@ -1,4 +1,4 @@
-#include "dem/soft_contact.hpp"
+#include "decks/soft_contact.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 
 #include "base/trigonometry.hpp"
 
-namespace edmill::dem {
+namespace edmill::decks {
 
 namespace {
 
@@ -96,4 +96,4 @@ double young_for(double contact_time, double speed, double radius, double mass, 
   return 2 * (1 - poisson * poisson) * effective;
 }
 
-}  // namespace edmill::dem
+}  // namespace edmill::decks

@@ -7,7 +7,7 @@
 
 #include "casefile/case_spec.hpp"
 
-namespace edmill::dem {
+namespace edmill::decks {
 
 struct DeckOptions {
   std::string code;             ///< one of deck_codes
@@ -35,4 +35,4 @@ struct Deck {
 /// @throws InputError for what a code cannot express, with the reason
 Deck make_deck(const casefile::CaseSpec& spec, const DeckOptions& options);
 
-}  // namespace edmill::dem
+}  // namespace edmill::decks

@@ -9,7 +9,7 @@
 #include "model/motion.hpp"
 #include "model/vessel.hpp"
 
-namespace edmill::dem {
+namespace edmill::decks {
 
 using Triangle = std::array<Vec3<double>, 3>;
 
@@ -31,4 +31,4 @@ Vec3<double> facet_normal(const model::Tube<double>& tube, int facets, const Vec
 std::string stl_text(std::span<const WallMesh> meshes, const model::AnyMotion<double>& motion,
                      const model::AnyPose<double>& pose);
 
-}  // namespace edmill::dem
+}  // namespace edmill::decks

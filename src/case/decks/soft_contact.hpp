@@ -2,7 +2,7 @@
 // 239, 1992), whose restitution does not depend on the speed.
 #pragma once
 
-namespace edmill::dem {
+namespace edmill::decks {
 
 /// What the damping does to bodies that separate: the force ends at zero, or pulls them back until they part.
 enum class Separation { free, attracts };
@@ -36,4 +36,4 @@ double formula_restitution(double damping);
 /// @param poisson  of both
 double young_for(double contact_time, double speed, double radius, double mass, double poisson);
 
-}  // namespace edmill::dem
+}  // namespace edmill::decks

@@ -1,10 +1,10 @@
-#include "dem/wall_mesh.hpp"
+#include "decks/wall_mesh.hpp"
 
 #include <fmt/ranges.h>
 
 #include <cmath>
 
-namespace edmill::dem {
+namespace edmill::decks {
 
 namespace {
 
@@ -78,4 +78,4 @@ std::string stl_text(std::span<const WallMesh> meshes, const model::AnyMotion<do
   return text + "endsolid walls\n";
 }
 
-}  // namespace edmill::dem
+}  // namespace edmill::decks

@@ -1,4 +1,4 @@
-#include "dem/deck.hpp"
+#include "decks/deck.hpp"
 
 #include <fmt/args.h>
 #include <fmt/ranges.h>
@@ -10,13 +10,13 @@
 #include "base/version.hpp"
 #include "casefile/build_case.hpp"
 #include "casefile/parts.hpp"
-#include "dem/moving_vessel.hpp"
-#include "dem/soft_contact.hpp"
-#include "dem/wall_mesh.hpp"
+#include "decks/soft_contact.hpp"
+#include "decks/wall_mesh.hpp"
 
-namespace edmill::dem {
+namespace edmill::decks {
 
-// The files of decks/: texts with the names of what is filled in. What may be absent ends its own lines.
+// The files beside this one: texts with the names of what is filled in. What may be absent ends its own
+// lines.
 extern const std::string_view lammps_in, lammps_frame_in, liggghts_in, yade_in, yade_planes_in,
     yade_triangles_in;
 extern const std::string_view pose_in;  ///< pose(t) in Python: orientation, centre, angular velocity and its
@@ -244,7 +244,7 @@ std::string put_in_vessel(DeckCase& c) {
   for (std::size_t k = 0; k < c.balls.size(); ++k) {
     auto& [x, v, w] = c.states[k];
     const auto seen = motion.to_vessel_frame(c.pose, x, v);
-    c.states[k] = {seen.position, seen.velocity, in_axes(motion, c.pose, w - turning)};
+    c.states[k] = {seen.position, seen.velocity, motion.in_axes(c.pose, w - turning)};
     masses += fmt::format("{}, ", c.balls[k].mass);
     radii += fmt::format("{}, ", c.balls[k].radius);
   }
@@ -507,4 +507,4 @@ Deck make_deck(const casefile::CaseSpec& spec, const DeckOptions& options) {
                                       : yade_deck(c);
 }
 
-}  // namespace edmill::dem
+}  // namespace edmill::decks

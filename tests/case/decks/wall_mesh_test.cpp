@@ -1,5 +1,5 @@
 // The prism that stands for a round wall: what contacts are judged against is what decks have as triangles.
-#include "dem/wall_mesh.hpp"
+#include "decks/wall_mesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 using Place = Vec3<double>;
 
-Place normal_of(const dem::Triangle& t) {
+Place normal_of(const decks::Triangle& t) {
   const Place n = cross<double>(Place(t[1] - t[0]), Place(t[2] - t[0]));
   return n / norm<double>(n);
 }
@@ -46,7 +46,7 @@ diameter = "8 mm"
   const auto& mill = built.the_case.mill;
   constexpr double radius = 0.004;
   for (const int facets : {8, 24, 128}) {
-    const auto meshes = dem::meshes_of(mill.vessel, facets);
+    const auto meshes = decks::meshes_of(mill.vessel, facets);
     const auto side =
         std::find_if(meshes.begin(), meshes.end(), [](const auto& mesh) { return mesh.name == "side"; });
     ASSERT_NE(side, meshes.end());
