@@ -52,7 +52,7 @@ class FaultyLog : public ProgramTest {
   static void expect_kinds(const Audit& result, const std::set<Kind>& wanted) {
     const auto ranked = result.findings.ranked();
     EXPECT_EQ(std::set<Kind>(ranked.begin(), ranked.end()), wanted) << audit::table(result);
-    EXPECT_EQ(result.verdict, wanted.empty() ? audit::AuditVerdict::clean : audit::AuditVerdict::violations);
+    EXPECT_EQ(result.verdict, wanted.empty() ? audit::Verdict::agree : audit::Verdict::differ);
   }
   /// Runs the mill with a mistake. @return how often a periodic mistake was made
   int simulate(const Faults& faults, int events = 400) {

@@ -322,7 +322,7 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_audit(int identify) {
     audited.log_name = "log";
     json.add("verdict", audit::name_of(audited.verdict));
     std::string table = audit::table(audited);
-    if (audited.verdict == audit::AuditVerdict::violations)
+    if (audited.verdict == audit::Verdict::differ)
       table += identify::table(identify::identify(
           spec, options, identify != 0 ? identify::Search::all : identify::Search::single, tell_stage));
     json.add("table", table);

@@ -356,9 +356,7 @@ Audit audit_events(const model::Case<double>& the_case, const std::vector<model:
   // A log most of whose contacts cannot be judged is not called clean.
   const bool judged = checked.judged_number(Check::touch) + checked.judged_number(Check::milling_dose) > 0 &&
                       checked.judged_number(Check::touch) >= checked.unresolved_number(Check::touch);
-  result.verdict = result.findings.total() > 0 ? AuditVerdict::violations
-                   : judged                    ? AuditVerdict::clean
-                                               : AuditVerdict::too_few;
+  result.verdict = result.findings.total() > 0 ? Verdict::differ : judged ? Verdict::agree : Verdict::too_few;
   return result;
 }
 
@@ -383,7 +381,7 @@ Options options_of(const casefile::CaseSpec& spec) {
   return options;
 }
 
-std::string_view name_of(AuditVerdict verdict) {
+std::string_view name_of(Verdict verdict) {
   static constexpr std::array<std::string_view, 3> names = {"clean", "violations", "too_few"};
   return names[static_cast<std::size_t>(verdict)];
 }

@@ -12,6 +12,7 @@
 #include "audit/finding.hpp"
 #include "casefile/case_spec.hpp"
 #include "io/json_text.hpp"
+#include "logs/verdict.hpp"
 #include "model/case.hpp"
 
 namespace edmill::audit {
@@ -40,8 +41,9 @@ struct Diagnosis {
   std::uint64_t of;      ///< number of events that are wrong
 };
 
-enum class AuditVerdict { clean, violations, too_few };
-std::string_view name_of(AuditVerdict verdict);
+using logs::Verdict;
+/// "clean", "violations" or "too_few".
+std::string_view name_of(Verdict verdict);
 
 struct Audit {
   Tolerances tolerances;
@@ -55,7 +57,7 @@ struct Audit {
   std::vector<Diagnosis> diagnoses;
   std::uint64_t undecided = 0;  ///< questions about missed impacts that no scalar could answer
   bool interrupted = false;
-  AuditVerdict verdict = AuditVerdict::too_few;
+  Verdict verdict = Verdict::too_few;
 };
 
 /// @param the_case, states  of the case; the states are its initial ones

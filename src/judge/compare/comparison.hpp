@@ -2,6 +2,7 @@
 #pragma once
 
 #include "compare/batches.hpp"
+#include "logs/verdict.hpp"
 
 namespace edmill::compare {
 
@@ -43,7 +44,7 @@ struct ComparisonOptions {
   double event_tolerance() const { return tolerance.value_or(1e-9); }
 };
 
-enum class Verdict { agree, differ, too_few, not_compared };
+using logs::Verdict;
 std::string_view name_of(Verdict verdict);
 
 struct Quantity {

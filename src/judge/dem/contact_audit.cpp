@@ -10,7 +10,7 @@
 #include "base/errors.hpp"
 #include "base/statistics.hpp"
 #include "decks/soft_contact.hpp"
-#include "identify/assumptions.hpp"
+#include "identify/assumed.hpp"
 
 namespace edmill::dem {
 

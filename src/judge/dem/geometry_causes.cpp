@@ -5,14 +5,14 @@
 #include <cmath>
 
 #include "dem/contact_audit.hpp"
-#include "identify/parameters.hpp"
+#include "identify/assumptions.hpp"
 
 namespace edmill::dem {
 
 namespace {
 
-using identify::Assumptions;
-using identify::Parameter;
+using identify::Assumed;
+using identify::Assumption;
 
 /// A ball that leaves its flight at a wall.
 struct Meeting {
@@ -23,14 +23,14 @@ struct Meeting {
 };
 
 /// A number with first values to begin a fit with.
-struct Candidate : Parameter {
+struct Candidate : Assumption {
   int wall = -1;  ///< that is moved outward by the value [m], where nothing is set
 };
 
 class Geometry {
  public:
   Geometry(const casefile::CaseSpec& spec, const std::vector<Contact>& contacts, const ContactLogFacts& log)
-      : nominal_(identify::assumptions_of(spec)), facets_(log.facets) {
+      : nominal_(identify::assumed_of(spec)), facets_(log.facets) {
     const auto& frames = log.statistics;
     const auto built = nominal_.built();
     if (!built) return;
@@ -63,11 +63,11 @@ class Geometry {
   }
 
   bool known() const { return meetings_.size() >= 20; }
-  const Assumptions& nominal() const { return nominal_; }
+  const Assumed& nominal() const { return nominal_; }
   double distance = 0, resolution = 0;
 
   /// Gaps with a mill; empty where it can be none.
-  std::vector<double> gaps(const Assumptions& assumed, int moved = -1, double outward = 0) const {
+  std::vector<double> gaps(const Assumed& assumed, int moved = -1, double outward = 0) const {
     std::vector<double> gaps;
     const auto built = assumed.built();
     if (!built) return gaps;
@@ -98,7 +98,7 @@ class Geometry {
     return largest;
   }
   std::vector<double> gaps_with(const Candidate& c, double value) const {
-    Assumptions assumed = nominal_;
+    Assumed assumed = nominal_;
     if (c.set) c.set(assumed, value);
     return gaps(assumed, c.wall, value);
   }
@@ -145,14 +145,14 @@ class Geometry {
   }
 
  private:
-  Assumptions nominal_;
+  Assumed nominal_;
   int facets_;
   std::vector<Meeting> meetings_;
   std::vector<std::vector<double>> reaches_of_walls_;  ///< way of the ball in half a frame [m]
 };
 
-void add_numbers(const Assumptions& nominal, std::vector<Candidate>& list) {
-  for (const auto& p : identify::parameters_of(nominal)) {
+void add_numbers(const Assumed& nominal, std::vector<Candidate>& list) {
+  for (const auto& p : identify::numbers_of(nominal)) {
     if (!(p.key.starts_with("mill.") || p.key.starts_with("vessel.") || p.is_diameter)) continue;
     auto& starts = list.emplace_back(Candidate{p}).first_values;
     for (const double share : {0.001, 0.003, 0.01, 0.03, 0.05, 0.1, 0.2, 0.5})
@@ -161,22 +161,22 @@ void add_numbers(const Assumptions& nominal, std::vector<Candidate>& list) {
   }
 }
 
-void add_phases(const Assumptions& nominal, std::vector<Candidate>& list) {
+void add_phases(const Assumed& nominal, std::vector<Candidate>& list) {
   const double turn = 2 * numerics::pi<double>();
   std::vector<double> starts;
   for (int k = 1; k < 16; ++k) starts.push_back(turn * (k <= 8 ? k : k - 16) / 16);
   const double period = casefile::period_of(nominal.spec.mill).to<double>();
-  const auto add = [&](const std::string& key, const std::function<void(Assumptions&, double)>& set) {
+  const auto add = [&](const std::string& key, const std::function<void(Assumed&, double)>& set) {
     list.push_back({{.key = key, .dimension = Dimension::angle, .set = set, .first_values = starts}});
   };
-  add("phase of the drive", [=](Assumptions& a, double x) { a.log.delay = x / turn * period; });
+  add("phase of the drive", [=](Assumed& a, double x) { a.log.delay = x / turn * period; });
   const auto* vibratory = std::get_if<model::Vibratory<casefile::Quantity>>(&nominal.spec.mill);
   if (vibratory)
     list.push_back({{.key = "factor of mill.amplitude",
                      .value = 1,
                      .change = 1e-3,
                      .set =
-                         [](Assumptions& a, double x) {
+                         [](Assumed& a, double x) {
                            auto& mill = std::get<model::Vibratory<casefile::Quantity>>(a.spec.mill);
                            for (auto* vector : {&mill.amplitude, &mill.quarter})
                              for (auto& q : *vector) q = identify::exactly(x * q.template to<double>());
@@ -184,7 +184,7 @@ void add_phases(const Assumptions& nominal, std::vector<Candidate>& list) {
                      .first_values = {0.5, 0.9, 0.95, 1.05, 1.1, 1.5, 2}}});
   for (std::size_t axis = 0; vibratory && axis < 3; ++axis) {
     if (vibratory->amplitude[axis].zero() && vibratory->quarter[axis].zero()) continue;
-    add(fmt::format("phase of mill.amplitude along {}", "xyz"[axis]), [axis](Assumptions& a, double x) {
+    add(fmt::format("phase of mill.amplitude along {}", "xyz"[axis]), [axis](Assumed& a, double x) {
       auto& mill = std::get<model::Vibratory<casefile::Quantity>>(a.spec.mill);
       const double s = mill.amplitude[axis].to<double>(), q = mill.quarter[axis].to<double>();
       mill.amplitude[axis] = identify::exactly(s * std::cos(x) - q * std::sin(x));

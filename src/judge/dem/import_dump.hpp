@@ -8,7 +8,7 @@
 
 #include "casefile/case_spec.hpp"
 #include "dem/contacts.hpp"
-#include "identify/assumptions.hpp"
+#include "identify/assumed.hpp"
 
 namespace edmill::dem {
 

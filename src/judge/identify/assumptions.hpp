@@ -1,127 +1,86 @@
-// What another code may have taken differently from the case: numbers of the model, and how its log is
-// written, in the whole log or in a part of it.
+// The table of assumptions: what a log may have been made with, other than the case says.
 #pragma once
 
-#include <array>
-#include <cstddef>
+#include <algorithm>
 #include <functional>
-#include <map>
-#include <memory>
-#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "audit/mechanics.hpp"
-#include "casefile/build_case.hpp"
+#include "identify/assumed.hpp"
 
 namespace edmill::identify {
 
-/// Axes of vectors, permuted and turned: component k is sign[k] times component from[k] of the log.
-struct Axes {
-  std::array<int, 3> from{0, 1, 2}, sign{1, 1, 1};
+/// A row of the table: a number with another value, which is fitted, or a mistake.
+struct Assumption {
+  std::string key;  ///< as in the case file, "mill.arm"; of a mistake "mill, order of rotations"
+  Dimension dimension = Dimension::none;
+  double value = 0;   ///< of the case, SI
+  double change = 1;  ///< that is small against what matters, SI: the unit of a fit
+  std::function<void(Assumed&, double)> set;
+  /// A wrong unit (1e3, pi/180) or a diameter in place of a radius changes it by a factor.
+  bool has_unit = false, is_diameter = false;
+  /// A periodic motion's speed: a fit from afar may go to a wrong period.
+  bool is_speed = false;
+  double cycle = 0;           ///< of a phase, after which the motion is the same [its unit]; else 0
+  std::string equation = {};  ///< of docs/theory.md that a term belongs to; empty for a number of the case
+  bool of_impacts = true;     ///< or rows of flights alone depend on it
+  double prior = 0;           ///< what the choice among parts of the log costs in Schwarz's criterion
+  /// Of a number of another contact law: what the case has in its place. `value` is not a number.
+  std::string in_place_of = {};
+  std::vector<double> first_values = {};  ///< of such a number, and of a mistake: to begin with
+  std::string mistake =
+      {};                  ///< "R_x(gamma) R_z(theta) in place of R_z(theta) R_x(gamma)"; empty for a number
+  bool by_factor = false;  ///< a mistake of a number, as a wrong unit makes it
+  bool of_motion = false;  ///< a mistake that makes another mill, which has not the numbers of the case's
 
-  bool operator==(const Axes&) const = default;
-  Vec3<double> of(const Vec3<double>& v) const;
-  /// -1 of axes in a mirror.
-  int handedness() const { return ((from[1] - from[0] + 3) % 3 == 1 ? 1 : -1) * sign[0] * sign[1] * sign[2]; }
+  bool is_of_case() const { return first_values.empty(); }
+  /// Or it is a mistake, which has no value.
+  bool is_fitted() const { return mistake.empty(); }
+  bool is_periodic() const { return is_speed || cycle > 0; }
+  std::string name() const { return mistake.empty() ? key : key + ": " + mistake; }
+  /// Whether the other one says the same, or cannot be said of such a mill.
+  bool excludes(const Assumption& other) const {
+    return key == other.key || (of_motion && (other.of_motion || other.key.starts_with("mill.")));
+  }
+  /// The assumptions with this value, or this mistake.
+  Assumed on(Assumed base, double x) const {
+    set(base, x);
+    return base;
+  }
+  /// Values over decades at which a number that is far off, or a term that is reversed or left out, shows;
+  /// over the cycle of a phase; of a speed, so close together that none of its turns is missed.
+  /// @param end  of the events that show them [s]
+  std::vector<double> trial_values(double end) const;
 };
 
-/// In which frame a log has its vectors.
-enum class LogFrame {
-  laboratory,
-  axes_of_vessel,  ///< the laboratory's vectors, in components along the vessel's axes
-  vessel           ///< as seen from the vessel
+/// An assumption with the value that a log has for it; of a mistake 1.
+struct Found {
+  Assumption what;
+  double value = 1, half_width = 0;  ///< SI; the interval holds 99.7 % of normal noise, and a common shift
 };
 
-/// How a log differs from what its header and the conventions say. Factors lead to SI.
-struct LogChange {
-  double time = 1, positions = 1, velocities = 1, spins = 1, energies = 1, speeds = 1;
-  double delay = 0;               ///< [s], added to each time: the phase of the drive
-  bool states_exchanged = false;  ///< of the two balls of an impact
-  bool reversed_in_time = false;  ///< states before and after an impact exchanged
-  Axes axes_of_positions, axes_of_velocities, axes_of_spins;
-  LogFrame frame = LogFrame::laboratory;
-  std::array<int, 2> exchanged = {-1, -1};  ///< numbers of two balls that are taken for each other
+/// Of a hypothesis or a cause, in which mistakes come first: what is fitted.
+auto fitted(auto& of) {
+  return std::span(std::ranges::find_if(of.found, [](const Found& f) { return f.what.is_fitted(); }),
+                   of.found.end());
+}
 
-  bool operator==(const LogChange&) const = default;
-  /// @param mill  of the vessel whose frame it may be
-  void apply(audit::LoggedEvent& event, const model::Mill<double>& mill) const;
-};
+/// All numbers of the mill, the vessel, gravity, the contact laws and the balls.
+std::vector<Assumption> numbers_of(const Assumed& nominal);
 
-using audit::Terms;
+/// The same in a part of the log alone. @param choices  number of parts that were tried
+Assumption restricted_to(const SharedSubset& part, const Assumption& parameter, std::size_t choices);
 
-// Parts of a log to which a cause may be restricted: one wall, one ball, one kind of partner, one branch of
-// the law.
+/// Mistakes other than wrong numbers that can be told apart in a log with these columns: orders, signs,
+/// directions, units, and what columns stand for.
+std::vector<Assumption> mistakes_of(const Assumed& nominal, const std::vector<Assumption>& parameters,
+                                    const audit::Available& has);
 
-/// Where a row of a fit stands.
-struct RowPlace {
-  std::size_t event = 0;  ///< place in the log
-  int body = -1;          ///< 0 the event's ball, 1 its partner, -1 both
-  bool of_flight = false;
-
-  bool operator==(const RowPlace&) const = default;
-};
-
-/// The branches of the contact law that an impact took, by its states before.
-struct Branches {
-  bool known = false, sticks = false, at_least_separation = false;
-};
-
-struct Subset {
-  std::string name;  ///< "at wall 0 (cap -y)", "on ball 3"
-  std::function<bool(const RowPlace&)> holds;
-  bool of_flights = false;  ///< has rows of flights as well as of impacts
-};
-using SharedSubset = std::shared_ptr<const Subset>;
-
-/// @param branches  by event; both must outlive the subsets
-std::vector<SharedSubset> subsets_of(const casefile::CaseSpec& spec, const model::Case<double>& the_case,
-                                     const std::vector<audit::LoggedEvent>& events,
-                                     const std::vector<Branches>& branches);
-
-struct Assumptions;
-
-/// What holds in a part of a log only.
-struct Restricted {
-  SharedSubset part;
-  std::function<void(Assumptions&)> make;
-};
-
-/// Values that may explain a log. The balls are those of the built case; the mill follows from the file's
-/// exact quantities, so that every mill, vessel and law is varied by its own parameters.
-struct Assumptions {
-  casefile::CaseSpec spec;
-  std::vector<model::BallProperties<double>> balls;
-  LogChange log;
-  int walls;               ///< of the case, which the log's walls are
-  std::size_t joints = 0;  ///< of the case's mill, which `phases` are of
-  Terms terms = {};
-  /// What the phases of the mill's joints have more than the case's [rad], by joint and swing; a rotation's
-  /// own angle has the place after its swings.
-  std::map<std::array<std::size_t, 2>, double> phases = {};
-  std::vector<Restricted> restricted = {};  ///< what holds in a part of the log only
-
-  /// The case of these values; none where its file would be refused, a ball has no room in the vessel, or the
-  /// vessel has other walls: a log cannot be of such a mill.
-  std::optional<model::Case<double>> built() const;
-  /// The case's file with these values.
-  casefile::CaseSpec case_file() const;
-  /// Whether a case alone says all of it, so that an audit can be made with it.
-  bool is_case() const { return restricted.empty() && terms == Terms{}; }
-};
-
-/// @pre the spec can be built
-Assumptions assumptions_of(const casefile::CaseSpec& spec);
-
-/// The number as an exact quantity.
-casefile::Quantity exactly(double value);
-
-/// Balls of each entry of the case, [first, last): explicit balls, then batches.
-struct BallGroup {
-  std::string key;  ///< "ball.0", "balls.1"
-  std::size_t first, last;
-  const casefile::BallSpec* spec;
-};
-std::vector<BallGroup> ball_groups(const casefile::CaseSpec& spec);
+/// "reversed", "left out", "doubled", "halved", where an interval holds such a factor and little else; else
+/// empty.
+std::string word_for(double factor, double half_width);
+/// "100.500 +- 0.001 mm", or "100 mm": in the usual unit of its dimension.
+std::string value_text(Dimension dimension, double value, double half_width = 0);
 
 }  // namespace edmill::identify

@@ -45,7 +45,7 @@ std::vector<double> scales_for(const Eigen::VectorXd& rows) {
 }
 
 /// A step of a parameter, in its unit: backwards where a case cannot have a larger value.
-double possible_step(const Assumptions& assumed, const Parameter& p, double value, double step) {
+double possible_step(const Assumed& assumed, const Assumption& p, double value, double step) {
   return p.on(assumed, value + step * p.change).built() ? step : -step;
 }
 
@@ -61,32 +61,31 @@ struct Problem {
   const Hypothesis& tried;
   Eigen::VectorXd roots{};  ///< of the weights
 
-  int inputs() const { return static_cast<int>(tried.numbers.size()); }
+  int inputs() const { return static_cast<int>(fitted(tried).size()); }
   int values() const { return static_cast<int>(sample.count()); }
-  std::vector<double> values_at(const Eigen::VectorXd& x) const {
-    std::vector<double> values;
-    for (std::size_t k = 0; k < tried.numbers.size(); ++k) values.push_back(x[k] * tried.numbers[k].change);
-    return values;
+  /// @param x  the numbers, each in its unit of a fit
+  Hypothesis at(const Eigen::VectorXd& x) const {
+    Hypothesis moved = tried;
+    for (Eigen::Index k = 0; auto& number : fitted(moved)) number.value = x[k++] * number.what.change;
+    return moved;
   }
   int operator()(const Eigen::VectorXd& x, Eigen::VectorXd& out) const {
-    out = roots.cwiseProduct(sample.rows(tried.with(values_at(x))));
+    out = roots.cwiseProduct(sample.rows(at(x).assumed()));
     return 0;
   }
   int df(const Eigen::VectorXd& x, Eigen::MatrixXd& out) const {
-    out = roots.asDiagonal() * derivatives(x);
+    out = roots.asDiagonal() * derivatives(at(x));
     return 0;
   }
   /// Differences of a step that neither rounding nor curvature spoils.
-  Eigen::MatrixXd derivatives(const Eigen::VectorXd& x) const {
+  Eigen::MatrixXd derivatives(Hypothesis moved) const {
     Eigen::MatrixXd columns(values(), inputs());
-    const auto values = values_at(x);
-    const Eigen::VectorXd here = sample.rows(tried.with(values));
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      const Parameter& free = tried.numbers[k];
-      const double step = possible_step(tried.with(values), free, values[k], 1e-7);
-      auto moved = values;
-      moved[k] += step * free.change;
-      columns.col(k) = (sample.rows(tried.with(moved)) - here) / step;
+    const Eigen::VectorXd here = sample.rows(moved.assumed());
+    for (Eigen::Index k = 0; auto& [what, value, half_width] : fitted(moved)) {
+      const double step = possible_step(moved.assumed(), what, value, 1e-7);
+      const double before = std::exchange(value, value + step * what.change);
+      columns.col(k++) = (sample.rows(moved.assumed()) - here) / step;
+      value = before;
     }
     return columns;
   }
@@ -102,10 +101,9 @@ double cauchy_cost(const Eigen::VectorXd& rows) {
                          [](double sum, double r) { return sum + std::log1p(r * r); });
 }
 
-/// Intervals: what noise of the rows' own size leaves open, and what a shift of all rows by that size, each
-/// in the worst direction, would do; rounding of a log does shift rows of a kind together.
-std::vector<double> half_widths_of(const Eigen::MatrixXd& j, const Eigen::VectorXd& rows,
-                                   const Hypothesis& tried) {
+/// Sets intervals: what noise of the rows' own size leaves open, and what a shift of all rows by that size,
+/// each in the worst direction, would do; rounding of a log does shift rows of a kind together.
+void set_half_widths(const Eigen::MatrixXd& j, const Eigen::VectorXd& rows, Hypothesis& tried) {
   const auto weights = weights_of(rows, 1);
   double sum = 0, total = 0;
   for (Eigen::Index i = 0; i < weights.size(); ++i) {
@@ -117,15 +115,13 @@ std::vector<double> half_widths_of(const Eigen::MatrixXd& j, const Eigen::Vector
   const double noise = std::max(total > 0 ? std::sqrt(sum / total) : 0, rounding_of_rows);
   const Eigen::MatrixXd inverse = (j.transpose() * weights.asDiagonal() * j).inverse();
   const Eigen::MatrixXd influence = inverse * j.transpose() * weights.asDiagonal();
-  std::vector<double> half;
-  for (Eigen::Index c = 0; c < j.cols(); ++c) {
-    const auto& parameter = tried.numbers[c];
+  for (Eigen::Index c = 0; auto& [what, value, half_width] : fitted(tried)) {
     const double random = 3 * std::sqrt(std::max(0.0, inverse(c, c))) * noise,
                  shift = influence.row(c).cwiseAbs().sum() * noise;
-    const double rounding = 2e-15 * std::max(std::abs(tried.values[c]), std::abs(parameter.value));
-    half.push_back((random + shift) * parameter.change + rounding);
+    const double rounding = 2e-15 * std::max(std::abs(value), std::abs(what.value));
+    half_width = (random + shift) * what.change + rounding;
+    ++c;
   }
-  return half;
 }
 
 /// The wall's velocity becomes that of a code with other terms.
@@ -234,9 +230,9 @@ Residuals::Residuals(const LogResiduals& log, const std::vector<std::size_t>& ev
   }
 }
 
-Eigen::VectorXd Residuals::rows(const Assumptions& assumed) const {
+Eigen::VectorXd Residuals::rows(const Assumed& assumed) const {
   if (assumed.restricted.empty()) return of_whole(assumed);
-  Assumptions whole = assumed;
+  Assumed whole = assumed;
   whole.restricted.clear();
   auto values = of_whole(whole);
   // Each set of parts that a row may be in has rows of its own.
@@ -246,7 +242,7 @@ Eigen::VectorXd Residuals::rows(const Assumptions& assumed) const {
       if (assumed.restricted[r].part->holds(of_case_[k].at)) set_of[k] |= std::size_t{1} << r;
   for (const std::size_t set : std::set<std::size_t>(set_of.begin(), set_of.end())) {
     if (set == 0) continue;
-    Assumptions here = whole;
+    Assumed here = whole;
     for (std::size_t r = 0; r < assumed.restricted.size(); ++r)
       if (set >> r & 1) assumed.restricted[r].make(here);
     const Eigen::VectorXd own = of_whole(here);
@@ -256,7 +252,7 @@ Eigen::VectorXd Residuals::rows(const Assumptions& assumed) const {
   return values;
 }
 
-Eigen::VectorXd Residuals::of_whole(const Assumptions& assumed) const {
+Eigen::VectorXd Residuals::of_whole(const Assumed& assumed) const {
   Eigen::VectorXd values = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(count()), out_of_range);
   const auto model = assumed.built();
   if (!model) return values;
@@ -282,10 +278,9 @@ double misfit(const Residuals& sample, const Eigen::VectorXd& rows) {
 }
 
 void fit(const Residuals& sample, Hypothesis& tried) {
-  const auto p = static_cast<Eigen::Index>(tried.numbers.size());
   Problem problem{sample, tried};
-  Eigen::VectorXd x(p);
-  for (Eigen::Index k = 0; k < p; ++k) x[k] = tried.values[k] / tried.numbers[k].change;
+  Eigen::VectorXd x(problem.inputs());
+  for (Eigen::Index k = 0; const auto& number : fitted(tried)) x[k++] = number.value / number.what.change;
   auto rows = sample.rows(tried.assumed());
   const auto scales = scales_for(rows);
   constexpr std::size_t most_rounds = 25;
@@ -299,24 +294,24 @@ void fit(const Residuals& sample, Hypothesis& tried) {
     for (int step = 0; step < 3 && status <= Eigen::LevenbergMarquardtSpace::Running; ++step)
       status = solver.minimizeOneStep(now);
     double moved = 0;
-    for (Eigen::Index k = 0; k < p; ++k) {
+    for (Eigen::Index k = 0; k < x.size(); ++k) {
       if (!std::isfinite(now[k])) continue;
       moved = std::max(moved, std::abs(now[k] - x[k]) / std::max(1.0, std::abs(now[k])));
       x[k] = now[k];
     }
-    rows = sample.rows(tried.with(problem.values_at(x)));
+    rows = sample.rows(problem.at(x).assumed());
     if (round < scales.size()) continue;
     // The cost changes by the mean of a row where the numbers change by the noise that is left.
     constexpr double of_noise = 1e-6;
     const double last = std::exchange(cost, cauchy_cost(rows));
     if (moved < 1e-13 || last - cost < of_noise * cost / static_cast<double>(rows.size())) break;
   }
-  tried.values = problem.values_at(x);
-  tried.half_widths = half_widths_of(problem.derivatives(x), rows, tried);
+  tried = problem.at(x);
+  set_half_widths(problem.derivatives(tried), rows, tried);
 }
 
-Eigen::VectorXd sensitivity(const Residuals& sample, const Assumptions& base, const Eigen::VectorXd& rows,
-                            const Parameter& number) {
+Eigen::VectorXd sensitivity(const Residuals& sample, const Assumed& base, const Eigen::VectorXd& rows,
+                            const Assumption& number) {
   // A restitution of 0, or no least separation speed, shows nothing until it is large enough for some impact.
   for (const double length : {1e-6, 1.0}) {
     if (!number.is_of_case() || (length == 1 && number.value != 0)) break;

@@ -6,18 +6,19 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "audit/audit.hpp"
 #include "audit/equations.hpp"
-#include "identify/parameters.hpp"
+#include "identify/assumptions.hpp"
 
 namespace edmill::identify {
 
 /// A number of a row of the case as it is, and what the audit allows it to be.
-struct Row {
+struct Residual {
   double allowed;
   audit::RowKind kind;
   RowPlace at;
@@ -60,27 +61,25 @@ class Residuals {
 
   std::size_t count() const { return of_case_.size(); }
   /// With the case as it is.
-  const std::vector<Row>& of_case() const { return of_case_; }
+  const std::vector<Residual>& of_case() const { return of_case_; }
   /// @return one number for each row, its difference over what is allowed of the case; a large one where it
   /// is not finite, and all of them for a case that cannot be
-  Eigen::VectorXd rows(const Assumptions& assumed) const;
+  Eigen::VectorXd rows(const Assumed& assumed) const;
 
  private:
-  Eigen::VectorXd of_whole(const Assumptions& assumed) const;
+  Eigen::VectorXd of_whole(const Assumed& assumed) const;
 
   const LogResiduals* log_;
   std::vector<std::size_t> chosen_;
-  std::vector<Row> of_case_;
+  std::vector<Residual> of_case_;
 };
 
-/// What may explain a log: mistakes, and numbers that are fitted together.
+/// What may explain a log: assumptions, whose numbers are fitted together.
 struct Hypothesis {
-  Assumptions nominal;
-  std::vector<Parameter> mistakes = {}, numbers = {};
-  std::vector<double> values = {};       ///< of the numbers, SI
-  std::vector<double> half_widths = {};  ///< their intervals hold 99.7 % of normal noise, and a common shift
-  double score = 0;      ///< Schwarz's criterion: misfit + numbers ln(rows) + what each choice costs
-  double plainness = 0;  ///< of factors with a name, which are no coincidence
+  Assumed nominal;
+  std::vector<Found> found = {};  ///< mistakes first: a number may be one of the mill that a mistake makes
+  double score = 0;               ///< Schwarz's criterion: misfit + numbers ln(rows) + what each choice costs
+  double plainness = 0;           ///< of factors with a name, which are no coincidence
   std::uint64_t left = 0, of = 0;  ///< violations, or events with violated rows, with it and without
   std::string others = {};         ///< kinds of the violations that are left
 
@@ -88,29 +87,27 @@ struct Hypothesis {
   double rank() const { return score - plainness; }
   /// The score without the cost of choices: what the log says.
   double evidence() const {
-    double choices = 0;
-    for (const auto& p : numbers) choices += p.prior;
-    return score - choices;
+    return std::accumulate(found.begin(), found.end(), score,
+                           [](double sum, const Found& f) { return sum - f.what.prior; });
   }
-  std::size_t size() const { return numbers.size() + mistakes.size(); }
+  std::size_t size() const { return found.size(); }
   std::set<std::string> names() const {
     std::set<std::string> all;
-    for (const auto* list : {&mistakes, &numbers})
-      for (const auto& p : *list) all.insert(p.name());
+    for (const auto& f : found) all.insert(f.what.name());
     return all;
   }
   /// Whether this can be assumed as well.
-  bool allows(const Parameter& more) const {
-    const auto is_free = [&](const Parameter& own) { return !own.excludes(more) && !more.excludes(own); };
-    return std::all_of(mistakes.begin(), mistakes.end(), is_free) &&
-           std::all_of(numbers.begin(), numbers.end(), is_free);
+  bool allows(const Assumption& more) const {
+    return std::ranges::none_of(
+        found, [&](const Found& f) { return f.what.excludes(more) || more.excludes(f.what); });
+  }
+  void add(const Assumption& more, double value) {
+    found.insert(more.is_fitted() ? found.end() : found.end() - std::ssize(fitted(*this)), {more, value});
   }
 
-  Assumptions assumed() const { return with(values); }
-  Assumptions with(const std::vector<double>& other_values) const {
-    Assumptions result = nominal;
-    for (const auto& mistake : mistakes) mistake.set(result, 1);
-    for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k].set(result, other_values[k]);
+  Assumed assumed() const {
+    Assumed result = nominal;
+    for (const auto& f : found) f.what.set(result, f.value);
     return result;
   }
 };
@@ -119,7 +116,7 @@ struct Hypothesis {
 /// minus twice the log of Cauchy's likelihood. Wild rows count little, and rows that fit by orders of
 /// magnitude better count much.
 double misfit(const Residuals& sample, const Eigen::VectorXd& rows);
-inline double misfit(const Residuals& sample, const Assumptions& assumed) {
+inline double misfit(const Residuals& sample, const Assumed& assumed) {
   return misfit(sample, sample.rows(assumed));
 }
 
@@ -131,8 +128,8 @@ void fit(const Residuals& sample, Hypothesis& tried);
 
 /// Derivatives of the rows by a number, at the base; empty where they do not depend on it.
 /// @param rows  at the base
-Eigen::VectorXd sensitivity(const Residuals& sample, const Assumptions& base, const Eigen::VectorXd& rows,
-                            const Parameter& number);
+Eigen::VectorXd sensitivity(const Residuals& sample, const Assumed& base, const Eigen::VectorXd& rows,
+                            const Assumption& number);
 
 /// The misfit that the best change of a number leaves if the rows are linear in it.
 /// @param slope  of the rows, by the number

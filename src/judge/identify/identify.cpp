@@ -38,25 +38,23 @@ std::uint64_t count_violated(const Eigen::VectorXd& rows) {
 }
 
 /// Whether the effect of a number can be restricted to this part of the log.
-bool fits(const Subset& part, const Parameter& p) { return p.of_impacts || part.of_flights; }
+bool fits(const Subset& part, const Assumption& p) { return p.of_impacts || part.of_flights; }
 
 /// Whether the interval of a number contains that of the case.
 bool has_number_of_case(const Hypothesis& tried) {
-  for (std::size_t k = 0; k < tried.numbers.size(); ++k) {
-    const auto& p = tried.numbers[k];
-    if (p.is_of_case() && !(std::abs(tried.values[k] - p.value) > tried.half_widths[k])) return true;
-  }
-  return false;
+  return std::ranges::any_of(tried.found, [](const Found& f) {
+    return f.what.is_of_case() && !(std::abs(f.value - f.what.value) > f.half_width);
+  });
 }
 
 /// Terms, and numbers of the contact law; where both kinds of contact have one law, its numbers once.
-std::vector<Parameter> of_parts(const std::vector<Parameter>& numbers) {
+std::vector<Assumption> of_parts(const std::vector<Assumption>& numbers) {
   std::set<std::string> common;
   const auto last = [](const std::string& key) { return key.substr(key.rfind('.') + 1); };
   const auto of_both = [](const std::string& key) { return std::count(key.begin(), key.end(), '.') == 1; };
   for (const auto& p : numbers)
     if (p.key.starts_with("contact.") && of_both(p.key)) common.insert(last(p.key));
-  std::vector<Parameter> list;
+  std::vector<Assumption> list;
   for (const auto& p : numbers)
     if (!p.equation.empty() ||
         (p.key.starts_with("contact") && (of_both(p.key) || !common.contains(last(p.key)))))
@@ -76,7 +74,7 @@ class Evidence {
   /// The log and the rest must outlive it. @pre the log has events
   /// @param violations  what an audit finds with the case as it is
   Evidence(const audit::EventsAtHand& log, const audit::Options& options, const model::Case<double>& the_case,
-           const Assumptions& nominal, std::uint64_t violations)
+           const Assumed& nominal, std::uint64_t violations)
       : log_(log),
         options_(options),
         nominal_(nominal),
@@ -101,7 +99,7 @@ class Evidence {
 
   /// Draws the samples again: half of their events violate a row under one of these assumptions, the others
   /// are any, evenly spread over a span.
-  void draw_samples(const std::vector<Assumptions>& bases) {
+  void draw_samples(const std::vector<Assumed>& bases) {
     std::set<std::size_t> violating;
     for (const auto& base : bases) violating.merge(violating_events(base));
     const auto& events = log_.events;
@@ -139,20 +137,13 @@ class Evidence {
   void judge(Hypothesis& tried) const {
     const double rows = static_cast<double>(whole().count());
     tried.score = misfit(whole(), tried.assumed());
-    for (const auto& p : tried.numbers) tried.score += p.prior + std::log(rows);
+    for (const auto& number : fitted(tried)) tried.score += number.what.prior + std::log(rows);
   }
 
-  /// A hypothesis with one more mistake, or one more number fitted together with its own.
-  Hypothesis with(const Hypothesis& base, const Parameter& more) const {
+  /// A hypothesis with one more assumption, a number fitted together with its own.
+  Hypothesis with(const Hypothesis& base, const Assumption& more) const {
     std::vector<Hypothesis> tried;
-    if (!more.mistake.empty())
-      tried.emplace_back(base).mistakes.push_back(more);
-    else
-      for (const double start : starts(base.assumed(), more)) {
-        auto& own = tried.emplace_back(base);
-        own.numbers.push_back(more);
-        own.values.push_back(start);
-      }
+    for (const double start : starts(base.assumed(), more)) tried.emplace_back(base).add(more, start);
     return best_fitted(std::move(tried));
   }
 
@@ -161,16 +152,15 @@ class Evidence {
     if (!(score_of_case_ - tried.score >= strong_evidence)) return false;
     if (vanished(whole(), tried.assumed()) < 0.5) return false;  // a better fit does not help that much
     tried.plainness = 0;
-    if (!tried.numbers.empty()) fit(many_, tried);
-    for (std::size_t k = 0; k < tried.values.size(); ++k)
-      if (tried.numbers[k].dimension == Dimension::time)  // times are rounded
-        tried.half_widths[k] += 1e-15 * std::abs(log_.events.back().time);
+    if (!fitted(tried).empty()) fit(many_, tried);
+    for (auto& number : fitted(tried))
+      if (number.what.dimension == Dimension::time)  // times are rounded
+        number.half_width += 1e-15 * std::abs(log_.events.back().time);
     if (has_number_of_case(tried)) return false;
-    for (std::size_t k = 0; k < tried.values.size(); ++k) {
-      const auto& p = tried.numbers[k];
-      const bool is_factor = !p.equation.empty() && p.value == 1;
-      if (is_factor && !word_for(tried.values[k], tried.half_widths[k]).empty()) tried.plainness += 3;
-      widen(tried, k);
+    for (auto& number : fitted(tried)) {
+      const bool is_factor = !number.what.equation.empty() && number.what.value == 1;
+      if (is_factor && !word_for(number.value, number.half_width).empty()) tried.plainness += 3;
+      widen(tried, number);
     }
     count_violations(tried);
     return tried.left <= tried.of && audit::accounts_for(tried.of - tried.left, tried.of) &&
@@ -210,7 +200,7 @@ class Evidence {
     return all && explained.events.size() >= least_events ? explained : Explained{};
   }
 
-  std::set<std::size_t> violating_events(const Assumptions& assumed) const {
+  std::set<std::size_t> violating_events(const Assumed& assumed) const {
     const Eigen::VectorXd rows = all_.rows(assumed);
     std::set<std::size_t> events;
     for (std::size_t k = 0; k < all_.count(); ++k)
@@ -220,10 +210,10 @@ class Evidence {
 
   /// Of mistakes, and of numbers that have no effect near their value, or another one far from it: those that
   /// fit better on top of a base with one of their trial values, the best first.
-  std::vector<Parameter> by_trial_values(const Assumptions& base, const std::vector<Parameter>& list,
-                                         std::size_t most) const {
+  std::vector<Assumption> by_trial_values(const Assumed& base, const std::vector<Assumption>& list,
+                                          std::size_t most) const {
     const double enough = misfit(few_, base) - strong_evidence;
-    std::vector<std::pair<double, Parameter>> order;
+    std::vector<std::pair<double, Assumption>> order;
     for (const auto& p : list) {
       if (p.is_periodic()) continue;  // has too many of them
       double least = enough;
@@ -235,8 +225,8 @@ class Evidence {
   }
 
   /// The numbers whose fit promises most on top of a base, by a linear fit of the rows and by trial values.
-  std::vector<Parameter> best_numbers(const Assumptions& base, const std::vector<Parameter>& numbers,
-                                      std::size_t most) const {
+  std::vector<Assumption> best_numbers(const Assumed& base, const std::vector<Assumption>& numbers,
+                                       std::size_t most) const {
     auto best = by_sensitivity(early_or_whole(base), base, numbers, {}, most);
     for (auto& p : by_trial_values(base, numbers, most / 2)) best.push_back(std::move(p));
     return best;
@@ -244,8 +234,8 @@ class Evidence {
 
   /// The numbers whose fit promises most in parts of the log that contain this share of the rows violated
   /// with the base.
-  std::vector<Parameter> best_in_parts(const Assumptions& base, const std::vector<Parameter>& numbers,
-                                       std::size_t most, double share) const {
+  std::vector<Assumption> best_in_parts(const Assumed& base, const std::vector<Assumption>& numbers,
+                                        std::size_t most, double share) const {
     const Eigen::VectorXd rows = whole().rows(base);
     std::vector<SharedSubset> parts;
     for (const auto& part : parts_) {
@@ -258,7 +248,7 @@ class Evidence {
     if (parts.empty()) return {};
     const auto of_these = of_parts(numbers);
     auto best = by_sensitivity(whole(), base, of_these, parts, most);
-    std::vector<Parameter> restricted;
+    std::vector<Assumption> restricted;
     for (const auto& p : by_trial_values(base, of_these, 4))
       for (const auto& part : parts)
         if (fits(*part, p)) restricted.push_back(restricted_to(part, p, parts_.size()));
@@ -270,16 +260,16 @@ class Evidence {
   const Residuals& early() const { return windows_.front(); }
   const Residuals& whole() const { return windows_.back(); }
   /// In the first span a wrong speed has not gone far; the whole log where that span shows nothing.
-  const Residuals& early_or_whole(const Assumptions& base) const {
+  const Residuals& early_or_whole(const Assumed& base) const {
     return count_violated(early().rows(base)) > 12 ? early() : whole();
   }
 
   /// By a linear fit of the rows. A part that contains all rows of a number restricts nothing.
-  std::vector<Parameter> by_sensitivity(const Residuals& sample, const Assumptions& base,
-                                        const std::vector<Parameter>& numbers,
-                                        const std::vector<SharedSubset>& parts, std::size_t most) const {
+  std::vector<Assumption> by_sensitivity(const Residuals& sample, const Assumed& base,
+                                         const std::vector<Assumption>& numbers,
+                                         const std::vector<SharedSubset>& parts, std::size_t most) const {
     const Eigen::VectorXd rows = sample.rows(base);
-    std::vector<std::pair<double, Parameter>> order;
+    std::vector<std::pair<double, Assumption>> order;
     for (const auto& p : numbers) {
       const Eigen::VectorXd slope = sensitivity(sample, base, rows, p);
       if (slope.size() == 0) continue;
@@ -297,7 +287,7 @@ class Evidence {
   }
 
   /// Values to begin a fit with: that of the case, and others that fit better.
-  std::vector<double> starts(const Assumptions& base, const Parameter& p) const {
+  std::vector<double> starts(const Assumed& base, const Assumption& p) const {
     const auto& sample = p.is_periodic() ? early() : few_;
     const double enough = misfit(sample, base) - strong_evidence;
     std::vector<std::pair<double, double>> better;
@@ -316,10 +306,10 @@ class Evidence {
   Hypothesis best_fitted(std::vector<Hypothesis> list) const {
     for (auto& tried : list) {
       const bool from_early =
-          std::any_of(tried.numbers.begin(), tried.numbers.end(), std::mem_fn(&Parameter::is_speed));
+          std::ranges::any_of(tried.found, [](const Found& f) { return f.what.is_speed; });
       for (const auto& window : windows_) {
         const bool last = &window == &whole();
-        if (!tried.numbers.empty() && (last || (from_early && window.count() >= 12))) fit(window, tried);
+        if (!fitted(tried).empty() && (last || (from_early && window.count() >= 12))) fit(window, tried);
       }
       judge(tried);
     }
@@ -329,16 +319,16 @@ class Evidence {
 
   /// A number known from one side only, such as a restitution below which all impacts separate at v_s: the
   /// interval reaches to zero where that fits as well.
-  void widen(Hypothesis& tried, std::size_t place) const {
-    if (tried.numbers[place].value == 0 || tried.values[place] == 0) return;
-    auto values = tried.values;
-    values[place] = 0;
-    if (misfit(many_, tried.with(values)) <= misfit(many_, tried.assumed()) + 1)
-      tried.half_widths[place] = std::max(tried.half_widths[place], std::abs(tried.values[place]));
+  void widen(const Hypothesis& tried, Found& number) const {
+    if (number.what.value == 0 || number.value == 0) return;
+    const double found = misfit(many_, tried.assumed()), value = std::exchange(number.value, 0);
+    if (misfit(many_, tried.assumed()) <= found + 1)
+      number.half_width = std::max(number.half_width, std::abs(value));
+    number.value = value;
   }
 
   /// The share of the violated rows of a sample that vanish when a cause is assumed.
-  double vanished(const Residuals& sample, const Assumptions& assumed) const {
+  double vanished(const Residuals& sample, const Assumed& assumed) const {
     const Eigen::VectorXd before = sample.rows(nominal_), with = sample.rows(assumed);
     std::uint64_t violated = 0, vanished = 0;
     for (std::size_t k = 0; k < sample.count(); ++k) {
@@ -373,7 +363,7 @@ class Evidence {
 
   const audit::EventsAtHand& log_;
   const audit::Options& options_;
-  const Assumptions& nominal_;
+  const Assumed& nominal_;
   double period_;  ///< of the drive [s]
   LogResiduals residuals_;
   std::vector<SharedSubset> parts_;
@@ -407,7 +397,7 @@ class Searcher {
   Searcher(const casefile::CaseSpec& spec, audit::Options options, Search search, Progress progress)
       : search_(search),
         progress_(std::move(progress)),
-        nominal_(assumptions_of(spec)),
+        nominal_(assumed_of(spec)),
         the_case_(casefile::build_case<double>(spec).the_case),
         options_(std::move(options)) {
     from_start_ = options_.from_start;
@@ -416,7 +406,7 @@ class Searcher {
     options_.progress = nullptr;
     log_ = audit::read_events(the_case_, options_, search == Search::all ? most_events : most_for_single);
     interrupt_ = std::exchange(options_.interrupt, nullptr);  // an audit that ends early finds nothing wrong
-    numbers_ = parameters_of(nominal_);
+    numbers_ = numbers_of(nominal_);
     mistakes_ = mistakes_of(nominal_, numbers_, log_.available);
   }
 
@@ -462,10 +452,12 @@ class Searcher {
   /// Without places impacts cannot be checked, but a run from the case's start can follow the log.
   void follow(Identification& result) const {
     // A run of a case has the terms of the equations as they are.
-    auto numbers = numbers_, mistakes = mistakes_;
-    std::erase_if(numbers, [](const Parameter& p) { return !p.equation.empty() || !p.is_of_case(); });
-    std::erase_if(mistakes, [&](const Parameter& m) { return !m.on(nominal_, 1).is_case(); });
-    auto found = replay(nominal_, numbers, mistakes, log_, [this] { return is_interrupted(); });
+    auto all = mistakes_;
+    all.insert(all.end(), numbers_.begin(), numbers_.end());
+    std::erase_if(all, [&](const Assumption& a) {
+      return a.is_fitted() ? !a.equation.empty() || !a.is_of_case() : !a.on(nominal_, 1).is_case();
+    });
+    auto found = replay(nominal_, all, log_, [this] { return is_interrupted(); });
     result.interrupted = is_interrupted();
     result.too_few = found.too_few;
     if (result.interrupted) return;
@@ -490,7 +482,7 @@ class Searcher {
     for (const auto& base : best_of_size(stage.size, stage.bases, stage.in_parts > 0)) {
       const auto assumed = base.assumed();
       auto names = base.names();
-      const auto add = [&](const std::vector<Parameter>& list) {
+      const auto add = [&](const std::vector<Assumption>& list) {
         for (const auto& p : list)
           if (!is_interrupted() && base.allows(p) && names.insert(p.name()).second)
             more.push_back(evidence_->with(base, p));
@@ -512,7 +504,7 @@ class Searcher {
 
   /// With the events that the best single causes leave unexplained.
   void resample() {
-    std::vector<Assumptions> bases;
+    std::vector<Assumed> bases;
     for (const auto& single : best_of_size(1, 2, false)) bases.push_back(single.assumed());
     if (bases.empty()) bases.push_back(nominal_);
     evidence_->draw_samples(bases);
@@ -523,9 +515,7 @@ class Searcher {
 
   Cause cause_of(const Hypothesis& h) const {
     Cause cause;
-    for (std::size_t k = 0; k < h.values.size(); ++k)
-      cause.values.push_back({h.numbers[k], h.values[k], h.half_widths[k]});
-    for (const auto& mistake : h.mistakes) cause.mistakes.push_back(mistake.name());
+    cause.found = h.found;
     cause.of = h.of;
     cause.explains = cause.of - std::min(cause.of, h.left);
     cause.gain = evidence_->score_of_case() - h.score;
@@ -572,11 +562,11 @@ class Searcher {
 
   Search search_;
   Progress progress_;
-  Assumptions nominal_;
+  Assumed nominal_;
   model::Case<double> the_case_;
   audit::Options options_;
   audit::EventsAtHand log_;
-  std::vector<Parameter> numbers_, mistakes_;
+  std::vector<Assumption> numbers_, mistakes_;
   std::optional<Evidence> evidence_;
   std::vector<Hypothesis> tried_, accepted_;
   const std::atomic<bool>* interrupt_ = nullptr;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "audit/audit.hpp"
-#include "identify/parameters.hpp"
+#include "identify/assumptions.hpp"
 
 namespace edmill::identify {
 
@@ -45,19 +45,12 @@ TimeStepping time_stepping(const audit::EventsAtHand& log, const model::Case<dou
 
 std::string table(const TimeStepping& found);
 
-/// A number as the log has it.
-struct Found {
-  Parameter number;
-  double value, half_width;  ///< SI
-};
-
 /// One to three values or mistakes that explain nine tenths of the violations or more.
 struct Cause {
-  std::vector<Found> values = {};
-  std::vector<std::string> mistakes = {};  ///< "mill, sign of gamma: ..."
-  std::uint64_t explains = 0, of = 0;      ///< violations
-  std::string others = {};                 ///< kinds of those that it does not explain, where they are known
-  double gain = 0;                         ///< of Schwarz's criterion over no cause
+  std::vector<Found> found = {};       ///< mistakes first
+  std::uint64_t explains = 0, of = 0;  ///< violations
+  std::string others = {};             ///< kinds of those that it does not explain, where they are known
+  double gain = 0;                     ///< of Schwarz's criterion over no cause
   /// For logs without states: how many impacts a run with the cause follows, and how many rounding lets it.
   std::uint64_t follows = 0, could_follow = 0;
   std::vector<std::string> alike = {};  ///< other causes that this log cannot distinguish from it
@@ -103,9 +96,8 @@ Identification identify(const casefile::CaseSpec& spec, const audit::Options& op
 /// impacts are those of the log. docs/audit.md, "Causes"
 /// @param is_interrupted  asked between runs; yes ends the search
 /// @return how many impacts the case follows, and the best cause with which nine tenths can be followed
-Identification replay(const Assumptions& nominal, const std::vector<Parameter>& numbers,
-                      const std::vector<Parameter>& mistakes, const audit::EventsAtHand& log,
-                      const std::function<bool()>& is_interrupted);
+Identification replay(const Assumed& nominal, const std::vector<Assumption>& assumptions,
+                      const audit::EventsAtHand& log, const std::function<bool()>& is_interrupted);
 
 /// As lines of the audit's report.
 std::string table(const Identification& found);

@@ -11,9 +11,12 @@ namespace edmill::identify {
 std::string Cause::text() const {
   std::string text;
   const auto join = [&](const std::string& part) { text += (text.empty() ? "" : ", and ") + part; };
-  for (const auto& mistake : mistakes) join(mistake);
-  for (const auto& v : values) {
-    const auto& n = v.number;
+  for (const auto& v : found) {
+    const auto& n = v.what;
+    if (!n.is_fitted()) {
+      join(n.name());
+      continue;
+    }
     const bool is_factor = !n.equation.empty() && n.dimension == Dimension::none;
     const auto word = is_factor ? word_for(v.value, v.half_width) : "";
     const auto equation = n.equation.empty() ? "" : " " + n.equation;
@@ -151,13 +154,18 @@ void put_json(io::JsonText& json, const Identification& found) {
     if (!cause.others.empty()) json.add("others", cause.others);
     if (cause.could_follow > 0) json.add("follows", cause.follows, "could_follow", cause.could_follow);
     json.add("gain", cause.gain);
-    json.numbered("mistakes", cause.mistakes);
-    const auto key_of = [](const Found& v) { return v.number.key; };
-    json.groups("values", cause.values, key_of, [&](const auto& v) {
-      json.add("value", v.value, "half_width", v.half_width, "nominal", v.number.value);
-      if (!v.number.in_place_of.empty()) json.add("in_place_of", v.number.in_place_of);
-      if (!v.number.equation.empty()) json.add("equation", v.number.equation);
-    });
+    const auto numbers = fitted(cause);
+    std::vector<std::string> mistakes;
+    for (std::size_t m = 0; m + numbers.size() < cause.found.size(); ++m)
+      mistakes.push_back(cause.found[m].what.name());
+    json.numbered("mistakes", mistakes);
+    json.groups(
+        "values", numbers, [](const Found& v) { return v.what.key; },
+        [&](const Found& v) {
+          json.add("value", v.value, "half_width", v.half_width, "nominal", v.what.value);
+          if (!v.what.in_place_of.empty()) json.add("in_place_of", v.what.in_place_of);
+          if (!v.what.equation.empty()) json.add("equation", v.what.equation);
+        });
     json.numbered("alike", cause.alike);
     json.end();
   }

@@ -17,7 +17,7 @@ using Impact = model::ImpactRecord<double>;
 
 class Replay {
  public:
-  Replay(const Assumptions& nominal, const audit::EventsAtHand& log) {
+  Replay(const Assumed& nominal, const audit::EventsAtHand& log) {
     const auto initial = casefile::build_case<double>(nominal.spec);
     states_ = initial.states;
     const auto& mill = initial.the_case.mill;
@@ -36,7 +36,7 @@ class Replay {
   std::size_t count() const { return log_.size(); }
 
   /// The first impacts of the case with these values, from the initial state of the nominal one.
-  std::vector<Impact> impacts(const Assumptions& assumed, std::size_t count) const {
+  std::vector<Impact> impacts(const Assumed& assumed, std::size_t count) const {
     casefile::CaseSpec spec = assumed.case_file();
     spec.batches.clear();
     spec.balls.clear();
@@ -142,7 +142,7 @@ double weighted_median(std::vector<std::pair<double, double>> values) {
 /// The value with which the times of the first impacts are the log's: least absolute deviations of times that
 /// are linear in it, over more and more impacts of each ball. @return the value and what its last impacts
 /// leave open
-std::pair<double, double> fitted_value(const Replay& replay, const Assumptions& nominal, const Parameter& p) {
+std::pair<double, double> fitted_value(const Replay& replay, const Assumed& nominal, const Assumption& p) {
   double value = p.value, open = std::abs(p.change);
   for (const std::size_t depth : {1, 1, 2, 2, 3, 4, 6, 8, 8}) {
     const std::size_t count = std::min(replay.count(), 2 * depth * nominal.balls.size() + 20);
@@ -173,9 +173,8 @@ std::pair<double, double> fitted_value(const Replay& replay, const Assumptions& 
 
 }  // namespace
 
-Identification replay(const Assumptions& nominal, const std::vector<Parameter>& numbers,
-                      const std::vector<Parameter>& mistakes, const audit::EventsAtHand& log,
-                      const std::function<bool()>& is_interrupted) {
+Identification replay(const Assumed& nominal, const std::vector<Assumption>& assumptions,
+                      const audit::EventsAtHand& log, const std::function<bool()>& is_interrupted) {
   Replay runs(nominal, log);
   Identification result;
   if (runs.count() < 20) {
@@ -186,8 +185,8 @@ Identification replay(const Assumptions& nominal, const std::vector<Parameter>& 
   const std::size_t without = runs.follows(case_itself);
   result.follows = without;
   // How far two runs agree that differ by rounding alone.
-  const auto horizon = [&](const Assumptions& assumed, const std::vector<Impact>& list) {
-    Assumptions other = assumed;
+  const auto horizon = [&](const Assumed& assumed, const std::vector<Impact>& list) {
+    Assumed other = assumed;
     for (auto& ball : other.balls) ball.radius *= 1 + 1e-15;
     return std::max<std::size_t>(1, runs.common(list, runs.impacts(other, runs.count())));
   };
@@ -196,7 +195,7 @@ Identification replay(const Assumptions& nominal, const std::vector<Parameter>& 
   if (result.follows_all) return result;
 
   auto& best = result.causes;  // one at most
-  const auto consider = [&](Cause found, const Assumptions& assumed) {
+  const auto consider = [&](Cause found, const Assumed& assumed) {
     const auto list = runs.impacts(assumed, runs.count());
     found.follows = runs.follows(list);
     if (found.follows < without + 10 || (!best.empty() && found.follows <= best[0].follows)) return;
@@ -205,18 +204,16 @@ Identification replay(const Assumptions& nominal, const std::vector<Parameter>& 
   };
   for (const bool in_vessel : {false, true}) {
     runs.in_vessel = in_vessel;
-    for (const auto& mistake : mistakes) {
+    for (const auto& a : assumptions) {
       if (is_interrupted()) return result;
-      if (mistake.by_factor) continue;  // a mill that turns a thousand times as fast is not run in a hurry
-      const Assumptions assumed = mistake.on(nominal, 1);
-      if (runs.follows(runs.impacts(assumed, 30)) < std::min<std::size_t>(20, runs.count())) continue;
-      consider({.mistakes = {mistake.name()}}, assumed);
-    }
-    for (const auto& p : numbers) {
-      if (is_interrupted()) return result;
-      const auto [value, open] = fitted_value(runs, nominal, p);
-      if (!(std::abs(value - p.value) > open)) continue;
-      consider({.values = {Found{p, value, open}}}, p.on(nominal, value));
+      if (a.by_factor) continue;  // a mill that turns a thousand times as fast is not run in a hurry
+      if (a.is_fitted()) {
+        const auto [value, open] = fitted_value(runs, nominal, a);
+        if (std::abs(value - a.value) > open) consider({.found = {{a, value, open}}}, a.on(nominal, value));
+      } else if (const Assumed assumed = a.on(nominal, 1);
+                 runs.follows(runs.impacts(assumed, 30)) >= std::min<std::size_t>(20, runs.count())) {
+        consider({.found = {{a}}}, assumed);
+      }
     }
   }
   return result;

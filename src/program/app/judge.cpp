@@ -53,9 +53,8 @@ std::string to_junit(const audit::Audit& result) {
     }
     cases.push_back({std::string(audit::info(check).name), problem});
   }
-  const bool judged =
-      result.verdict == audit::AuditVerdict::clean || result.verdict == audit::AuditVerdict::violations;
-  cases.push_back({"enough impacts", judged ? "" : "too few impacts to judge"});
+  cases.push_back(
+      {"enough impacts", result.verdict == audit::Verdict::too_few ? "too few impacts to judge" : ""});
   return compare::junit_text("edmill audit of " + result.log_name, cases);
 }
 
@@ -100,19 +99,15 @@ Judged audit(const casefile::CaseSpec& spec, const AuditOptions& given) {
   using identify::Search;
   std::uint64_t explained = 0;
   for (const auto& diagnosis : found.diagnoses) explained += diagnosis.events;
-  const bool is_open = found.verdict == audit::AuditVerdict::violations &&
-                       !audit::accounts_for(explained, found.findings.total());
+  const bool is_open =
+      found.verdict == audit::Verdict::differ && !audit::accounts_for(explained, found.findings.total());
   if (!found.interrupted && (given.identify || is_open)) {
     const auto identified =
         identify::identify(spec, options, given.identify ? Search::all : Search::single, given.searching);
     table += identify::table(identified);
     identify::put_json(json, identified);
   }
-  using compare::Verdict;
-  const auto verdict = found.verdict == audit::AuditVerdict::clean        ? Verdict::agree
-                       : found.verdict == audit::AuditVerdict::violations ? Verdict::differ
-                                                                          : Verdict::too_few;
-  return {verdict, json.finish(), to_junit(found), table};
+  return {found.verdict, json.finish(), to_junit(found), table};
 }
 
 }  // namespace edmill::app

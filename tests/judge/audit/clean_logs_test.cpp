@@ -34,7 +34,7 @@ TEST_P(OwnLogs, AreClean) {
   options.log = scratch / "out";
   options.from_start = true;
   const auto result = audit(built.the_case, built.states, options);
-  EXPECT_EQ(result.verdict, AuditVerdict::clean) << table(result);
+  EXPECT_EQ(result.verdict, Verdict::agree) << table(result);
   EXPECT_TRUE(result.not_made.empty() || p.balls.find("count = 1\n") != std::string::npos) << table(result);
   EXPECT_EQ(result.undecided, 0u);
   EXPECT_GT(result.events, 200u);
@@ -102,7 +102,7 @@ TEST_P(ExampleLogs, AreClean) {
   options.log = scratch / "out";
   options.from_start = true;
   const auto result = audit(built.the_case, built.states, options);
-  EXPECT_EQ(result.verdict, AuditVerdict::clean) << table(result);
+  EXPECT_EQ(result.verdict, Verdict::agree) << table(result);
   EXPECT_EQ(result.events, 6000u);
   const auto summary = nlohmann::json::parse(contents(scratch / "out/summary.json"));
   const double dose = summary["milling_dose"];

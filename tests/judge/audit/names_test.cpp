@@ -33,10 +33,8 @@ class Names : public testing::FaultyLog, public ::testing::WithParamInterface<Pl
   static std::set<std::string> names(const Audit& audit, const identify::Identification& found) {
     std::set<std::string> all;
     for (const auto& d : audit.diagnoses) all.insert(d.name);
-    for (const auto& cause : found.causes) {
-      for (const auto& value : cause.values) all.insert(value.number.key);
-      for (const auto& mistake : cause.mistakes) all.insert(mistake);
-    }
+    for (const auto& cause : found.causes)
+      for (const auto& f : cause.found) all.insert(f.what.is_fitted() ? f.what.key : f.what.name());
     if (found.stepping.soft) all.insert("soft contacts");
     if (found.stepping.step) all.insert("multiples of a step");
     if (found.stepping.step_by_depth) all.insert("step by depth");
@@ -61,7 +59,7 @@ TEST_P(Names, AreRightOrNotGiven) {
   const std::string text = edmill::audit::table(result) + identify::table(found);
   for (const auto& name : given) EXPECT_TRUE(p.right.contains(name)) << "\"" << name << "\"\n" << text;
   // A coarse tolerance may hide what was planted.
-  const bool seen = result.verdict == AuditVerdict::violations;
+  const bool seen = result.verdict == Verdict::differ;
   EXPECT_TRUE(p.right.empty() || !given.empty() || (!seen && p.tolerance > 1e-6)) << text;
 }
 

@@ -1,4 +1,4 @@
-#include "identify/assumptions.hpp"
+#include "identify/assumed.hpp"
 
 #include <fmt/format.h>
 
@@ -78,7 +78,7 @@ void LogChange::apply(audit::LoggedEvent& event, const model::Mill<double>& mill
   if (!event.with_wall) renamed(event.partner);
 }
 
-casefile::CaseSpec Assumptions::case_file() const {
+casefile::CaseSpec Assumed::case_file() const {
   if (phases.empty() || !casefile::problems_of(spec).empty()) return spec;
   auto joints = casefile::joints_of(spec.mill);
   if (joints.size() != this->joints) return spec;  // another mill, by a mistake
@@ -92,7 +92,7 @@ casefile::CaseSpec Assumptions::case_file() const {
   return changed;
 }
 
-std::optional<model::Case<double>> Assumptions::built() const {
+std::optional<model::Case<double>> Assumed::built() const {
   const auto file = case_file();
   if (!casefile::problems_of(file).empty()) return std::nullopt;
   model::Case<double> result;
@@ -105,7 +105,7 @@ std::optional<model::Case<double>> Assumptions::built() const {
   return result;
 }
 
-Assumptions assumptions_of(const casefile::CaseSpec& spec) {
+Assumed assumed_of(const casefile::CaseSpec& spec) {
   const auto built = casefile::build_case<double>(spec).the_case;
   return {spec, built.balls, {}, built.mill.vessel.wall_count(), casefile::joints_of(spec.mill).size()};
 }

@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "audit/mechanics.hpp"
-#include "identify/parameters.hpp"
+#include "identify/assumptions.hpp"
 
 namespace edmill::identify {
 
@@ -17,7 +17,7 @@ using Joints = std::vector<model::Joint<Quantity>>;
 
 using std::numbers::pi;
 
-void put_chain(Assumptions& a, Joints joints) {
+void put_chain(Assumed& a, Joints joints) {
   const auto period = casefile::period_of(a.spec.mill);
   a.spec.mill = model::Chain<Quantity>{{std::move(joints), period}};
 }
@@ -34,18 +34,18 @@ Joints reversed(Joints joints) {
   return joints;
 }
 
-void add(std::vector<Parameter>& list, std::string key, std::string text,
-         std::function<void(Assumptions&)> make) {
+void add(std::vector<Assumption>& list, std::string key, std::string text,
+         std::function<void(Assumed&)> make) {
   list.push_back({.key = std::move(key),
-                  .set = [make = std::move(make)](Assumptions& a, double) { make(a); },
+                  .set = [make = std::move(make)](Assumed& a, double) { make(a); },
                   .first_values = {1},
                   .mistake = std::move(text)});
 }
 
-void add_motions(const Assumptions& nominal, std::vector<Parameter>& list) {
+void add_motions(const Assumed& nominal, std::vector<Assumption>& list) {
   const Joints joints = casefile::joints_of(nominal.spec.mill);
   const auto add_joints = [&](const char* what, const char* text, const Joints& others) {
-    add(list, fmt::format("mill, {}", what), text, [others](Assumptions& a) { put_chain(a, others); });
+    add(list, fmt::format("mill, {}", what), text, [others](Assumed& a) { put_chain(a, others); });
     list.back().of_motion = true;
   };
   const bool is_spex = std::holds_alternative<model::Spex8000<Quantity>>(nominal.spec.mill);
@@ -74,7 +74,7 @@ struct Factor {
   double by;
   const char* text;
 
-  bool changes(const Parameter& p) const {
+  bool changes(const Assumption& p) const {
     const bool turns = p.dimension == Dimension::angular_speed;
     return of == On::any || (of == On::angle && (turns || p.dimension == Dimension::angle)) ||
            (of == On::angular_speed && turns) || (of == On::diameter && p.is_diameter);
@@ -92,7 +92,7 @@ constexpr Factor factors[] = {
     {Factor::On::diameter, 2, "2: the diameter taken for the radius"},
     {Factor::On::diameter, 0.5, "1/2: the radius taken for the diameter"}};
 
-void add_factors(const std::vector<Parameter>& numbers, std::vector<Parameter>& list) {
+void add_factors(const std::vector<Assumption>& numbers, std::vector<Assumption>& list) {
   for (const auto& p : numbers)
     for (const auto& factor : factors) {
       if (!p.has_unit || p.dimension == Dimension::none || !factor.changes(p)) continue;
@@ -100,16 +100,16 @@ void add_factors(const std::vector<Parameter>& numbers, std::vector<Parameter>& 
       add(list, p.key,
           fmt::format("{} in place of {}, a factor of {}", value_text(p.dimension, value),
                       value_text(p.dimension, p.value), factor.text),
-          [set = p.set, value](Assumptions& a) { set(a, value); });
+          [set = p.set, value](Assumed& a) { set(a, value); });
       list.back().by_factor = true;
     }
 }
 
-void add_units(const audit::Available& has, std::vector<Parameter>& list) {
+void add_units(const audit::Available& has, std::vector<Assumption>& list) {
   const auto& ball = has.body[0];
   const auto add_unit = [&](const char* columns, double LogChange::*member, double factor, std::string text) {
     add(list, fmt::format("the log's {}", columns), std::move(text),
-        [=](Assumptions& a) { a.log.*member = factor; });
+        [=](Assumed& a) { a.log.*member = factor; });
   };
   struct Columns {
     bool logged;
@@ -135,7 +135,7 @@ void add_units(const audit::Available& has, std::vector<Parameter>& list) {
 }
 
 /// Axes that a code has in another order or direction.
-void add_axes(const audit::Available& has, std::vector<Parameter>& list) {
+void add_axes(const audit::Available& has, std::vector<Assumption>& list) {
   const auto& ball = has.body[0];
   struct Vectors {
     bool logged;
@@ -160,40 +160,40 @@ void add_axes(const audit::Available& has, std::vector<Parameter>& list) {
       if (axes == Axes{}) continue;
       text += " of the log are x, y, z of the case";
       if (all)
-        add(list, "the log's vectors", text, [=](Assumptions& a) {
+        add(list, "the log's vectors", text, [=](Assumed& a) {
           for (const auto& v : vectors) a.log.*v.axes = axes;
         });
       for (const auto& v : vectors)
         if (v.logged)
-          add(list, fmt::format("the log's {}", v.name), text, [=](Assumptions& a) { a.log.*v.axes = axes; });
+          add(list, fmt::format("the log's {}", v.name), text, [=](Assumed& a) { a.log.*v.axes = axes; });
     }
   } while (std::next_permutation(from.begin(), from.end()));
 }
 
 /// What columns contain.
-void add_frames(const audit::Available& has, std::vector<Parameter>& list) {
+void add_frames(const audit::Available& has, std::vector<Assumption>& list) {
   const auto& [ball, partner] = has.body;
   if (partner.velocity_before || partner.velocity_after)
     add(list, "the log's columns of the partner", "the states of ball and partner exchanged",
-        [](Assumptions& a) { a.log.states_exchanged = true; });
+        [](Assumed& a) { a.log.states_exchanged = true; });
   if (!ball.position) return;
   add(list, "the log's frame", "vectors in components along the vessel's axes",
-      [](Assumptions& a) { a.log.frame = LogFrame::axes_of_vessel; });
+      [](Assumed& a) { a.log.frame = LogFrame::axes_of_vessel; });
   add(list, "the log's frame", "places, velocities and spins as seen from the vessel",
-      [](Assumptions& a) { a.log.frame = LogFrame::vessel; });
+      [](Assumed& a) { a.log.frame = LogFrame::vessel; });
   if (ball.velocity_before && ball.velocity_after)
     add(list, "the log's states", "before and after the impact exchanged",
-        [](Assumptions& a) { a.log.reversed_in_time = true; });
+        [](Assumed& a) { a.log.reversed_in_time = true; });
   for (std::size_t formula = 1; formula < audit::wall_velocities.size(); ++formula)
     add(list, "velocity of the wall (2.27)", audit::wall_velocities[formula].note,
-        [formula](Assumptions& a) { a.terms.wall_velocity_formula = formula; });
+        [formula](Assumed& a) { a.terms.wall_velocity_formula = formula; });
 }
 
 /// Formulas of impacts: of bodies that separate at v_s, and for balls that are alike in place of those that
 /// are not.
-void add_formulas(const Assumptions& nominal, std::vector<Parameter>& list) {
+void add_formulas(const Assumed& nominal, std::vector<Assumption>& list) {
   add(list, "limit of the friction (2.24')", "mu (1 + e_n) |g_n| in place of the impulse at v_s",
-      [](Assumptions& a) { a.terms.friction_of_restitution = true; });
+      [](Assumed& a) { a.terms.friction_of_restitution = true; });
   using Form = Terms::EqualBalls;
   const auto alike = [&](const auto& ball) { return ball == nominal.balls.front(); };
   if (std::all_of(nominal.balls.begin(), nominal.balls.end(), alike)) return;
@@ -203,11 +203,11 @@ void add_formulas(const Assumptions& nominal, std::vector<Parameter>& list) {
         std::pair(Form::masses, "each takes half of the relative change, as for equal masses"),
         std::pair(Form::exchanged_masses, "the masses are exchanged")})
     add(list, "impacts of balls that are not alike (2.24')", text,
-        [form = form](Assumptions& a) { a.terms.equal_balls = form; });
+        [form = form](Assumed& a) { a.terms.equal_balls = form; });
 }
 
 /// Numbers of balls of different kinds that a log has exchanged. Balls alike cannot be told apart.
-void add_exchanged_balls(const Assumptions& nominal, std::vector<Parameter>& list) {
+void add_exchanged_balls(const Assumed& nominal, std::vector<Assumption>& list) {
   constexpr int most = 40;
   const int count = static_cast<int>(nominal.balls.size());
   if (count > most) return;
@@ -215,16 +215,16 @@ void add_exchanged_balls(const Assumptions& nominal, std::vector<Parameter>& lis
     for (int j = i + 1; j < count; ++j)
       if (!(nominal.balls[i] == nominal.balls[j]))
         add(list, "the log's numbers of balls", fmt::format("balls {} and {} taken for each other", i, j),
-            [=](Assumptions& a) {
+            [=](Assumed& a) {
               a.log.exchanged = {i, j};
             });
 }
 
 }  // namespace
 
-std::vector<Parameter> mistakes_of(const Assumptions& nominal, const std::vector<Parameter>& parameters,
-                                   const audit::Available& has) {
-  std::vector<Parameter> list;
+std::vector<Assumption> mistakes_of(const Assumed& nominal, const std::vector<Assumption>& parameters,
+                                    const audit::Available& has) {
+  std::vector<Assumption> list;
   add_motions(nominal, list);
   add_units(has, list);
   add_axes(has, list);

@@ -1,5 +1,3 @@
-#include "identify/parameters.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,8 @@
 #include <optional>
 #include <string_view>
 #include <utility>
+
+#include "identify/assumptions.hpp"
 
 namespace edmill::identify {
 
@@ -27,8 +27,8 @@ std::string with_axis(const std::string& key, int axis) {
 }
 
 /// With the unit of a fit that its size suggests.
-Parameter number(std::string key, Dimension dimension, double value,
-                 std::function<void(Assumptions&, double)> set) {
+Assumption number(std::string key, Dimension dimension, double value,
+                  std::function<void(Assumed&, double)> set) {
   const double size = std::abs(value);
   return {.key = std::move(key),
           .dimension = dimension,
@@ -52,8 +52,8 @@ void each_number(Part& part, F&& f) {
 }
 
 template <class Member>
-void add_numbers(const std::string& section, const Assumptions& nominal, Member member,
-                 std::vector<Parameter>& list) {
+void add_numbers(const std::string& section, const Assumed& nominal, Member member,
+                 std::vector<Assumption>& list) {
   auto part = nominal.spec.*member;
   std::size_t place = 0;
   each_number(part, [&](const model::Parameter& p, Quantity& q, int axis) {
@@ -63,7 +63,7 @@ void add_numbers(const std::string& section, const Assumptions& nominal, Member 
     const double nominal_value = drive ? 2 * pi / q.to<double>() : q.to<double>();
     // What does not move, and directions of axes, are not numbers that a code takes for another.
     if (nominal_value == 0) return;
-    const auto set = [member, own, drive](Assumptions& a, double value) {
+    const auto set = [member, own, drive](Assumed& a, double value) {
       std::size_t k = 0;
       each_number(a.spec.*member, [&](const model::Parameter&, Quantity& target, int) {
         if (k++ == own) target = exactly(drive ? 2 * pi / value : value);
@@ -76,7 +76,7 @@ void add_numbers(const std::string& section, const Assumptions& nominal, Member 
 }
 
 /// Numbers of the joints of a mill that are not keys of its type.
-void add_joints(const Assumptions& nominal, std::vector<Parameter>& list) {
+void add_joints(const Assumed& nominal, std::vector<Assumption>& list) {
   const auto& joints = std::get<model::Chain<Quantity>>(nominal.spec.mill).given.list;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const auto& joint = joints[j];
@@ -86,7 +86,7 @@ void add_joints(const Assumptions& nominal, std::vector<Parameter>& list) {
       const bool turns = dimension == Dimension::angle || dimension == Dimension::angular_speed;
       const double unit = turns ? 2 * pi : 1;
       list.push_back(number(fmt::format("mill.joint.{}.{}", j, key), dimension, unit * value.to<double>(),
-                            [=](Assumptions& a, double x) {
+                            [=](Assumed& a, double x) {
                               auto& chain = std::get<model::Chain<Quantity>>(a.spec.mill);
                               *member(chain.given.list[j]) = exactly(x / unit);
                             }));
@@ -116,13 +116,13 @@ std::string axis_text(const model::Joint<Quantity>& joint) {
   return fmt::format("({:g}, {:g}, {:g})", a[0], a[1], a[2]);
 }
 
-void add_phases(const Assumptions& nominal, std::vector<Parameter>& list) {
+void add_phases(const Assumed& nominal, std::vector<Assumption>& list) {
   const bool chain = std::holds_alternative<model::Chain<Quantity>>(nominal.spec.mill);
   const auto joints = casefile::joints_of(nominal.spec.mill);
-  std::vector<Parameter> phases;
+  std::vector<Assumption> phases;
   const auto add = [&](std::size_t j, std::size_t place, std::string key, const Quantity& turns) {
     const double value = chain ? 2 * pi * turns.to<double>() : 0;
-    auto p = number(std::move(key), Dimension::angle, value, [=](Assumptions& a, double x) {
+    auto p = number(std::move(key), Dimension::angle, value, [=](Assumed& a, double x) {
       a.phases[{j, place}] = x - value;
     });
     p.change = 0.1;
@@ -148,26 +148,26 @@ void add_phases(const Assumptions& nominal, std::vector<Parameter>& list) {
   for (auto& p : phases) list.push_back(std::move(p));
 }
 
-Vec3<double> gravity_of(const Assumptions& a) {
+Vec3<double> gravity_of(const Assumed& a) {
   const auto& g = a.spec.gravity;
   return {g[0].to<double>(), g[1].to<double>(), g[2].to<double>()};
 }
 
-void add_gravity(const Assumptions& nominal, std::vector<Parameter>& list) {
+void add_gravity(const Assumed& nominal, std::vector<Assumption>& list) {
   const Vec3<double> g = gravity_of(nominal);
   const double size = norm<double>(g);
-  const auto put = [](Assumptions& a, const Vec3<double>& to) {
+  const auto put = [](Assumed& a, const Vec3<double>& to) {
     for (int k = 0; k < 3; ++k) a.spec.gravity[k] = exactly(to[k]);
   };
   if (size == 0) {
     for (int axis = 0; axis < 3; ++axis) {
       list.push_back(number(with_axis("run.gravity", axis), Dimension::acceleration, 0,
-                            [=](Assumptions& a, double x) { a.spec.gravity[axis] = exactly(x); }));
+                            [=](Assumed& a, double x) { a.spec.gravity[axis] = exactly(x); }));
       list.back().change = 10;
     }
     return;
   }
-  list.push_back(number("run.gravity", Dimension::acceleration, size, [=](Assumptions& a, double x) {
+  list.push_back(number("run.gravity", Dimension::acceleration, size, [=](Assumed& a, double x) {
     Vec3<double> now = gravity_of(a);
     if (norm<double>(now) == 0) now = g;
     put(a, Vec3<double>(now * (x / norm<double>(now))));
@@ -179,7 +179,7 @@ void add_gravity(const Assumptions& nominal, std::vector<Parameter>& list) {
   for (int tilt = 0; tilt < 2; ++tilt) {
     const int axis = axes[tilt];
     auto p = number(with_axis("run.gravity, tilted towards", axis), Dimension::angle, 0,
-                    [=](Assumptions& a, double x) {
+                    [=](Assumed& a, double x) {
                       Vec3<double> now = gravity_of(a);
                       const double c = std::cos(x), s = std::sin(x), side = g[along] < 0 ? -1 : 1;
                       const double u = now[axis], v = now[along] * side;
@@ -264,11 +264,11 @@ bool replace(Law& law, const OtherLaw& other, double value) {
 /// Where a case gives a law, or two that are alike.
 struct Section {
   std::string key;  ///< "contact.ball_wall"
-  std::function<std::vector<Law*>(Assumptions&)> laws;
+  std::function<std::vector<Law*>(Assumed&)> laws;
 };
 
 /// The numbers of a section that its laws have alike.
-void add_numbers_of(const Section& section, Assumptions nominal, std::vector<Parameter>& list) {
+void add_numbers_of(const Section& section, Assumed nominal, std::vector<Assumption>& list) {
   const auto laws = section.laws(nominal);
   const auto own = entries(*laws.front()), others = entries(*laws.back());
   if (own.size() != others.size()) return;  // tables with other points
@@ -276,7 +276,7 @@ void add_numbers_of(const Section& section, Assumptions nominal, std::vector<Par
   for (std::size_t k = 0; k < own.size(); ++k) {
     const auto& [key, dimension, value] = own[k];
     // Another law may not have a number of this name; points of tables have one name.
-    const auto set = [laws = section.laws, key = key, which = seen[key]++](Assumptions& a, double x) {
+    const auto set = [laws = section.laws, key = key, which = seen[key]++](Assumed& a, double x) {
       for (Law* law : laws(a)) {
         std::size_t same = 0;
         each_number_of(*law, [&](const char* there, Dimension, Quantity& q) {
@@ -290,7 +290,7 @@ void add_numbers_of(const Section& section, Assumptions nominal, std::vector<Par
   }
 }
 
-void add_other_laws(const Section& section, Assumptions nominal, std::vector<Parameter>& list) {
+void add_other_laws(const Section& section, Assumed nominal, std::vector<Assumption>& list) {
   const Law& law = *section.laws(nominal).front();
   for (const auto& other : other_laws) {
     Law tried = law;
@@ -300,7 +300,7 @@ void add_other_laws(const Section& section, Assumptions nominal, std::vector<Par
                     .value = std::numeric_limits<double>::quiet_NaN(),
                     .change = other.change,
                     .set =
-                        [laws = section.laws, &other](Assumptions& a, double x) {
+                        [laws = section.laws, &other](Assumed& a, double x) {
                           for (Law* own : laws(a)) replace(*own, other, x);
                         },
                     .prior = 1,  // of two that fit alike, a number of the case's law comes first
@@ -310,32 +310,30 @@ void add_other_laws(const Section& section, Assumptions nominal, std::vector<Par
 }
 
 /// Those of the contact laws, and one number of each other law that a code may use instead.
-void add_laws(const Assumptions& nominal, std::vector<Parameter>& list) {
+void add_laws(const Assumed& nominal, std::vector<Assumption>& list) {
   using Laws = std::vector<Law*>;
   const auto& spec = nominal.spec;
   std::vector<Section> sections;
   if (!spec.pairs_only) {
     if (spec.ball_ball.law.index() == spec.ball_wall.law.index())
-      sections.push_back({"contact", [](Assumptions& a) {
-                            return Laws{&a.spec.ball_ball, &a.spec.ball_wall};
-                          }});
-    sections.push_back({"contact.ball_ball", [](Assumptions& a) { return Laws{&a.spec.ball_ball}; }});
-    sections.push_back({"contact.ball_wall", [](Assumptions& a) { return Laws{&a.spec.ball_wall}; }});
+      sections.push_back({"contact", [](Assumed& a) { return Laws{&a.spec.ball_ball, &a.spec.ball_wall}; }});
+    sections.push_back({"contact.ball_ball", [](Assumed& a) { return Laws{&a.spec.ball_ball}; }});
+    sections.push_back({"contact.ball_wall", [](Assumed& a) { return Laws{&a.spec.ball_wall}; }});
   }
   for (const auto& section : sections) add_numbers_of(section, nominal, list);
   for (const auto& section : sections) add_other_laws(section, nominal, list);
   for (std::size_t k = 0; k < spec.pairs.size(); ++k)
     add_numbers_of(
-        {fmt::format("contact.pair.{}", k), [k](Assumptions& a) { return Laws{&a.spec.pairs[k].law}; }},
-        nominal, list);
+        {fmt::format("contact.pair.{}", k), [k](Assumed& a) { return Laws{&a.spec.pairs[k].law}; }}, nominal,
+        list);
 }
 
 /// Adds the parameters of the balls [first, last), whose numbers are all scaled alike.
 void add_balls(const std::string& key, std::size_t first, std::size_t last, const casefile::BallSpec& spec,
-               std::vector<Parameter>& list) {
+               std::vector<Assumption>& list) {
   using Spec = casefile::BallSpec;
   // In the balls themselves, whose diameters may differ, and in the entries of the case.
-  const auto each = [first, last](Assumptions& a, Quantity Spec::*member, double x, auto&& change) {
+  const auto each = [first, last](Assumed& a, Quantity Spec::*member, double x, auto&& change) {
     for (std::size_t k = first; k < last; ++k) change(a.balls[k]);
     const std::size_t explicit_ones = a.spec.balls.size();
     for (std::size_t k = first; k < std::min(last, explicit_ones); ++k) a.spec.balls[k].*member = exactly(x);
@@ -346,7 +344,7 @@ void add_balls(const std::string& key, std::size_t first, std::size_t last, cons
     }
   };
   const double diameter = spec.diameter.to<double>(), density = spec.density.to<double>();
-  list.push_back(number(key + ".diameter", Dimension::length, diameter, [=](Assumptions& a, double x) {
+  list.push_back(number(key + ".diameter", Dimension::length, diameter, [=](Assumed& a, double x) {
     const double by = x / diameter;
     each(a, &Spec::diameter, x, [&](auto& ball) {
       ball.radius *= by;
@@ -354,16 +352,16 @@ void add_balls(const std::string& key, std::size_t first, std::size_t last, cons
     });
   }));
   list.back().is_diameter = true;
-  list.push_back(number(key + ".density", Dimension::density, density, [=](Assumptions& a, double x) {
+  list.push_back(number(key + ".density", Dimension::density, density, [=](Assumed& a, double x) {
     each(a, &Spec::density, x, [&](auto& ball) { ball.mass *= x / density; });
   }));
   list.push_back(number(key + ".reduced_inertia", Dimension::none, spec.reduced_inertia.to<double>(),
-                        [=](Assumptions& a, double x) {
+                        [=](Assumed& a, double x) {
                           each(a, &Spec::reduced_inertia, x, [&](auto& ball) { ball.reduced_inertia = x; });
                         }));
 }
 
-void add_all_balls(const Assumptions& nominal, std::vector<Parameter>& list) {
+void add_all_balls(const Assumed& nominal, std::vector<Assumption>& list) {
   const auto groups = ball_groups(nominal.spec);
   if (groups.empty()) return;
   constexpr std::size_t most_groups = 8;
@@ -414,7 +412,7 @@ constexpr TermRow term_rows[] = {
     {"age of the velocities before impacts", "(2.1)", &Terms::age_of_velocities, Dimension::time, true}};
 
 /// The factors and shifts of the terms of the equations.
-void add_terms(std::vector<Parameter>& list) {
+void add_terms(std::vector<Assumption>& list) {
   for (const auto& row : term_rows) {
     const bool is_factor = row.shift == Dimension::none;
     const double change = is_factor ? 1.0 : row.shift == Dimension::time ? 1e-5 : 1e-4;
@@ -422,7 +420,7 @@ void add_terms(std::vector<Parameter>& list) {
                     .dimension = row.shift,
                     .value = is_factor ? 1.0 : 0.0,
                     .change = change,
-                    .set = [member = row.member](Assumptions& a, double x) { a.terms.*member = x; },
+                    .set = [member = row.member](Assumed& a, double x) { a.terms.*member = x; },
                     .equation = row.equation,
                     .of_impacts = !row.of_flights,
                     .prior = 1});  // of two that fit alike, a number of the case comes first
@@ -451,7 +449,7 @@ Unit unit_of(Dimension dimension, double value) {
 
 }  // namespace
 
-std::vector<double> Parameter::trial_values(double end) const {
+std::vector<double> Assumption::trial_values(double end) const {
   if (!is_of_case()) return first_values;
   std::vector<double> values;
   if (cycle > 0) {
@@ -476,8 +474,8 @@ std::vector<double> Parameter::trial_values(double end) const {
   return values;
 }
 
-std::vector<Parameter> parameters_of(const Assumptions& nominal) {
-  std::vector<Parameter> list;
+std::vector<Assumption> numbers_of(const Assumed& nominal) {
+  std::vector<Assumption> list;
   if (std::holds_alternative<model::Chain<Quantity>>(nominal.spec.mill))
     add_joints(nominal, list);
   else
@@ -485,7 +483,7 @@ std::vector<Parameter> parameters_of(const Assumptions& nominal) {
   if (!std::holds_alternative<model::StillMill<Quantity>>(nominal.spec.mill)) {
     const double period = casefile::period_of(nominal.spec.mill).to<double>();
     list.push_back(
-        number("phase of the drive", Dimension::time, 0, [](Assumptions& a, double x) { a.log.delay = x; }));
+        number("phase of the drive", Dimension::time, 0, [](Assumed& a, double x) { a.log.delay = x; }));
     list.back().change = period / 10;
     list.back().cycle = period;
     add_phases(nominal, list);
@@ -499,11 +497,11 @@ std::vector<Parameter> parameters_of(const Assumptions& nominal) {
   return list;
 }
 
-Parameter restricted_to(const SharedSubset& part, const Parameter& parameter, std::size_t choices) {
-  Parameter p = parameter;
+Assumption restricted_to(const SharedSubset& part, const Assumption& parameter, std::size_t choices) {
+  Assumption p = parameter;
   p.key += ", " + part->name;
-  p.set = [part, set = parameter.set](Assumptions& a, double x) {
-    a.restricted.push_back({part, [set, x](Assumptions& here) { set(here, x); }});
+  p.set = [part, set = parameter.set](Assumed& a, double x) {
+    a.restricted.push_back({part, [set, x](Assumed& here) { set(here, x); }});
   };
   p.prior = parameter.prior + 2 * std::log(static_cast<double>(choices));
   return p;
