@@ -27,7 +27,7 @@ std::vector<Check> checks_not_made(const Findings& findings, bool any_pairs) {
   return missing;
 }
 
-/// What a ball has hit: the other ball, or -1 - wall.
+/// The body that a ball has hit: the other ball, or -1 - wall.
 int other_of(const LoggedEvent& event, std::size_t body) {
   return event.with_wall ? -1 - event.partner : event.ball_at(1 - body);
 }
@@ -224,8 +224,8 @@ class Auditor : Judge {
     return {gap < 0, true};
   }
 
-  /// Finds the body that is actually touched, `off` from the one that is logged; the other checks of the
-  /// event use it.
+  /// Finds the body that is actually touched, at a distance `off` from the one that is logged; the other
+  /// checks of the event use it.
   bool another_body_is_there(LoggedEvent& event, const VesselFrame& frame, double allowed, double off) {
     const double radius = radius_of(event.ball);
     const Vec& position = event.body[0].position;
@@ -271,7 +271,7 @@ class Auditor : Judge {
     }
     bool wrong_torque = false;
     for (auto row = rows_.begin(); row != rows_.end(); ++row) {
-      // Of an equation for each of two bodies the worse one.
+      // An equation that holds for each of two bodies counts once, by the worse one.
       if (const auto next = std::next(row); next != rows_.end() && next->equation == row->equation) {
         if (next->size < row->size) *next = *row;
         continue;

@@ -29,11 +29,11 @@ struct Options {
   std::function<void(double time, std::uint64_t events)> progress;  ///< called regularly
 };
 
-/// What the section [audit] of a case says; `log` is not given by it.
+/// The section [audit] of a case; `log` is not in it.
 /// @throws InputError
 Options options_of(const casefile::CaseSpec& spec);
 
-/// What a log looks like, with its evidence.
+/// A probable cause of violations, with its evidence.
 struct Diagnosis {
   std::string name;      ///< "unseen_wall"
   std::string text;      ///< a sentence
@@ -75,7 +75,7 @@ struct EventsAtHand {
 EventsAtHand read_events(const model::Case<double>& the_case, const Options& options, std::size_t most);
 /// Audits events at hand. The options' log is not read, nor is it asked to begin at the start.
 Audit audit(const model::Case<double>& the_case, const EventsAtHand& log, const Options& options);
-/// What gaps and speeds may be off by.
+/// Tolerances of gaps and speeds.
 Tolerances tolerances_of(const model::Case<double>& the_case, const Options& options);
 
 /// The result as text.

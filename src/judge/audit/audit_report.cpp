@@ -38,7 +38,7 @@ void put_finding(io::JsonText& json, const Finding& f) {
   if (*f.note != '\0') json.add("note", f.note);
 }
 
-/// What the rounding of times does, where it is more than the relative tolerance, and what cannot be checked.
+/// The effect of the rounding of times, if it exceeds the relative tolerance, and checks that cannot be made.
 std::string unresolved_checks(const Audit& a) {
   std::string out;
   const double latest = std::max(std::abs(a.first), std::abs(a.last));

@@ -83,7 +83,7 @@ void Equations::of_states(const LoggedImpact& impact, const Speeds& speeds, doub
   if (!summed) return;
   const double g_n = speeds.g_n, g_n_after = impact.g_n_after();
   double normal = impact.along(relative);
-  // Of bodies that separate before the impact, which is reported, a code may reflect g_n as usual.
+  // If bodies separate before the impact, which is reported, a code may reflect g_n as usual.
   if (const double other = g_n_after - impact.by_restitution(g_n);
       g_n > allowed && std::abs(other) < std::abs(normal))
     normal = other;

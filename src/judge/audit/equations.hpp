@@ -52,8 +52,8 @@ struct Tolerances {
   }
   double velocity(double t, double speed) const { return relative * speed + 2 * rounding_of(t) * gravity; }
 
-  /// What the uncertain wall adds to the difference of two relative velocities of an impact with it, each
-  /// seen along its normal or across [m/s].
+  /// The contribution of the uncertain wall to the difference of two relative velocities of an impact with
+  /// it, each seen along its normal or across [m/s].
   /// @param scale  no velocity of the impact is larger; a relative one is at most three of them
   /// @param bend   angle by which the normal turns where the ball is moved in the vessel [1/m]
   double of_wall(double t, double scale, double bend, double radius) const {
@@ -64,7 +64,7 @@ struct Tolerances {
   }
 };
 
-/// What friction does in an impact, docs/theory.md, section 6; either, where the log leaves open how long
+/// The state of friction in an impact, docs/theory.md, section 6; either, if the log leaves open how long
 /// the flights before were.
 enum class Friction { acts, rests, either };
 
@@ -114,7 +114,7 @@ class StallHistory {
   std::vector<Ball> balls_;
 };
 
-/// What a row compares; rows of one kind have one scale of noise.
+/// The quantity of a row; rows of one kind have one scale of noise.
 enum class RowKind : unsigned char { touch, law, energy, speed, place, velocity };
 inline constexpr std::size_t row_kinds = 6;
 
@@ -141,7 +141,7 @@ struct LoggedFlight {
   int body;                  ///< that the ball is of the event at the end
 };
 
-/// What the numbers of an impact may be off by.
+/// Tolerances of the numbers of an impact.
 struct ImpactTolerance {
   double energy = 0;           ///< [J]
   bool can_be_checked = true;  ///< not where a wall may be anywhere at the logged time, as it is rounded

@@ -60,7 +60,7 @@ struct Finding : model::ImpactRecord<double> {
   Kind kind;
   double size;             ///< of the violation, in the unit of the kind
   double found, expected;  ///< nan where they do not apply
-  const char* note = "";   ///< a literal: what the finding looks like
+  const char* note = "";   ///< a literal: a probable reason
 };
 
 /// All findings of one kind. Bounded memory: notes are literals of the program.

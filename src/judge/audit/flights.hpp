@@ -1,4 +1,4 @@
-// What happens between the impacts of a log: whether flights are ballistic, and whether an impact was missed.
+// Flights between the impacts of a log: whether they are ballistic, and whether an impact was missed.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace edmill::audit {
 
-/// What all judges of a log share.
+/// Data that all checks of a log share.
 struct Judge {
   const model::Case<double>& case_;
   const Available& available_;

@@ -25,7 +25,7 @@ struct VesselFrame {
   // For the nested motion only, whose two rotations codes take for each other:
   Vec swing{0, 0, 0};    ///< theta' about Z [rad/s]
   double roll_rate = 0;  ///< gamma' about x' [rad/s]
-  /// Where the walls stand that move in the vessel, by wall; empty where none does.
+  /// Displacements of the walls that move in the vessel, by wall; empty if there are none.
   std::vector<model::Moved<double>> moved{};
 
   model::Moved<double> of_wall(int wall) const {

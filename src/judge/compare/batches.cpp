@@ -78,7 +78,7 @@ SpectrumTest test_spectra(const std::vector<Batch>& a, const std::vector<Batch>&
     for (const auto c : used) differences[k].push_back(a[k].spectra[spectrum][c] - b[k].spectra[spectrum][c]);
   const double all = std::accumulate(both.begin(), both.end(), 0.0);
 
-  // With s the sum of +-(A - B): A holds (both + s)/2, B (both - s)/2.
+  // With s the sum of +-(A - B): A has (both + s)/2, B (both - s)/2.
   BatchValues s(used.size());
   const auto distance = [&](auto&& sign_of) {
     std::fill(s.begin(), s.end(), 0.0);

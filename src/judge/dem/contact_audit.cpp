@@ -16,7 +16,7 @@ namespace edmill::dem {
 
 namespace {
 
-/// What one single contact shows, and what the case has for it.
+/// Values measured on a single contact, and those of the case.
 struct Measured {
   std::vector<std::string>
       parts;                      ///< of the contacts to which it belongs: "at cap -y", "of balls.1 at walls"
@@ -28,7 +28,7 @@ struct Measured {
   double wall_speed = 0;          ///< along the normal [m/s]
   // Of the case:
   double law_restitution = 0, law_friction = 0;
-  // What it shows, of what it shows at all:
+  // Measured, as far as the contact shows them:
   std::optional<double> restitution = {};  ///< if nothing pressed
   std::optional<double> friction = {};     ///< impulse along the surfaces over that along the normal
   double wound = 0;  ///< the slip that only just stops, over that of a contact that slides throughout
@@ -85,8 +85,8 @@ Measured measured_by(const Contact& c, const Vector& gravity, const Bodies& bodi
   measured.pressed = early + late;
   measured.turned = norm<double>(Vector(leave.normal - touch.normal));
   const double separation = leave.separation / measured.approach, e = measured.law_restitution;
-  // What presses before the bodies are closest is an approach, what presses later brakes; both alike have
-  // the effect c.
+  // A force before the bodies are closest adds to the approach, a later one brakes; equal ones have the
+  // effect c.
   measured.restitution = separation + (2 * decks::press_effect(e) + e) * late - e * early;
   const Vector left = leave.along - (flown_on.along - touch.along);
   if (measured.slip > 0)
@@ -196,12 +196,12 @@ struct Value {
 
 const Value restitution{
     "restitution", "(2.23')", 0.003, 0.1, 0, &Measured::restitution, 0, &Measured::law_restitution};
-/// Of contacts that slide throughout, by a margin. A spring along the surfaces has to be wound up first: what
-/// that takes is in inverse proportion to the slip.
+/// Contacts that clearly slide throughout. A spring along the surfaces has to be loaded first: its share is
+/// inversely proportional to the slip.
 const Value friction{
     "friction", "(2.24')", 0.01, 0, 0.1, &Measured::friction, 0, &Measured::law_friction, &Measured::wound};
-/// Of contacts that the case's friction stops. Springs along the surfaces reverse the slip, and have twice as
-/// much; how much is the code's own law.
+/// Contacts in which the case's friction stops the slip. Springs along the surfaces reverse it, with up to
+/// twice the impulse; how much depends on the code's law.
 const Value sticking{"stopping friction", "(2.24')", 1, 0, 0, &Measured::stopping_friction, 1.5};
 const Value spin_change{"spin change over the torque's", "(2.35)", 0.02, 0, 0.3, &Measured::spin_change};
 const Value wall_velocity{"velocity", "(2.27)", 0.02, 0.2, 0, &Measured::wall_velocity};
@@ -305,8 +305,8 @@ void leave_out(ContactAudit& audit, const std::string& because, const auto& whic
     if (which(judged)) judged.not_judged = because;
 }
 
-/// A wrong velocity of the walls looks like a wrong restitution, and the reverse: of both the one is judged
-/// that leaves less of the differences.
+/// A wrong velocity of the walls resembles a wrong restitution, and the reverse: the one that explains more
+/// of the differences is judged.
 void judge_wall_velocity(const std::vector<Measured>& walls, ContactAudit& audit) {
   const Clear is_clear(walls);
   auto velocity = judged(wall_velocity, "of the walls over the case's", walls, is_clear, 1, audit.magnitude);
@@ -331,7 +331,7 @@ void judge_wall_velocity(const std::vector<Measured>& walls, ContactAudit& audit
   audit.judged.push_back(velocity);
 }
 
-/// What holds for the whole log.
+/// Facts about the whole log.
 void judge_facts(const model::Mill<double>& mill, ContactAudit& audit) {
   const auto& facts = audit.facts;
   const auto add = [&](const std::string& name, double found, double half_width, double expected,

@@ -17,7 +17,7 @@ constexpr std::size_t longest_stretch = 4096;
 /// Places in which a flight is tried between frames that are far apart.
 constexpr int tried = 32;
 
-/// What the velocity of a ball changes by from one frame to another, beside gravity [m/s].
+/// Change of a ball's velocity between two frames, without that by gravity [m/s].
 double change_of(const Frame& from, const Frame& to, std::size_t ball, const Vector& gravity) {
   return norm<double>(
       Vector(to.balls[ball].velocity - from.balls[ball].velocity - gravity * (to.time - from.time)));

@@ -18,7 +18,7 @@ namespace edmill::dem {
 
 namespace {
 
-/// What counts of a record.
+/// The part of a record that counts.
 struct Window {
   double from, until = INFINITY;
   bool compared = false;  ///< with that of another record: nothing beside it counts, and it is not empty

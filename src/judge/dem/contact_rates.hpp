@@ -25,7 +25,7 @@ struct ContactComparison {
   std::optional<double> within = {};  ///< largest difference from 1 of the ratio, where one is asked for
   double ratio = 1, half_width = 0;   ///< of B's dose rate over A's
   /// The ratio agrees if its interval is within what is asked for, and differs if it is beyond. Where nothing
-  /// is asked for, it agrees if the interval holds 1 and is no wider than 5 %.
+  /// is asked for, it agrees if the interval contains 1 and is no wider than 5 %.
   compare::Verdict verdict = compare::Verdict::too_few;
 };
 

@@ -18,9 +18,9 @@
 
 namespace edmill::dem {
 
-/// What a contact is. `wall` and `pair` are single ones, which laws can be asked of; `missed` is one that the
-/// code has not: bodies overlap, and one of them flies on; in a `jump` a ball goes where its velocities do
-/// not lead it.
+/// Kinds of contacts. `wall` and `pair` are single ones, from which laws can be measured; in a `missed` one,
+/// which the code did not compute, bodies overlap and one of them flies on; in a `jump` a ball moves to where
+/// its velocities do not lead it.
 enum class ContactClass { wall, pair, several, lasting, unexplained, missed, jump };
 inline constexpr std::array<const char*, 7> contact_class_names{"wall",        "pair",   "several", "lasting",
                                                                 "unexplained", "missed", "jump"};
@@ -41,7 +41,7 @@ struct Contact {
   BallState partner_before = {}, partner_after = {};  ///< of a pair
 };
 
-/// What the first frames tell, for the rest.
+/// Statistics of the first frames, used for all.
 struct FrameStatistics {
   double interval = 0;                 ///< median between frames [s]
   Vector gravity{0, 0, 0};             ///< median acceleration of all balls [m/s^2]
@@ -111,7 +111,7 @@ class ContactFinder {
   bool at_end_ = false;  ///< of the frames
 };
 
-/// What holds for a whole log.
+/// Facts about a whole log.
 struct ContactLogFacts {
   std::string dump;  ///< that it was made from
   std::uint64_t frames = 0, contacts = 0;
@@ -119,7 +119,7 @@ struct ContactLogFacts {
   FrameStatistics statistics;
   double mass_factor = 1,
          radius_factor = 1;  ///< of the dump's balls over the case's; 0 where it does not have them
-  int facets = 0;            ///< of the prism that stands for a round wall; 0 for a round wall
+  int facets = 0;            ///< of the prism that represents a round wall; 0 for a round wall
   ByClass<double> doses{};   ///< [J]
 
   /// The head of a log.

@@ -18,7 +18,7 @@ namespace {
 /// Places in `names`; y and z follow x.
 constexpr std::size_t id = 0, x = 1, vx = 4, wx = 7, mass = 10, radius = 11, diameter = 12, scaled_x = 13,
                       moment = 16, image_x = 17, count = 20;
-/// What a frame may have of each ball, under the names that codes give it.
+/// Columns of a frame, under the names that codes give them.
 constexpr std::array<const char*, 2> names[count] = {
     {"id", "ball"}, {"x", "xu"},   {"y", "yu"},      {"z", "zu"},      {"vx"},
     {"vy"},         {"vz"},        {"omegax", "wx"}, {"omegay", "wy"}, {"omegaz", "wz"},

@@ -12,19 +12,19 @@
 
 namespace edmill::dem {
 
-/// What a file does not say of itself.
+/// Facts about a dump that may be missing from the file.
 struct DumpFormat {
   std::optional<double> time_step;  ///< [s]; of files without times
-  std::string units = "si";  ///< "si", "cgs", "mm", "micro" or "nano"; a file that says its own overrides it
+  std::string units = "si";         ///< "si", "cgs", "mm", "micro" or "nano"; overridden by those in the file
 };
 
-/// What a deck says: its lines `timestep`, `units`, `# frame vessel` and `# facets`.
+/// Facts in a deck: its lines `timestep`, `units`, `# frame vessel` and `# facets`.
 struct DeckFacts {
   std::optional<double> time_step;
   std::string no_time_step;  ///< why the time step is not known, if so
   std::optional<std::string> units;
   bool in_vessel = false;
-  int facets = 0;  ///< of the prism that stands for a round wall
+  int facets = 0;  ///< of the prism that represents a round wall
 };
 /// @throws InputError when it cannot be read
 DeckFacts facts_of_deck(const std::string& deck);

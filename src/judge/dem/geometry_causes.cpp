@@ -224,7 +224,7 @@ void judge_places(const casefile::CaseSpec& spec, const std::vector<Contact>& co
     if (interrupt && *interrupt) break;
     const auto cause = geometry.fit(candidate);
     if (!cause || cause->left > 2 * geometry.resolution) continue;
-    // What frames just do not resolve is explained by a number that is clearly off.
+    // A deviation that frames barely resolve counts only if a number clearly differs from the case's.
     const bool is_clear = 2 * cause->left <= geometry.distance &&
                           std::abs(cause->value - cause->expected) > 3 * cause->half_width;
     if (!met || is_clear) audit.causes.push_back(*cause);

@@ -20,7 +20,7 @@ namespace {
 /// Frames from which the statistics of all are taken.
 constexpr std::size_t first_frames = 4000;
 
-/// What the dump says over what the case says, of each ball; empty where it says nothing.
+/// Ratios of the dump's values to the case's, ball by ball; empty if the dump has none.
 std::vector<double> ratios_of(std::vector<double> dump,
                               const std::vector<model::BallProperties<double>>& balls,
                               double model::BallProperties<double>::*own) {

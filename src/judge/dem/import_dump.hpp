@@ -14,7 +14,7 @@ namespace edmill::dem {
 
 struct ImportOptions {
   std::string dump, log;             ///< files to read and to write
-  std::string deck;                  ///< that made it: tells time step, units and frame; none when empty
+  std::string deck;                  ///< that made it, with time step, units and frame; none when empty
   std::optional<double> time_step;   ///< [s]
   std::optional<std::string> units;  ///< "si", "cgs", "mm", ...
   Vector origin{0, 0, 0};            ///< of the dump, in the case [m]

@@ -13,7 +13,7 @@ using BallState = model::BallState<double>;
 /// Motion and walls for balls of given radii. A wall that moves by itself (a piston) is not one of them.
 class MovingVessel {
  public:
-  /// @param facets  of the prism that stands for a round wall, as `meshes_of` makes it; 0 for a wall that is
+  /// @param facets  of the prism that represents a round wall, as `meshes_of` makes it; 0 for a wall that is
   /// round
   MovingVessel(const model::Mill<double>& mill, const std::vector<model::BallProperties<double>>& balls,
                int facets = 0);
@@ -25,7 +25,7 @@ class MovingVessel {
   double gap(const Pose& pose, std::size_t ball, int wall, const Vector& position) const;
   /// Unit, into the vessel, inertial, of the wall at the place of a ball.
   Vector normal(const Pose& pose, std::size_t ball, int wall, const Vector& position) const;
-  /// Of the vessel's material at an inertial place [m/s].
+  /// Velocity of the vessel's material at an inertial place [m/s].
   Vector wall_velocity(const Pose& pose, const Vector& place) const {
     return mill_.motion.wall_velocity(pose, place);
   }
@@ -46,7 +46,7 @@ class MovingVessel {
 
  private:
   const model::AnyVessel<double>& inset(std::size_t ball) const { return insets_[inset_of_[ball]]; }
-  /// The tube that a wall is where facets stand for it.
+  /// The cylindrical wall, if a prism represents it; otherwise null.
   const model::Tube<double>* prism(int wall) const;
 
   model::Mill<double> mill_;

@@ -22,7 +22,7 @@ struct Median {
   double half_width() const { return (high - low) / 2; }
 };
 
-/// Of an even number of values the upper one of the middle.
+/// The median; of an even number of values the upper one of the two in the middle.
 /// @param alike  number of medians whose intervals hold all of them in 95 %
 inline Median median_of(std::vector<double> values, double alike = 1) {
   if (values.empty()) return {};
@@ -58,7 +58,7 @@ inline Median median_at_zero(const std::vector<double>& x, std::vector<double> y
   return median;
 }
 
-/// What a record says over what the case says, of the ball that differs most; 0 where it says nothing, 1
+/// The largest deviation from 1 of the ratios of a record's values to the case's; 0 without any, 1
 /// where all differ by the rounding of numbers that are written.
 inline double factor_of(const std::vector<double>& ratios) {
   if (ratios.empty()) return 0;
@@ -80,7 +80,7 @@ class DoseRate {
   }
   /// [W]
   double mean() const { return *numerics::estimate(rates_).mean; }
-  /// Of the 95 % interval [W].
+  /// Half of the width of the 95 % interval [W].
   double half_width() const { return *numerics::estimate(rates_).half_width; }
 
  private:

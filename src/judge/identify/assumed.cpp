@@ -111,7 +111,7 @@ Assumed assumed_of(const casefile::CaseSpec& spec) {
 }
 
 casefile::Quantity exactly(double value) {
-  // What is no number is none of a case: 0 is refused, or fits as badly.
+  // nan and infinity are not values of a case; 0 instead is refused, or fits as badly.
   return casefile::Quantity::exactly(std::isfinite(value) ? value : 0.0);
 }
 
@@ -146,7 +146,7 @@ std::vector<SharedSubset> subsets_of(const casefile::CaseSpec& spec, const model
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall)
     of_impacts("at " + walls[wall].meaning,
                [wall](const LoggedEvent& e, std::size_t) { return e.with_wall && e.partner == wall; });
-  /// Of some walls and not all.
+  /// Impacts at some walls, if these are several and not all.
   const auto at_walls = [&](const std::string& name, const auto& is_one) {
     std::vector<bool> at;
     for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) at.push_back(is_one(wall));

@@ -1,5 +1,5 @@
-// What another code may have taken differently from the case: numbers of the model, and how its log is
-// written, in the whole log or in a part of it.
+// The case, the equations and the log's conventions as another code may have had them, in the whole log or in
+// a part of it.
 #pragma once
 
 #include <array>
@@ -53,7 +53,7 @@ using audit::Terms;
 // Parts of a log to which a cause may be restricted: one wall, one ball, one kind of partner, one branch of
 // the law.
 
-/// Where a row of a fit stands.
+/// The event and the body of a row.
 struct RowPlace {
   std::size_t event = 0;  ///< place in the log
   int body = -1;          ///< 0 the event's ball, 1 its partner, -1 both
@@ -81,7 +81,7 @@ std::vector<SharedSubset> subsets_of(const casefile::CaseSpec& spec, const model
 
 struct Assumed;
 
-/// What holds in a part of a log only.
+/// An assumption that applies to a part of a log only.
 struct Restricted {
   SharedSubset part;
   std::function<void(Assumed&)> make;
@@ -96,17 +96,17 @@ struct Assumed {
   int walls;               ///< of the case, which the log's walls are
   std::size_t joints = 0;  ///< of the case's mill, which `phases` are of
   Terms terms = {};
-  /// What the phases of the mill's joints have more than the case's [rad], by joint and swing; a rotation's
+  /// Differences of the phases of the mill's joints from the case's [rad], by joint and swing; a rotation's
   /// own angle has the place after its swings.
   std::map<std::array<std::size_t, 2>, double> phases = {};
-  std::vector<Restricted> restricted = {};  ///< what holds in a part of the log only
+  std::vector<Restricted> restricted = {};  ///< for parts of the log only
 
   /// The case of these values; none where its file would be refused, a ball has no room in the vessel, or the
   /// vessel has other walls: a log cannot be of such a mill.
   std::optional<model::Case<double>> built() const;
   /// The case's file with these values.
   casefile::CaseSpec case_file() const;
-  /// Whether a case alone says all of it, so that an audit can be made with it.
+  /// Whether a case file alone can express it, so that an audit can be made with it.
   bool is_case() const { return restricted.empty() && terms == Terms{}; }
 };
 

@@ -1,4 +1,4 @@
-// The table of assumptions: what a log may have been made with, other than the case says.
+// The table of assumptions: ways in which a log may differ from its case.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ struct Assumption {
   std::string equation = {};  ///< of docs/theory.md that a term belongs to; empty for a number of the case
   bool of_impacts = true;     ///< or rows of flights alone depend on it
   double prior = 0;           ///< what the choice among parts of the log costs in Schwarz's criterion
-  /// Of a number of another contact law: what the case has in its place. `value` is not a number.
+  /// For a number of another contact law: the law that the case has in its place; `value` is nan.
   std::string in_place_of = {};
   std::vector<double> first_values = {};  ///< of such a number, and of a mistake: to begin with
   std::string mistake =
@@ -39,7 +39,7 @@ struct Assumption {
   bool is_fitted() const { return mistake.empty(); }
   bool is_periodic() const { return is_speed || cycle > 0; }
   std::string name() const { return mistake.empty() ? key : key + ": " + mistake; }
-  /// Whether the other one says the same, or cannot be said of such a mill.
+  /// Whether the other one concerns the same key, or does not exist for such a mill.
   bool excludes(const Assumption& other) const {
     return key == other.key || (of_motion && (other.of_motion || other.key.starts_with("mill.")));
   }
@@ -48,8 +48,8 @@ struct Assumption {
     set(base, x);
     return base;
   }
-  /// Values over decades at which a number that is far off, or a term that is reversed or left out, shows;
-  /// over the cycle of a phase; of a speed, so close together that none of its turns is missed.
+  /// Values over decades, at which a number far from the case's, or a reversed or missing term, has an
+  /// effect; over the cycle of a phase; of a speed, so close together that none of its turns is missed.
   /// @param end  of the events that show them [s]
   std::vector<double> trial_values(double end) const;
 };
@@ -60,7 +60,7 @@ struct Found {
   double value = 1, half_width = 0;  ///< SI; the interval holds 99.7 % of normal noise, and a common shift
 };
 
-/// Of a hypothesis or a cause, in which mistakes come first: what is fitted.
+/// The fitted numbers of a hypothesis or a cause, in which mistakes come first.
 auto fitted(auto& of) {
   return std::span(std::ranges::find_if(of.found, [](const Found& f) { return f.what.is_fitted(); }),
                    of.found.end());
@@ -69,11 +69,11 @@ auto fitted(auto& of) {
 /// All numbers of the mill, the vessel, gravity, the contact laws and the balls.
 std::vector<Assumption> numbers_of(const Assumed& nominal);
 
-/// The same in a part of the log alone. @param choices  number of parts that were tried
+/// An assumption that applies to a part of the log only. @param choices  number of parts that were tried
 Assumption restricted_to(const SharedSubset& part, const Assumption& parameter, std::size_t choices);
 
-/// Mistakes other than wrong numbers that can be told apart in a log with these columns: orders, signs,
-/// directions, units, and what columns stand for.
+/// Mistakes other than wrong numbers that a log with these columns can reveal: orders, signs,
+/// directions, units, and the meaning of columns.
 std::vector<Assumption> mistakes_of(const Assumed& nominal, const std::vector<Assumption>& parameters,
                                     const audit::Available& has);
 

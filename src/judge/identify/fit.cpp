@@ -25,7 +25,7 @@ constexpr double out_of_range = 1e15;
 /// Rows below this share of the tolerance fit perfectly: rounding.
 constexpr double perfect = 1e-4;
 
-/// Of a row: that of its doubles over the usual tolerance of 1e-9.
+/// Rounding error of a row: that of its doubles over the usual tolerance of 1e-9.
 constexpr double rounding_of_rows = 4e-7;
 
 double median_size(std::vector<double> values) {
@@ -49,7 +49,7 @@ double possible_step(const Assumed& assumed, const Assumption& p, double value, 
   return p.on(assumed, value + step * p.change).built() ? step : -step;
 }
 
-/// What Eigen asks for weighted rows and their derivatives through.
+/// The interface through which Eigen evaluates weighted rows and their derivatives.
 struct Problem {
   using Scalar = double;
   using InputType = Eigen::VectorXd;
@@ -95,7 +95,7 @@ Eigen::VectorXd weights_of(const Eigen::VectorXd& rows, double scale) {
   return (1 + rows.array().square() / (scale * scale)).inverse();
 }
 
-/// What the rounds with weights of scale 1 minimise.
+/// The cost that rounds with weights of scale 1 minimise.
 double cauchy_cost(const Eigen::VectorXd& rows) {
   return std::accumulate(rows.begin(), rows.end(), 0.0,
                          [](double sum, double r) { return sum + std::log1p(r * r); });
@@ -107,7 +107,7 @@ void set_half_widths(const Eigen::MatrixXd& j, const Eigen::VectorXd& rows, Hypo
   const auto weights = weights_of(rows, 1);
   double sum = 0, total = 0;
   for (Eigen::Index i = 0; i < weights.size(); ++i) {
-    if (j.row(i).isZero(0)) continue;  // tells nothing of the parameters, nor of their noise
+    if (j.row(i).isZero(0)) continue;  // depends on no parameter, and says nothing about their noise
     sum += weights[i] * rows[i] * rows[i];
     total += weights[i];
   }

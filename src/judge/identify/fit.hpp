@@ -74,7 +74,7 @@ class Residuals {
   std::vector<Residual> of_case_;
 };
 
-/// What may explain a log: assumptions, whose numbers are fitted together.
+/// Assumptions that together may explain a log; their numbers are fitted together.
 struct Hypothesis {
   Assumed nominal;
   std::vector<Found> found = {};  ///< mistakes first: a number may be one of the mill that a mistake makes
@@ -85,7 +85,7 @@ struct Hypothesis {
 
   /// The least is the best.
   double rank() const { return score - plainness; }
-  /// The score without the cost of choices: what the log says.
+  /// The score without the cost of choices.
   double evidence() const {
     return std::accumulate(found.begin(), found.end(), score,
                            [](double sum, const Found& f) { return sum - f.what.prior; });

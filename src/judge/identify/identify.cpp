@@ -68,7 +68,7 @@ void sort(std::vector<Hypothesis>& list) {
                    [](const auto& a, const auto& b) { return a.rank() < b.rank(); });
 }
 
-/// What all hypotheses are judged by: a log, samples of it, and the rows of these.
+/// The data that all hypotheses are judged by: a log, samples of it, and their rows.
 class Evidence {
  public:
   /// The log and the rest must outlive it. @pre the log has events
@@ -147,7 +147,7 @@ class Evidence {
     return best_fitted(std::move(tried));
   }
 
-  /// The fit with the final sample, and what the audit says of it.
+  /// Fits with the final sample and audits with the result. @return whether the hypothesis is accepted
   bool accept(Hypothesis& tried) const {
     if (!(score_of_case_ - tried.score >= strong_evidence)) return false;
     if (vanished(whole(), tried.assumed()) < 0.5) return false;  // a better fit does not help that much
@@ -167,7 +167,7 @@ class Evidence {
            10 * vanished(many_, tried.assumed()) >= 9;
   }
 
-  /// What a hypothesis explains of all violated rows.
+  /// The violated rows that a hypothesis explains.
   struct Explained {
     std::set<std::size_t> rows{}, events{};
   };
@@ -544,7 +544,7 @@ class Searcher {
         result.causes[0].alike.push_back(cause_of(other).text());
   }
 
-  /// Of a log with several mistakes those that explain what they change, each other rows.
+  /// A log with several mistakes: reports those that explain the rows they change, each different rows.
   void report_each(Identification& result) const {
     std::set<std::size_t> explained;
     const auto violating = evidence_->violating_events(nominal_).size();

@@ -1,4 +1,4 @@
-// What is wrong with a log: the values or mistakes that explain its violations. docs/audit.md, "Causes"
+// Causes of the violations of a log: values and mistakes that explain them. docs/audit.md, "Causes"
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ struct TimeStepping {
   std::optional<SoftContacts> soft;
   std::optional<double>
       first_order_step;          ///< of an integrator of first order, from flights under gravity [s]
-  std::optional<double> jitter;  ///< root mean square by which single times are off, early and late [s]
+  std::optional<double> jitter;  ///< root mean square of the errors of single times, early and late [s]
   bool second_order = false;     ///< flights under gravity show no error of first order
 
   bool found() const { return step || step_by_depth || soft || first_order_step || jitter; }
@@ -63,7 +63,7 @@ struct Cause {
 /// as well, and runs of the case.
 enum class Search { single, all };
 
-/// What was tried, for the answer "none of these".
+/// The extent of a search, for the answer "none of these".
 struct SearchedFor {
   std::size_t numbers = 0, mistakes = 0, parts = 0;  ///< numbers of the case, and terms of the equations
   std::vector<std::string> stages;                   ///< "single causes", "two causes together"

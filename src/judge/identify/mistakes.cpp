@@ -170,7 +170,7 @@ void add_axes(const audit::Available& has, std::vector<Assumption>& list) {
   } while (std::next_permutation(from.begin(), from.end()));
 }
 
-/// What columns contain.
+/// Mistakes in the contents of columns.
 void add_frames(const audit::Available& has, std::vector<Assumption>& list) {
   const auto& [ball, partner] = has.body;
   if (partner.velocity_before || partner.velocity_after)
@@ -206,7 +206,7 @@ void add_formulas(const Assumed& nominal, std::vector<Assumption>& list) {
         [form = form](Assumed& a) { a.terms.equal_balls = form; });
 }
 
-/// Numbers of balls of different kinds that a log has exchanged. Balls alike cannot be told apart.
+/// Numbers of balls of different kinds that a log has exchanged. Equal balls cannot be distinguished.
 void add_exchanged_balls(const Assumed& nominal, std::vector<Assumption>& list) {
   constexpr int most = 40;
   const int count = static_cast<int>(nominal.balls.size());

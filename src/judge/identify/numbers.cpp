@@ -61,7 +61,7 @@ void add_numbers(const std::string& section, const Assumed& nominal, Member memb
     if (!p.key) return;
     const bool drive = p.range == Range::drive;
     const double nominal_value = drive ? 2 * pi / q.to<double>() : q.to<double>();
-    // What does not move, and directions of axes, are not numbers that a code takes for another.
+    // A zero, as of a part at rest or in the direction of an axis, is not mistaken for another number.
     if (nominal_value == 0) return;
     const auto set = [member, own, drive](Assumed& a, double value) {
       std::size_t k = 0;
@@ -213,7 +213,7 @@ const OtherLaw other_laws[] = {
     {"viscoelastic", "dissipative_time", Dimension::time, 1e-7, decades(1e-8, 1e-4)},
     {"elastic-plastic", "yield_pressure", Dimension::pressure, 1e9, decades(1e8, 1e11)}};
 
-/// What another law has where the case's says nothing: all sticks, and E* of steel, on which the restitution
+/// Values of another law that the case does not give: no slip, and E* of steel, on which the restitution
 /// depends together with the fitted number alone. None of a number without which there is no such law.
 std::optional<double> otherwise(std::string_view key) {
   if (key == "min_tangential") return -1;
@@ -309,7 +309,7 @@ void add_other_laws(const Section& section, Assumed nominal, std::vector<Assumpt
   }
 }
 
-/// Those of the contact laws, and one number of each other law that a code may use instead.
+/// Adds the numbers of the contact laws, and one number of each law that a code may use instead.
 void add_laws(const Assumed& nominal, std::vector<Assumption>& list) {
   using Laws = std::vector<Law*>;
   const auto& spec = nominal.spec;
@@ -456,7 +456,7 @@ std::vector<double> Assumption::trial_values(double end) const {
     for (int k = -7; k <= 8; ++k)
       if (k != 0) values.push_back(value + cycle * k / 16);
   } else if (is_speed) {
-    // Steps of a tenth of a turn; far off only where the log begins so early that they are few.
+    // Steps of a tenth of a turn; a wide range only if the log begins early, so that they are few.
     constexpr double most_turns = 15, near = 0.12, far = 2.5;
     const double turns = std::abs(end * value) / (2 * pi);
     const auto steps = [&](double most) { return static_cast<int>(std::ceil(most * turns * 10)); };

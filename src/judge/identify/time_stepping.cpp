@@ -19,7 +19,7 @@ using numerics::quantile;
 
 constexpr std::size_t least_number = 20;
 
-/// Those that are known, if they are nine tenths of the values and not few; else none.
+/// The finite values, if they are at least nine tenths of all and at least `least_number`; otherwise none.
 std::vector<double> mostly_known(std::vector<double> values) {
   const auto all = values.size();
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
@@ -34,7 +34,7 @@ bool agree(const std::vector<double>& values) {
 }
 
 /// The step of which two lengths of time are multiples: their ratio as the first continued fraction that
-/// rounding does not tell from it. @param rounding  of a time [s]
+/// rounding cannot distinguish from it. @param rounding  of a time [s]
 std::optional<double> step_of(double one, double two, double rounding) {
   double p = 1, q = 0, p_before = 0, q_before = 1, rest = one / two;
   const double most =
@@ -196,7 +196,7 @@ class Measurements {
     if (large && !is_along(came.velocity_before, Vec(came.velocity_after - came.velocity_before)) &&
         !is_along(came.velocity_before, Vec(left.velocity_after - left.velocity_before)))
       surplus.push_back(surplus_of(off, came.velocity_before, g, noise));
-    // Steps of first order leave the velocity right, and off the parabola along gravity alone.
+    // A first-order integrator has the right velocity, and deviates from the parabola along gravity only.
     const double g_size = audit::size(g);
     if (!(g_size > 0)) return;
     const Vec gained = came.velocity_before - (left.velocity_after + g * dt);
@@ -205,7 +205,7 @@ class Measurements {
     first_order.push_back(!large || 10 * rest <= std::abs(fall) ? 2 * fall / (g_size * dt) : audit::unknown);
   }
 
-  /// Along an impulse contacts that last and steps put a ball off its path, too.
+  /// Contacts that last and time steps displace a ball along the impulse as well.
   static bool is_along(const Vec& one, const Vec& two) {
     return std::abs(audit::dot(one, two)) > 0.99 * audit::size(one) * audit::size(two);
   }
@@ -269,8 +269,8 @@ std::optional<SoftContacts> soft_contacts(const std::vector<LoggedContact>& cont
                       .modulus = moduli.empty() ? audit::unknown : quantile(moduli, 0.5)};
 }
 
-/// What single times are off by if that alone puts flights off their paths: as many flights are too short as
-/// too long. Between two times with errors e the error of a flight is the square root of 2 times e.
+/// The error of single times, if that alone explains the deviations of flights: as many flights are too short
+/// as too long. Between two times with errors e the error of a flight is the square root of 2 times e.
 std::optional<double> jitter_of(std::vector<double> surplus) {
   surplus = mostly_known(std::move(surplus));
   if (surplus.empty() || !(quantile(surplus, 0.25) < 0 && quantile(surplus, 0.75) > 0)) return std::nullopt;
@@ -293,7 +293,7 @@ TimeStepping time_stepping(const audit::EventsAtHand& log, const model::Case<dou
   const auto spread = [](const SoftContacts& s) { return (s.high - s.low) / s.duration; };
   if (end && (!result.soft || spread(*end) < 0.8 * spread(*result.soft))) result.soft = end;
   if (const double step = late_step(measured.delays); step > 0) result.step_by_depth = step;
-  // Rounding to a step is off by up to half of it.
+  // Rounding to a step has errors of up to half of it.
   const auto jitter = jitter_of(measured.surplus);
   if (jitter && !(result.step && *jitter < *result.step)) result.jitter = jitter;
   auto orders = mostly_known(std::move(measured.first_order));  // none without gravity
@@ -301,7 +301,7 @@ TimeStepping time_stepping(const audit::EventsAtHand& log, const model::Case<dou
   const double middle = std::abs(quantile(orders, 0.5));
   const double step = result.step.value_or(result.step_by_depth.value_or(0));
   if (agree(orders) && middle > 1e-9 && (step == 0 || middle > step / 10)) result.first_order_step = middle;
-  // That nothing is seen says something only where a delay of a tenth of a step would be seen.
+  // Second order is reported only where a delay of a tenth of a step would be visible.
   const double scatter = quantile(orders, 0.75) - quantile(orders, 0.25);
   result.second_order = !result.first_order_step && step > 0 && middle < step / 10 && scatter < step / 10;
   return result;

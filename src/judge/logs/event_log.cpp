@@ -54,7 +54,7 @@ bool is_folder(const std::filesystem::path& place) {
   return std::filesystem::is_directory(place, ignored);
 }
 
-/// What counts from the summary of a run: the begin of the statistics, and walls that it names.
+/// Reads the summary of a run: the start of the statistics, and the names of the walls.
 void read_summary(const std::filesystem::path& summary, LogScan& scan) {
   if (!std::filesystem::exists(summary)) return;
   const auto root = io::read_json(summary, "the summary of a run");

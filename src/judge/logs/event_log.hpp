@@ -87,7 +87,7 @@ class EventLog {
  public:
   static constexpr std::size_t window = 256;
 
-  /// For an audit, which asks little of a log and says of each event what is wrong with it.
+  /// For an audit, which requires little of a log and reports what is wrong with each event.
   /// @param place  a CSV file, or a folder that holds collisions.csv
   /// @param balls, walls  in the case
   /// @param beyond        times that far from 0 or farther are no times of a run [s]
@@ -95,8 +95,8 @@ class EventLog {
   EventLog(const std::filesystem::path& place, const LogConventions& conventions, int balls, int walls,
            double beyond)
       : EventLog(place, conventions, balls, walls, beyond, false) {}
-  /// Of a good log, without the states of bodies: in order of time, all values finite, of any bodies, with
-  /// the columns partner_kind and approach_speed.
+  /// For a log without errors, without the states of bodies: in order of time, all values finite, of any
+  /// bodies, with the columns partner_kind and approach_speed.
   explicit EventLog(const std::filesystem::path& place);
 
   /// The next event; nothing at the end. Bad lines are skipped until there are ten of them or the file ends.
@@ -136,7 +136,7 @@ class EventLog {
 /// Names of the columns that an audit knows, in the order of edmill's own log.
 const std::vector<std::string>& column_names();
 
-/// Of each quantity of model::logged_quantities.
+/// A value for each quantity of model::logged_quantities.
 template <class T>
 using OfEach = std::array<T, model::logged_count>;
 

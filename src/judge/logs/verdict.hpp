@@ -2,7 +2,7 @@
 
 namespace edmill::logs {
 
-/// What every judgement of a log ends with.
+/// The result of every judgement of a log.
 enum class Verdict { agree, differ, too_few, not_compared };
 
 }  // namespace edmill::logs
