@@ -68,21 +68,15 @@ bool is_done(const auto& work) {
 template <class Number, class F>
 void for_each_member(F&& f) {
   using I = Impact<Number>;
-  f("index", &I::index);
-  f("time", &I::time);
-  f("ball", &I::ball);
-  f("with_wall", &I::with_wall);
-  f("partner", &I::partner);
-  f("normal", &I::normal);
-  f("approach_speed", &I::approach_speed);
-  f("slip_speed", &I::slip_speed);
-  f("separation_speed", &I::separation_speed);
-  f("restitution_tangential", &I::restitution_tangential);
-  f("normal_impulse", &I::normal_impulse);
-  f("tangential_impulse", &I::tangential_impulse);
-  f("milling_dose", &I::milling_dose);
-  f("supplied_energy", &I::supplied_energy);
-  f("wall_work", &I::wall_work);
+  const auto visit = [&](const auto& self, const char* name, auto member, auto... more) {
+    f(name, member);
+    if constexpr (sizeof...(more) > 0) self(self, more...);
+  };
+  visit(visit, "index", &I::index, "time", &I::time, "ball", &I::ball, "with_wall", &I::with_wall, "partner",
+        &I::partner, "normal", &I::normal, "approach_speed", &I::approach_speed, "slip_speed", &I::slip_speed,
+        "separation_speed", &I::separation_speed, "restitution_tangential", &I::restitution_tangential,
+        "normal_impulse", &I::normal_impulse, "tangential_impulse", &I::tangential_impulse, "milling_dose",
+        &I::milling_dose, "supplied_energy", &I::supplied_energy, "wall_work", &I::wall_work);
 }
 /// A member of an impact as Python has it.
 template <class Value>

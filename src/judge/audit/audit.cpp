@@ -382,8 +382,7 @@ Options options_of(const casefile::CaseSpec& spec) {
 }
 
 std::string_view name_of(Verdict verdict) {
-  static constexpr std::array<std::string_view, 3> names = {"clean", "violations", "too_few"};
-  return names[static_cast<std::size_t>(verdict)];
+  return std::array{"clean", "violations", "too_few"}.at(static_cast<std::size_t>(verdict));
 }
 
 Tolerances tolerances_of(const model::Case<double>& the_case, const Options& options) {

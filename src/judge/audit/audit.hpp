@@ -12,7 +12,6 @@
 #include "audit/finding.hpp"
 #include "casefile/case_spec.hpp"
 #include "io/json_text.hpp"
-#include "logs/verdict.hpp"
 #include "model/case.hpp"
 
 namespace edmill::audit {

@@ -258,8 +258,7 @@ Verdict whole(const Comparison& c) {
 }  // namespace
 
 std::string_view name_of(Verdict verdict) {
-  static constexpr std::array<std::string_view, 4> names = {"agree", "differ", "too_few", "not_compared"};
-  return names[static_cast<std::size_t>(verdict)];
+  return std::array{"agree", "differ", "too_few", "not_compared"}.at(static_cast<std::size_t>(verdict));
 }
 
 Comparison compare(const ComparisonOptions& options) {

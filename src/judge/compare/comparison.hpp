@@ -2,7 +2,6 @@
 #pragma once
 
 #include "compare/batches.hpp"
-#include "logs/verdict.hpp"
 
 namespace edmill::compare {
 

@@ -305,24 +305,24 @@ void leave_out(ContactAudit& audit, const std::string& because, const auto& whic
     if (which(judged)) judged.not_judged = because;
 }
 
+constexpr const char* follows_from_velocity = "it would follow from the velocity of the walls";
+
 /// A wrong velocity of the walls resembles a wrong restitution, and the reverse: the one that explains more
 /// of the differences is judged, of all walls together and of each that differs by itself. A velocity that
 /// explains a wrong restitution differs by whatever its interval shows.
 void judge_wall_velocity(const std::vector<Measured>& walls, ContactAudit& audit) {
-  constexpr const char* because = "it would follow from the velocity of the walls";
   std::vector<std::string> parts{"at walls"};
   for (const auto& j : audit.judged)
     if (j.name.starts_with("restitution at ") && j.is_part && !j.agrees()) parts.push_back(j.name.substr(12));
-  bool follows = false;  // restitutions of all contacts
+  bool all_follow = false, some_follow = false;  // restitutions
   for (const auto& part : parts) {
+    const bool all = &part == &parts[0];
     std::vector<Measured> list;
-    std::ranges::copy_if(walls, std::back_inserter(list), [&](const Measured& s) {
-      return part == parts[0] || std::ranges::count(s.parts, part) > 0;
-    });
+    std::ranges::copy_if(walls, std::back_inserter(list),
+                         [&](const Measured& s) { return all || std::ranges::count(s.parts, part) > 0; });
     const Clear is_clear(list);
-    auto velocity =
-        judged(wall_velocity, part == parts[0] ? "of the walls over the case's" : "over the case's " + part,
-               list, is_clear, static_cast<double>(parts.size()), audit.magnitude);
+    auto velocity = judged(wall_velocity, all ? "of the walls over the case's" : "over the case's " + part,
+                           list, is_clear, static_cast<double>(parts.size()), audit.magnitude);
     const auto e = std::ranges::find(audit.judged, "restitution " + part, &Judged::name);
     if (!velocity.known() || e == audit.judged.end()) continue;
     std::vector<double> by_restitution, by_velocity;
@@ -333,31 +333,24 @@ void judge_wall_velocity(const std::vector<Measured>& walls, ContactAudit& audit
       by_velocity.push_back(
           std::abs(off - (velocity.found.value - 1) * (1 + s.law_restitution) * s.wall_speed));
     }
-    // One wall alone has few contacts: its velocity must explain clearly more.
-    const double margin = part == parts[0] ? 1 : 1.25;
+    const double margin = all ? 1 : 1.25;  // one wall has few contacts
     const bool is_velocity = margin * median_of(by_velocity).value < median_of(by_restitution).value;
     if (is_velocity && !e->agrees()) velocity.allowed = 0;
-    if (!is_velocity && !(velocity.agrees() && e->agrees())) {
+    if (!is_velocity && !(velocity.agrees() && e->agrees()))
       velocity.not_judged = "it would follow from the restitution";
-    } else if (is_velocity && !velocity.agrees()) {
-      follows = true;
-      if (part == parts[0])
-        leave_out(audit, because, [](const Judged& j) {
-          return j.of == Judged::Of::walls && j.equation != spin_change.equation;
-        });
-      else
-        e->not_judged = because;
-    }
+    (all ? all_follow : some_follow) |= is_velocity && !velocity.agrees();
+    if (some_follow && !velocity.agrees()) e->not_judged = follows_from_velocity;
     velocity.of = Judged::Of::walls;
-    velocity.is_part = part != parts[0];
+    velocity.is_part = !all;
     audit.judged.push_back(velocity);
-    if (follows && part == parts[0]) return;
+    if (all_follow) break;
   }
-  if (follows)
-    leave_out(audit, because, [](const Judged& j) {
-      const bool at_wall = j.is_part && j.name.starts_with("restitution at ");
-      return j.of == Judged::Of::walls && j.equation == restitution.equation && !at_wall;
-    });
+  leave_out(audit, follows_from_velocity, [=](const Judged& j) {
+    const bool at_wall = j.is_part && j.name.starts_with("restitution at ");
+    return j.of == Judged::Of::walls &&
+           ((all_follow && j.equation != spin_change.equation && j.equation != wall_velocity.equation) ||
+            (some_follow && j.equation == restitution.equation && !at_wall));
+  });
 }
 
 /// Facts about the whole log.

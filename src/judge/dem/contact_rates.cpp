@@ -88,9 +88,7 @@ std::string sentence(const ContactComparison& c) {
 }
 
 const char* word_for(compare::Verdict verdict) {
-  return verdict == compare::Verdict::agree    ? "agree"
-         : verdict == compare::Verdict::differ ? "differ"
-                                               : "too few";
+  return std::array{"agree", "differ", "too few"}.at(static_cast<std::size_t>(verdict));
 }
 
 constexpr double widest = 0.05;  ///< interval with which rates are said to agree

@@ -1,10 +1,10 @@
 // The table of assumptions: ways in which a log may differ from its case.
 #pragma once
 
-#include <algorithm>
 #include <functional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "identify/assumed.hpp"
@@ -62,8 +62,10 @@ struct Found {
 
 /// The fitted numbers of a hypothesis or a cause, in which mistakes come first.
 auto fitted(auto& of) {
-  return std::span(std::ranges::find_if(of.found, [](const Found& f) { return f.what.is_fitted(); }),
-                   of.found.end());
+  std::size_t mistakes = 0;
+  while (mistakes < of.found.size() && !of.found[mistakes].what.is_fitted()) ++mistakes;
+  return std::span<std::remove_reference_t<decltype(of.found[0])>>(of.found.data() + mistakes,
+                                                                   of.found.size() - mistakes);
 }
 
 /// All numbers of the mill, the vessel, gravity, the contact laws and the balls.

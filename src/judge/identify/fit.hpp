@@ -98,8 +98,8 @@ struct Hypothesis {
   }
   /// Whether this can be assumed as well.
   bool allows(const Assumption& more) const {
-    return std::ranges::none_of(
-        found, [&](const Found& f) { return f.what.excludes(more) || more.excludes(f.what); });
+    return std::none_of(found.begin(), found.end(),
+                        [&](const Found& f) { return f.what.excludes(more) || more.excludes(f.what); });
   }
   void add(const Assumption& more, double value) {
     found.insert(more.is_fitted() ? found.end() : found.end() - std::ssize(fitted(*this)), {more, value});

@@ -42,7 +42,7 @@ bool fits(const Subset& part, const Assumption& p) { return p.of_impacts || part
 
 /// Whether the interval of a number contains that of the case.
 bool has_number_of_case(const Hypothesis& tried) {
-  return std::ranges::any_of(tried.found, [](const Found& f) {
+  return std::any_of(tried.found.begin(), tried.found.end(), [](const Found& f) {
     return f.what.is_of_case() && !(std::abs(f.value - f.what.value) > f.half_width);
   });
 }
@@ -306,7 +306,7 @@ class Evidence {
   Hypothesis best_fitted(std::vector<Hypothesis> list) const {
     for (auto& tried : list) {
       const bool from_early =
-          std::ranges::any_of(tried.found, [](const Found& f) { return f.what.is_speed; });
+          std::any_of(tried.found.begin(), tried.found.end(), [](const Found& f) { return f.what.is_speed; });
       for (const auto& window : windows_) {
         const bool last = &window == &whole();
         if (!fitted(tried).empty() && (last || (from_early && window.count() >= 12))) fit(window, tried);

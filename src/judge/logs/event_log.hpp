@@ -133,6 +133,9 @@ class EventLog {
   bool at_end_ = false;
 };
 
+/// The result of every judgement of a log.
+enum class Verdict { agree, differ, too_few, not_compared };
+
 /// Names of the columns that an audit knows, in the order of edmill's own log.
 const std::vector<std::string>& column_names();
 
