@@ -111,7 +111,7 @@ class WholeFile {
   virtual ~WholeFile() = default;
   /// Puts it in place. @throws std::runtime_error when anything was not written; the old file is then kept
   virtual void commit() = 0;
-  /// Its place, as given; empty where that holds something else, too: for a device, and among rows of others.
+  /// Its path as given; empty for a device, and for a file that has rows of other runs as well.
   virtual std::filesystem::path place() const = 0;
 };
 

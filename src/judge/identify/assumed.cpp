@@ -133,8 +133,8 @@ std::vector<SharedSubset> subsets_of(const casefile::CaseSpec& spec, const model
                                      const std::vector<Branches>& branches) {
   using audit::LoggedEvent;
   std::vector<SharedSubset> list;
-  const auto add = [&](std::string name, bool of_flights, std::function<bool(const RowPlace&)> holds) {
-    list.push_back(std::make_shared<Subset>(Subset{std::move(name), std::move(holds), of_flights}));
+  const auto add = [&](std::string name, bool of_flights, std::function<bool(const RowPlace&)> contains) {
+    list.push_back(std::make_shared<Subset>(Subset{std::move(name), std::move(contains), of_flights}));
   };
   const auto of_impacts = [&](std::string name, auto holds) {
     add(std::move(name), false,

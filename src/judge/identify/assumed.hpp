@@ -69,7 +69,7 @@ struct Branches {
 
 struct Subset {
   std::string name;  ///< "at wall 0 (cap -y)", "on ball 3"
-  std::function<bool(const RowPlace&)> holds;
+  std::function<bool(const RowPlace&)> contains;
   bool of_flights = false;  ///< has rows of flights as well as of impacts
 };
 using SharedSubset = std::shared_ptr<const Subset>;

@@ -57,7 +57,7 @@ struct Assumption {
 /// An assumption with the value that a log has for it; of a mistake 1.
 struct Found {
   Assumption what;
-  double value = 1, half_width = 0;  ///< SI; the interval holds 99.7 % of normal noise, and a common shift
+  double value = 1, half_width = 0;  ///< SI; the interval contains 99.7 % of normal noise, and a common shift
 };
 
 /// The fitted numbers of a hypothesis or a cause, in which mistakes come first.
@@ -79,8 +79,8 @@ Assumption restricted_to(const SharedSubset& part, const Assumption& parameter, 
 std::vector<Assumption> mistakes_of(const Assumed& nominal, const std::vector<Assumption>& parameters,
                                     const audit::Available& has);
 
-/// "reversed", "left out", "doubled", "halved", where an interval holds such a factor and little else; else
-/// empty.
+/// "reversed", "left out", "doubled", "halved", if an interval contains such a factor and little else;
+/// otherwise empty.
 std::string word_for(double factor, double half_width);
 /// "100.500 +- 0.001 mm", or "100 mm": in the usual unit of its dimension.
 std::string value_text(Dimension dimension, double value, double half_width = 0);

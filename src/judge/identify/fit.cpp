@@ -239,7 +239,7 @@ Eigen::VectorXd Residuals::rows(const Assumed& assumed) const {
   std::vector<std::size_t> set_of(count(), 0);
   for (std::size_t r = 0; r < assumed.restricted.size(); ++r)
     for (std::size_t k = 0; k < count(); ++k)
-      if (assumed.restricted[r].part->holds(of_case_[k].at)) set_of[k] |= std::size_t{1} << r;
+      if (assumed.restricted[r].part->contains(of_case_[k].at)) set_of[k] |= std::size_t{1} << r;
   for (const std::size_t set : std::set<std::size_t>(set_of.begin(), set_of.end())) {
     if (set == 0) continue;
     Assumed here = whole;

@@ -241,7 +241,7 @@ class Evidence {
     for (const auto& part : parts_) {
       std::uint64_t inside = 0;
       for (std::size_t k = 0; k < whole().count(); ++k)
-        if (is_violated(rows[k]) && part->holds(whole().of_case()[k].at)) ++inside;
+        if (is_violated(rows[k]) && part->contains(whole().of_case()[k].at)) ++inside;
       if (static_cast<double>(inside) > share * static_cast<double>(count_violated(rows)))
         parts.push_back(part);
     }
@@ -278,7 +278,7 @@ class Evidence {
         if (!fits(*part, p)) continue;
         Eigen::VectorXd inside = slope;
         for (std::size_t k = 0; k < sample.count(); ++k)
-          if (!part->holds(sample.of_case()[k].at)) inside[k] = 0;
+          if (!part->contains(sample.of_case()[k].at)) inside[k] = 0;
         if (inside == slope || inside.isZero(0)) continue;
         order.emplace_back(linear_misfit(sample, rows, inside), restricted_to(part, p, parts_.size()));
       }

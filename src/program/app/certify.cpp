@@ -40,7 +40,7 @@ std::string chosen(double digits) {
 using run::Event;
 using run::Number;
 
-/// Number of events to the end of the case: a run in double has about as many as the true motion.
+/// Estimates the number of events to the end of the case by a run in double, which is close to the true one.
 /// @param progress  called with the scalar and the number of events so far
 double count_events(const casefile::CaseSpec& spec, const std::atomic<bool>* interrupt,
                     const auto& progress) {

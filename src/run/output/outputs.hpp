@@ -27,9 +27,9 @@ class Outputs : public engine::Observer<Real> {
   void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override;
   void on_end(const engine::Simulation<Real>& simulation);
   void archive(Archive& a) override;
-  /// Writes what is left of all files.
-  /// @param goes_on  a run that goes on later adds its rows to files of other runs only then
-  /// @return those to be put in place
+  /// Writes the remaining rows of all files.
+  /// @param goes_on  the run will be resumed: it adds its rows to files of other runs only at its end
+  /// @return the files to be put in place
   std::vector<io::WholeFile*> complete(bool goes_on);
 
  private:
