@@ -2,11 +2,13 @@
 """The claim of README.md: decks of `edmill export` in LAMMPS, LIGGGHTS and YADE, their dumps by `edmill import`, and the verdicts of
 `edmill audit`; mistakes in decks; frames far apart; the limit of contacts of no duration.
 
-usage: dem_codes.py EDMILL [decks] [mistakes] [frames] [vessels] [limit]     all but limit unless given
+usage: dem_codes.py EDMILL [decks] [mistakes] [frames] [vessels] [limit] [lammps] [liggghts] [yade]
+       by default all parts but limit, with all codes
 """
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -63,6 +65,11 @@ def audit(log, case=CASE):
     return code, json.load(open(file))
 
 
+def differing(found):
+    """Values that differ, of all contacts before those of parts, and the best cause."""
+    return list(found["causes"])[:1] + [name for name, value in found["values"].items() if not value["agrees"]]
+
+
 def decks(codes):
     for code in codes:
         start = time.time()
@@ -73,56 +80,128 @@ def decks(codes):
         for where in ("at walls", "between balls"):
             e, mu = values[f"restitution {where}"], values[f"friction {where}"]
             check(abs(e - 0.6) <= 0.002 and abs(mu - 0.4) <= 0.01, f"{code}: restitution {e:.4f}, friction {mu:.4f} {where}")
-        other = edmill("compare", "run", log, "--json", "compare.json").returncode
+        other = edmill("compare", "run", log, "--within", "20%", "--json", "compare.json").returncode
         ratio = 1 + json.load(open("compare.json"))["difference"]
-        check(other in (0, 6), f"{code}: compare ends with {other}, dose rate over edmill's {ratio:.3f}")
+        check(other == 0, f"{code}: compare --within 20% ends with {other}, dose rate over edmill's {ratio:.3f}")
 
 
-#: A mistake in a deck of LAMMPS: what is replaced, the value that names it, and its truth; None where none is known.
+def scaled(pattern, factor):
+    """The numbers that a pattern finds as its first group, multiplied."""
+    return lambda deck: re.subn(pattern, lambda m: m[0].replace(m[1], repr(factor * float(m[1]))), deck)
+
+
+def replaced(old, new):
+    return lambda deck: (deck.replace(old, new), deck.count(old))
+
+
+def both(*changes):
+    def change(deck):
+        counts = []
+        for one in changes:
+            deck, count = one(deck)
+            counts.append(count)
+        return deck, min(counts)
+    return change
+
+
+GRAVITY, DENSITY, SIZE = "gravity along Y", "density over the case's", "diameter over the case's"
+E, MU, E_PAIRS, MU_PAIRS = "restitution at walls", "friction at walls", "restitution between balls", "friction between balls"
+VELOCITY = "velocity of the walls over the case's"
+MATERIAL = r"hertz/material \S+ (\S+)"
+OF_WALLS, OF_PAIRS = r"(?m)^fix walls.*", r"(?m)^pair_coeff.*"
+
+
+def in_line(line, change):
+    """A change of one line only."""
+    def changed(deck):
+        found = re.search(line, deck)[0]
+        text, count = change(found)
+        return deck.replace(found, text), count
+    return changed
+
+
+#: For each code: mistake, its change of a deck, the value or cause that names it (or the second), and its truth where it is known.
 MISTAKES = {
-    "damping tsuji 0.6 as documented": ("hertz/material {young} {damping}", "hertz/material {young} 0.6", "restitution at walls", 0.716),
-    "contacts that attract": (" limit_damping", "", "restitution at walls", 0.561),
-    "tangential damping left on": ("mindlin NULL 0.0", "mindlin NULL 1.0", "friction at walls", 0.32),
-    "amplitude 5 % too small": ("movey equal 0.011*", "movey equal 0.01045*", "mill.amplitude.y", 0.01045),
-    "one axis out of phase": ("0.011*sin", "0.011*cos", "phase of mill.amplitude along y", 1.5708),
-    "no gravity": ("fix weight all gravity 9.8 vector 0 -1 0\n", "", "gravity along Y", 0),
-    "gravity 9.81 for 9.8 times 1.1": ("gravity 9.8 ", "gravity 10.78 ", "gravity along Y", -10.78),
-    "density 7800": ("density 8000", "density 7800", "density over the case's", 0.975),
-    "six steps in a contact": ("timestep 1e-06", "timestep 8e-06", "restitution at walls", 0.585),
-    "friction 0.3": ("NULL 0.0 0.4", "NULL 0.0 0.3", "friction at walls", 0.3),
-    "speed 1 % too large": ("376.99111843077515", "380.761", "mill.speed", 380.761),
-    "one wall 0.3 mm too far": (" 0.0165 -0.0285", " 0.0168 -0.0285", "place of wall +x", 0.0003),
-    "diameter 7.9 mm": ("diameter 0.008", "diameter 0.0079", "diameter over the case's", 0.9875),
+    "lammps": {
+        "damping tsuji 0.6 as documented": (scaled(MATERIAL, 0.6 / 0.437993257), E, 0.716),
+        "contacts that attract": (replaced(" limit_damping", ""), E, None),
+        "tangential damping left on": (replaced("mindlin NULL 0.0", "mindlin NULL 1.0"), MU, None),
+        "damping of walls alone": (in_line(OF_WALLS, scaled(MATERIAL, 1.1)), E, None),
+        "damping of pairs alone": (in_line(OF_PAIRS, scaled(MATERIAL, 0.9)), E_PAIRS, None),
+        "amplitude 5 % too small": (scaled(r"movey equal (\S+?)\*", 0.95), ("mill.amplitude.y", VELOCITY), 0.01045),
+        "one axis out of phase": (replaced("movey equal 0.011*sin", "movey equal 0.011*cos"), "phase of mill.amplitude along y", 1.5708),
+        "one axis still": (scaled(r"movey equal (\S+?)\*", 0), "mill.amplitude.y", 0),
+        "no gravity": (replaced("fix weight all gravity 9.8 vector 0 -1 0\n", ""), GRAVITY, 0),
+        "gravity times 1.1": (replaced("gravity 9.8 ", "gravity 10.78 "), GRAVITY, -10.78),
+        "density 7800": (replaced("density 8000", "density 7800"), DENSITY, 0.975),
+        "six steps in a contact": (both(scaled(r"timestep (\S+)", 8), replaced("all custom 10 ", "all custom 2 "),
+                                        lambda deck: re.subn(r"(?m)^run (\d+)", lambda m: f"run {int(m[1]) // 8}", deck)), E, 0.585),
+        "friction 0.3": (replaced("NULL 0.0 0.4", "NULL 0.0 0.3"), MU, 0.3),
+        "friction of pairs 0.6": (in_line(OF_PAIRS, replaced("NULL 0.0 0.4", "NULL 0.0 0.6")), MU_PAIRS, None),
+        "speed 1 % too large": (replaced("376.99111843077515", "380.761"), "mill.speed", 380.761),
+        "one wall 0.3 mm too far": (replaced(" 0.0165 -0.0285", " 0.0168 -0.0285"), "place of wall +x", 0.0003),
+        "diameter 7.9 mm": (replaced("diameter 0.008", "diameter 0.0079"), SIZE, 0.9875),
+    },
+    "liggghts": {
+        "restitution as documented": (lambda deck: re.subn(r"(?m)^(fix m3 .* 2) .*", r"\1 0.6 0.6 0.6 0.6", deck), E, None),
+        "contacts that attract": (replaced("limitForce on", "limitForce off"), E, None),
+        "tangential damping left on": (replaced("tangential_damping off", "tangential_damping on"), MU, None),
+        "restitution of walls alone": (lambda deck: re.subn(r"(?m)^(fix m3 .* 2 \S+) .*", r"\1 0.5 0.5 0.56", deck), E, None),
+        "restitution of pairs alone": (lambda deck: re.subn(r"(?m)^(fix m3 .* 2) \S+", r"\1 0.65", deck), E_PAIRS, None),
+        "speed of walls along y 5 % too small": (scaled(r"q3 equal \((\S+)\)", 0.95), ("mill.amplitude.y", VELOCITY), 0.01045),
+        "walls that do not move": (scaled(r"q[135] equal \((-?[\d.]+)\)", 0), ("factor of mill.amplitude", VELOCITY), 0),
+        "no gravity": (replaced("fix weight all gravity 9.8 vector 0 -1 0\n", ""), GRAVITY, 0),
+        "gravity along z": (replaced("vector 0 -1 0", "vector 0 0 -1"), GRAVITY, 0),
+        "density 7800": (replaced("density 8000", "density 7800"), DENSITY, 0.975),
+        "friction 0.3": (replaced("peratomtypepair 2 0.4 0.4 0.4 0.4", "peratomtypepair 2 0.3 0.3 0.3 0.3"), MU, 0.3),
+        "no friction": (replaced("tangential history", "tangential no_history"), ("stopping friction at walls", MU), None),
+        "speed 1 % too large": (replaced("376.99111843077515", "380.761"), "mill.speed", 380.761),
+        "diameter 7.9 mm": (replaced("diameter 0.008", "diameter 0.0079"), SIZE, 0.9875),
+    },
+    "yade": {
+        "damping 0.2, the default": (replaced("damping=0,", "damping=0.2,"), GRAVITY, None),
+        "restitution of walls alone": (lambda deck: re.subn(r"(en=table\(\S+), \S+?\)", r"\1, 0.5)", deck), E, 0.5),
+        "no en, elastic contacts": (lambda deck: re.subn(r"en=table\(.*?\)", "en=1.0", deck), E, None),
+        "friction of the walls 0.2": (replaced("WALL_FRICTION = 0, 0.4, 0.4", "WALL_FRICTION = 0, 0.4, 0.2"), MU, 0.2),
+        "gravity 9.81 for 10.78": (replaced("-9.8, 0", "-10.78, 0"), GRAVITY, -10.78),
+        "density 7800": (replaced(", 0.004, 8000,", ", 0.004, 7800,"), DENSITY, 0.975),
+        "radius 3.95 mm": (replaced(", 0.004, 8000,", ", 0.00395, 8000,"), SIZE, 0.9875),
+        "walls placed, not moved": (replaced(".state.vel = (place(t)-place(t-O.dt))/O.dt",
+                                             ".state.pos += place(t)-place(t-O.dt)"), ("friction at walls", VELOCITY, E), None),
+        "amplitude 5 % too small": (replaced("0.011*sin", "0.01045*sin"), ("mill.amplitude.y", VELOCITY), 0.01045),
+    },
 }
+#: Contact times [us], seeds, and the time that a code simulates [s]; YADE is slow.
+RUNS = {"lammps": ((20, 1, 2), (50, 2, 2), (100, 3, 2), (200, 1, 2), (200, 2, 2), (300, 2, 2), (300, 3, 2)),
+        "liggghts": ((20, 1, 1), (50, 2, 1), (100, 3, 2), (200, 1, 2), (300, 2, 2), (300, 3, 2)),
+        "yade": ((100, 1, 1), (200, 2, 1), (300, 3, 2))}
 
 
-def mistakes():
-    command = export("lammps", "right", "--duration", "2 s")
-    text = pathlib.Path("right.in").read_text()
-    contact = next(line for line in text.splitlines() if line.startswith("pair_coeff")).split()
-    known = {"young": contact[4], "damping": contact[5]}
-    for number, (mistake, (old, new, key, truth)) in enumerate(MISTAKES.items()):
-        old, new = old.format(**known), new.format(**known)
-        if old not in text:
-            sys.exit(f"the deck has no '{old}'")
-        name = f"mistake{number}"
-        deck = text.replace(old, new).replace("right.dump", f"{name}.dump")
-        if "timestep 8e-06" in deck:
-            deck = deck.replace("all custom 10 ", "all custom 2 ").replace("run 2000000", "run 250000")
-        pathlib.Path(f"{name}.in").write_text(deck)
-        log, _ = simulate([*command[:-1], f"{name}.in"], name)
-        code, found = audit(log)
-        if key in found["values"]:
-            value = found["values"][key]
-            named, off = not value["agrees"], abs(value["found"] - truth)
-            close = off <= (0.01 if "friction" in key else max(0.01 * abs(truth), 0.003))
-            shown = f"{key} {value['found']:.4g}"
-        else:
-            causes = sorted(found["causes"].items(), key=lambda cause: cause[1]["left"])
-            named = bool(causes) and causes[0][0] == key
-            close = named and abs(causes[0][1]["value"] - truth) <= max(0.003 * abs(truth), 3 * causes[0][1]["half_width"])
-            shown = ", ".join(f"{k} {v['value']:.5g} +- {v['half_width']:.2g}" for k, v in causes[:2]) or "no cause"
-        check(code == 6 and named and close, f"{mistake}: exit code {code}, {shown}")
+def mistakes(codes):
+    for code in codes:
+        for time, seed, duration in RUNS[code]:
+            where = f"{code}, {time} us, seed {seed}"
+            command = export(code, "right", "--contact-time", f"{time} us", "--duration", f"{duration} s", "--set", f"run.seed={seed}")
+            deck = pathlib.Path(command[-1])
+            right = deck.read_text()
+            log, _ = simulate(command, "right")
+            exit_code, found = audit(log)
+            check(exit_code == 0, f"{where}: right: exit code {exit_code}, {differing(found)}")
+            for mistake, (change, names, truth) in MISTAKES[code].items():
+                text, count = change(right)
+                if not count:
+                    sys.exit(f"{where}: {mistake}: the deck has nothing to change")
+                deck.write_text(text)
+                log, _ = simulate(command, "right")
+                exit_code, found = audit(log)
+                names = (names,) if isinstance(names, str) else names
+                named = next((name for name in differing(found) if name in names), None)
+                value = {**found["values"], **found["causes"]}[named or E]
+                value = value.get("value", value.get("found"))
+                allowed = 0.01 if "friction" in str(named) else max(0.01 * abs(truth or 0), 0.003)
+                close = truth is None or named == VELOCITY or abs(value - truth) <= allowed
+                check(exit_code == 6 and named and close,
+                      f"{where}: {mistake}: exit code {exit_code}, {named} {value:.4g}; {', '.join(differing(found))}")
 
 
 def frames():
@@ -218,9 +297,10 @@ def limit():
 if __name__ == "__main__":
     EDMILL, *parts = sys.argv[1:]
     EDMILL = str(pathlib.Path(EDMILL).resolve())
-    present = [code for code, program in PROGRAMS.items() if shutil.which(program)]
-    if "lammps" not in present:
-        print("skipped: needs LAMMPS")
+    present = [code for code, program in PROGRAMS.items() if shutil.which(program) and (code in parts or not PROGRAMS.keys() & set(parts))]
+    parts = [part for part in parts if part not in PROGRAMS]
+    if not present:
+        print("skipped: needs LAMMPS, LIGGGHTS or YADE")
         sys.exit(77)
     parts = parts or ["decks", "mistakes", "frames", "vessels"]
     with tempfile.TemporaryDirectory() as folder:
@@ -230,7 +310,7 @@ if __name__ == "__main__":
             os.symlink(library, "liblammps.so")
         edmill("run", CASE, "--quiet", "--out", "run")
         for part in parts:
-            {"decks": lambda: decks(present), "mistakes": mistakes, "frames": frames, "vessels": lambda: vessels(present),
+            {"decks": lambda: decks(present), "mistakes": lambda: mistakes(present), "frames": frames, "vessels": lambda: vessels(present),
              "limit": limit}[part]()
     print(f"{len(failures)} failed")
     sys.exit(bool(failures))

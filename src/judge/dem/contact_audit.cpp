@@ -24,6 +24,7 @@ struct Measured {
   double approach = 0, slip = 0;  ///< at the touch [m/s]
   double pressed = 0;             ///< what acts meanwhile adds to the approach, over it
   double turned = 0;              ///< by the normal meanwhile [rad]
+  double depth = 0;               ///< largest overlap of Hertz's contact of this duration, over the radius
   double slip_left = 0;           ///< along the slip at the touch, over it
   double wall_speed = 0;          ///< along the normal [m/s]
   // Of the case:
@@ -84,6 +85,7 @@ Measured measured_by(const Contact& c, const Vector& gravity, const Bodies& bodi
                early = (3 * first + last) / 4, late = (first + 3 * last) / 4;
   measured.pressed = early + late;
   measured.turned = norm<double>(Vector(leave.normal - touch.normal));
+  measured.depth = 0.34 * duration * measured.approach / bodies.ball.radius;
   const double separation = leave.separation / measured.approach, e = measured.law_restitution;
   // A force before the bodies are closest adds to the approach, a later one brakes; equal ones have the
   // effect c.
@@ -185,7 +187,7 @@ class SingleContacts {
 /// A value that single contacts show, and what the case has for it.
 struct Value {
   const char *name, *equation;
-  double allowed, by_pressing, by_turning;
+  double allowed, by_pressing, by_turning, by_depth;
   std::optional<double> Measured::*found;
   double due = 1;                         ///< of any contact
   double Measured::*law = nullptr;        ///< what is due of each
@@ -195,16 +197,18 @@ struct Value {
 };
 
 const Value restitution{
-    "restitution", "(2.23')", 0.003, 0.1, 0, &Measured::restitution, 0, &Measured::law_restitution};
+    "restitution", "(2.23')", 0.003, 0.1, 0, 0, &Measured::restitution, 0, &Measured::law_restitution};
 /// Contacts that clearly slide throughout. A spring along the surfaces has to be loaded first: its share is
 /// inversely proportional to the slip.
 const Value friction{
-    "friction", "(2.24')", 0.01, 0, 0.1, &Measured::friction, 0, &Measured::law_friction, &Measured::wound};
+    "friction",      "(2.24')", 0.01, 0, 0.1, 0, &Measured::friction, 0, &Measured::law_friction,
+    &Measured::wound};
 /// Contacts in which the case's friction stops the slip. Springs along the surfaces reverse it, with up to
 /// twice the impulse; how much depends on the code's law.
-const Value sticking{"stopping friction", "(2.24')", 1, 0, 0, &Measured::stopping_friction, 1.5};
-const Value spin_change{"spin change over the torque's", "(2.35)", 0.02, 0, 0.3, &Measured::spin_change};
-const Value wall_velocity{"velocity", "(2.27)", 0.02, 0.2, 0, &Measured::wall_velocity};
+const Value sticking{"stopping friction", "(2.24')", 1, 0, 0, 0, &Measured::stopping_friction, 1.5};
+/// In some codes the arm of the torque is shorter by the overlap.
+const Value spin_change{"spin change over the torque's", "(2.35)", 0.02, 0, 0.3, 1, &Measured::spin_change};
+const Value wall_velocity{"velocity", "(2.27)", 0.02, 0.2, 0, 0, &Measured::wall_velocity};
 
 /// Which contacts show a law best: gentle ones, and those in which much presses or the normal turns, are
 /// changed by what happens meanwhile.
@@ -238,7 +242,7 @@ constexpr double spread_allowed = 0.007;
 /// @param number  of values that are judged alike
 Judged judged(const Value& value, const std::string& where, const std::vector<Measured>& list,
               const Clear& is_clear, double number, double all_dose) {
-  std::vector<double> off, expected, pressed, turned, vanishing;
+  std::vector<double> off, expected, pressed, turned, depth, vanishing;
   Judged j{
       .name = fmt::format("{} {}", value.name, where), .equation = value.equation, .allowed = value.allowed};
   for (const auto& measured : list)
@@ -247,6 +251,7 @@ Judged judged(const Value& value, const std::string& where, const std::vector<Me
       if (!is_clear(measured)) continue;
       pressed.push_back(std::abs(measured.pressed));
       turned.push_back(measured.turned);
+      depth.push_back(measured.depth);
       expected.push_back(value.due_of(measured));
       off.push_back(*found - expected.back());
       if (value.vanishing) vanishing.push_back(measured.*value.vanishing);
@@ -255,7 +260,8 @@ Judged judged(const Value& value, const std::string& where, const std::vector<Me
   j.found = value.vanishing ? median_at_zero(vanishing, off, number) : median_of(std::move(off), number);
   j.expected = median_of(std::move(expected)).value;
   j.allowed += value.by_pressing * median_of(std::move(pressed)).value +
-               value.by_turning * median_of(std::move(turned)).value;
+               value.by_turning * median_of(std::move(turned)).value +
+               value.by_depth * median_of(std::move(depth)).value;
   for (double* end : {&j.found.value, &j.found.low, &j.found.high}) *end += j.expected;
   return j;
 }
@@ -325,16 +331,15 @@ void judge_wall_velocity(const std::vector<Measured>& walls, ContactAudit& audit
                            list, is_clear, static_cast<double>(parts.size()), audit.magnitude);
     const auto e = std::ranges::find(audit.judged, "restitution " + part, &Judged::name);
     if (!velocity.known() || e == audit.judged.end()) continue;
-    std::vector<double> by_restitution, by_velocity;
+    std::vector<double> changes, approaches, wall_speeds;
     for (const auto& s : list) {
       if (!is_clear(s) || !s.restitution) continue;
-      const double off = (*s.restitution - s.law_restitution) * s.approach;
-      by_restitution.push_back(std::abs(off - (e->found.value - e->expected) * s.approach));
-      by_velocity.push_back(
-          std::abs(off - (velocity.found.value - 1) * (1 + s.law_restitution) * s.wall_speed));
+      changes.push_back((*s.restitution - s.law_restitution) * s.approach);
+      approaches.push_back(s.approach);
+      wall_speeds.push_back((1 + s.law_restitution) * s.wall_speed);
     }
     const double margin = all ? 1 : 1.25;  // one wall has few contacts
-    const bool is_velocity = margin * median_of(by_velocity).value < median_of(by_restitution).value;
+    const bool is_velocity = margin * mean_left_by(wall_speeds, changes) < mean_left_by(approaches, changes);
     if (is_velocity && !e->agrees()) velocity.allowed = 0;
     if (!is_velocity && !(velocity.agrees() && e->agrees()))
       velocity.not_judged = "it would follow from the restitution";
@@ -352,6 +357,8 @@ void judge_wall_velocity(const std::vector<Measured>& walls, ContactAudit& audit
             (some_follow && j.equation == restitution.equation && !at_wall));
   });
 }
+
+constexpr const char* unexplained_dose = "dose with no wall or ball";
 
 /// Facts about the whole log.
 void judge_facts(const model::Mill<double>& mill, ContactAudit& audit) {
@@ -376,8 +383,8 @@ void judge_facts(const model::Mill<double>& mill, ContactAudit& audit) {
             [](const Judged& j) { return j.name.ends_with("the case's") && j.found.value == 0; });
   // A ball that leaves its flight has met something, as far as frames resolve it.
   if (const double all = facts.dose(); all > 0)
-    add("dose with no wall or ball", facts.doses[static_cast<std::size_t>(ContactClass::unexplained)] / all,
-        0, 0, 0.01, Judged::Of::walls);
+    add(unexplained_dose, facts.doses[static_cast<std::size_t>(ContactClass::unexplained)] / all, 0, 0, 0.01,
+        Judged::Of::walls);
   if (const double factor = facts.statistics.way_factor; factor != 0)  // balls move
     add("displacements over those by velocities", factor, 0, 1, 0.01);
   add("contacts missed at walls", static_cast<double>(audit.missed_at_walls), 0, 0, 0, Judged::Of::walls);
@@ -417,6 +424,11 @@ void drop_pairs(std::vector<Contact>& contacts) {
 }
 
 }  // namespace
+
+bool ContactAudit::wall_velocity_differs() const {
+  return std::ranges::any_of(
+      judged, [](const Judged& j) { return j.equation == wall_velocity.equation && !j.agrees(); });
+}
 
 ContactAudit audit_contacts(const casefile::CaseSpec& spec, const std::string& file,
                             const std::atomic<bool>* interrupt) {
@@ -471,8 +483,11 @@ ContactAudit audit_contacts(const casefile::CaseSpec& spec, const std::string& f
   const double size = audit.facts.radius_factor;
   const bool is_other_size = size != 1 && size != 0;
   if (!is_other_size) judge_places(spec, at_walls, interrupt, audit);
-  if (audit.jumps() > 0)
-    leave_out(audit, "balls jump", [](const Judged& j) { return j.name == "dose with no wall or ball"; });
+  const auto leave_unexplained_out = [&](const char* because) {
+    leave_out(audit, because, [](const Judged& j) { return j.name == unexplained_dose; });
+  };
+  if (audit.jumps() > 0) leave_unexplained_out("balls jump");
+  if (audit.wall_velocity_differs()) leave_unexplained_out(follows_from_velocity);
   if (is_other_size || (!audit.causes.empty() && audit.causes[0].key.starts_with("ball")))
     leave_out(audit, "the balls have another size", [](const Judged& j) { return j.of != Judged::Of::log; });
   else if (!audit.walls_met())

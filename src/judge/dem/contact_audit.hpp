@@ -66,6 +66,7 @@ struct ContactAudit {
   bool interrupted = false;
 
   std::uint64_t jumps() const { return counts[static_cast<std::size_t>(ContactClass::jump)]; }
+  bool wall_velocity_differs() const;
   /// Balls leave their flights at the walls of the case.
   bool walls_met() const { return wall_distance <= 2 * wall_resolution && causes.empty(); }
 };

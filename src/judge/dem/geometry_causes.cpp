@@ -224,8 +224,9 @@ void judge_places(const casefile::CaseSpec& spec, const std::vector<Contact>& co
     if (interrupt && *interrupt) break;
     const auto cause = geometry.fit(candidate);
     if (!cause || cause->left > 2 * geometry.resolution) continue;
-    // A deviation that frames barely resolve counts only if a number clearly differs from the case's.
-    const bool is_clear = 2 * cause->left <= geometry.distance &&
+    // A deviation that frames barely resolve counts only if a number clearly differs from the case's, and no
+    // wrong velocity of the walls, which moves the places where balls leave their flights, explains it.
+    const bool is_clear = !audit.wall_velocity_differs() && 2 * cause->left <= geometry.distance &&
                           std::abs(cause->value - cause->expected) > 3 * cause->half_width;
     if (!met || is_clear) audit.causes.push_back(*cause);
   }

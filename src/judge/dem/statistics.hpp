@@ -58,6 +58,24 @@ inline Median median_at_zero(const std::vector<double>& x, std::vector<double> y
   return median;
 }
 
+/// The mean of |y - k x| with the multiple k that makes it least: the median of y/x weighted by |x|.
+inline double mean_left_by(const std::vector<double>& x, const std::vector<double>& y) {
+  std::vector<std::pair<double, double>> ratios;  // with their weights
+  double rest = 0;                                // of half the weights
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    if (x[k] == 0) continue;
+    ratios.emplace_back(y[k] / x[k], std::abs(x[k]));
+    rest += std::abs(x[k]) / 2;
+  }
+  std::sort(ratios.begin(), ratios.end());
+  const auto middle = std::find_if(ratios.begin(), ratios.end(),
+                                   [&](const auto& ratio) { return (rest -= ratio.second) <= 0; });
+  const double multiple = middle == ratios.end() ? 0 : middle->first;
+  double sum = 0;
+  for (std::size_t k = 0; k < x.size(); ++k) sum += std::abs(y[k] - multiple * x[k]);
+  return sum / static_cast<double>(x.size());
+}
+
 /// The largest deviation from 1 of the ratios of a record's values to the case's; 0 without any, 1
 /// where all differ by the rounding of numbers that are written.
 inline double factor_of(const std::vector<double>& ratios) {

@@ -30,7 +30,7 @@ MISTAKES = {
     "torque=0.5": SPINS, "torque=0": SPINS, "torque=1.2": SPINS, "inertia=1.25": SPINS, "inertia=0.5": SPINS,
     "spin_sign=-1": SPINS, "spin_unit=57.29577951": SPINS, "spin_unit=0.1591549431": SPINS,
     "wall_velocity=0": "velocity of the walls over the case's", "wall_velocity=-1": "velocity of the walls over the case's",
-    "amplitude=2": "factor of mill.amplitude", "amplitude=1.05": "factor of mill.amplitude", "amplitude_y=0.9": "mill.amplitude.y",
+    "amplitude=2": "factor of mill.amplitude", "amplitude=1.05": AMPLITUDE, "amplitude_y=0.9": "mill.amplitude.y",
     "amplitude=1.02": AMPLITUDE, "amplitude=0.97": AMPLITUDE, "amplitude_y=1.03": "mill.amplitude.y velocity over the case's at wall +y", "speed=1.01": "mill.speed", "speed=2": "mill.speed", "phase=1": "phase of the drive",
     "phase=-0.2": "phase of the drive", "phase_y=1": "phase of mill.amplitude along y", "phase_y=0.3": "phase of mill.amplitude along y",
     "gravity=0": "gravity along Y", "gravity=-1": "gravity along Y", "gravity=0.95": "gravity along Y", "gravity_axis=2": "gravity along Z",
