@@ -5,7 +5,7 @@
 
 #include "base/scalar_list.hpp"
 #include "base/statistics.hpp"
-#include "io/json_text.hpp"
+#include "io/fields.hpp"
 
 namespace edmill::io {
 
@@ -203,23 +203,6 @@ struct FieldList {
   }
 };
 
-/// The visitor after all fields.
-template <class Visit, class Real>
-Visit visited(const Summary<Real>& summary) {
-  Visit visitor;
-  FieldList<Real, Visit>{summary, visitor}.visit();
-  return visitor;
-}
-
-/// In all digits of the scalar.
-struct JsonVisitor {
-  JsonText json;
-  void operator()(std::string_view key, std::string_view, std::string_view, const auto& value) {
-    json.add(key, value);
-  }
-  void group(std::string_view key, std::string_view, const auto& fill) { json.group(key, fill); }
-};
-
 struct FactsVisitor {
   Facts facts = Facts("the summary of the run");
   std::string path = {};  ///< of the group
@@ -248,27 +231,21 @@ struct FactsVisitor {
   }
 };
 
-/// Rows of a table.
-struct ReferenceVisitor {
-  std::string text = "| key | unit | meaning |\n|---|---|---|\n", path = {};
-
-  void operator()(std::string_view key, std::string_view unit, std::string_view meaning, const auto&) {
-    text +=
-        "| `" + path + std::string(key) + "` | " + std::string(unit) + " | " + std::string(meaning) + " |\n";
-  }
-  void group(std::string_view key, std::string_view meaning, const auto& fill) {
-    (*this)(key, "", meaning, 0);
-    const auto outside = std::exchange(path, path + std::string(key) + ".");
-    fill();
-    path = outside;
-  }
-};
+/// For a visitor: all fields of a summary.
+template <class Real>
+auto fields_of(const Summary<Real>& summary) {
+  return [&](auto& visitor) {
+    FieldList<Real, std::remove_reference_t<decltype(visitor)>>{summary, visitor}.visit();
+  };
+}
 
 }  // namespace
 
 template <class Real>
 Facts facts_of(const Summary<Real>& s) {
-  return visited<FactsVisitor>(s).facts;
+  FactsVisitor visitor;
+  fields_of(s)(visitor);
+  return visitor.facts;
 }
 
 std::string summary_reference() {
@@ -285,7 +262,7 @@ std::string summary_reference() {
   s.stall.emplace();
   s.notes = {{"NAME", 0}};
   s.escalations.push_back({"SCALAR", {}, {}, {}});
-  return visited<ReferenceVisitor>(s).text;
+  return KeyTable::of(fields_of(s));
 }
 
 template <class Real>
@@ -306,7 +283,7 @@ std::string stall_message(const Summary<Real>& s) {
 
 template <class Real>
 std::string summary_json(const Summary<Real>& s) {
-  return visited<JsonVisitor>(s).json.finish();
+  return JsonFields::of(fields_of(s));
 }
 
 Intervals::Rate Intervals::of(std::vector<double> amounts, double length) {

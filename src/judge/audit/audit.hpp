@@ -11,7 +11,6 @@
 #include "audit/equations.hpp"
 #include "audit/finding.hpp"
 #include "casefile/case_spec.hpp"
-#include "io/json_text.hpp"
 #include "model/case.hpp"
 
 namespace edmill::audit {
@@ -77,9 +76,9 @@ Audit audit(const model::Case<double>& the_case, const EventsAtHand& log, const 
 /// Tolerances of gaps and speeds.
 Tolerances tolerances_of(const model::Case<double>& the_case, const Options& options);
 
+/// Of the checks made, that found a violation of this kind; nan without any.
+double share_of(const Audit& audit, Kind kind);
 /// The result as text.
 std::string table(const Audit& audit);
-/// docs/files.md, "Audit": the document's entries.
-void put_json(io::JsonText& json, const Audit& audit);
 
 }  // namespace edmill::audit

@@ -27,17 +27,6 @@ std::string list_of_checks(const Findings& findings, std::uint64_t (Findings::*n
   return fmt::format("{}", fmt::join(list, ", "));
 }
 
-double share_of(const Audit& a, Kind kind) {
-  const auto judged = a.findings.judged_number(info(kind).check);
-  return judged > 0 ? static_cast<double>(a.findings.of(kind).count) / static_cast<double>(judged) : unknown;
-}
-
-void put_finding(io::JsonText& json, const Finding& f) {
-  json.add("line", f.line, "time", f.time, "ball", f.ball, "partner_kind", f.with_wall ? "wall" : "ball");
-  json.add("partner", f.partner, "size", f.size, "found", f.found, "expected", f.expected);
-  if (*f.note != '\0') json.add("note", f.note);
-}
-
 /// The effect of the rounding of times, if it exceeds the relative tolerance, and checks that cannot be made.
 std::string unresolved_checks(const Audit& a) {
   std::string out;
@@ -54,25 +43,12 @@ std::string unresolved_checks(const Audit& a) {
   return out;
 }
 
-void put_violations(io::JsonText& json, const Audit& a) {
-  json.groups(
-      "violations", a.findings.ranked(), [](Kind kind) { return info(kind).name; },
-      [&](Kind kind) {
-        const Tally& tally = a.findings.of(kind);
-        json.add("count", tally.count, "share", share_of(a, kind), "worst", tally.worst, "unit",
-                 info(kind).unit, "meaning", info(kind).meaning);
-        if (!tally.notes.empty())
-          json.group("notes", [&] {
-            for (const auto& [note, count] : tally.notes) json.add(note, count);
-          });
-        json.group("examples", [&] {
-          for (std::size_t k = 0; k < tally.examples.size(); ++k)
-            json.group(std::to_string(k + 1), [&] { put_finding(json, tally.examples[k]); });
-        });
-      });
-}
-
 }  // namespace
+
+double share_of(const Audit& a, Kind kind) {
+  const auto judged = a.findings.judged_number(info(kind).check);
+  return judged > 0 ? static_cast<double>(a.findings.of(kind).count) / static_cast<double>(judged) : unknown;
+}
 
 std::string table(const Audit& a) {
   std::string out =
@@ -113,36 +89,6 @@ std::string table(const Audit& a) {
   const auto made = list_of_checks(a.findings, &Findings::judged_number);
   return out +
          fmt::format("\n  checked{}{}\n  verdict: {}\n", made.empty() ? "" : ": ", made, name_of(a.verdict));
-}
-
-void put_json(io::JsonText& json, const Audit& a) {
-  json.add("format", "edmill audit 2", "version", version(), "commit", commit(), "verdict",
-           name_of(a.verdict));
-  json.add("case", a.case_name, "log", a.log_name, "events", a.events, "first_time", a.first);
-  json.add("last_time", a.last, "interrupted", a.interrupted ? "yes" : "no", "tolerance",
-           a.tolerances.relative, "gap_tolerance", a.tolerances.gap);
-  json.add("time_rounding", rounding_of(std::max(std::abs(a.first), std::abs(a.last))));
-  put_violations(json, a);
-  json.groups("looks_like", a.diagnoses, &Diagnosis::name,
-              [&](const Diagnosis& d) { json.add("events", d.events, "of", d.of, "text", d.text); });
-  json.add_group("energy", "impacts", a.energies.impacts, "wall_work", a.energies.wall_work.value(),
-                 "milling_dose", a.energies.milling_dose.value(), "supplied", a.energies.supplied.value(),
-                 "supplying_impacts", a.energies.supplying, "kinetic_change",
-                 a.energies.kinetic_change.value(), "closure", a.energies.closure());
-  json.add_group("energy_created", "impacts", a.energies.creating, "energy", a.energies.created);
-  json.begin("checked");
-  for (std::size_t k = 0; k < check_count; ++k)
-    json.add(checks[k].name, a.findings.judged_number(static_cast<Check>(k)));
-  json.end();
-  json.begin("unresolved");
-  for (std::size_t k = 0; k < check_count; ++k)
-    if (const auto n = a.findings.unresolved_number(static_cast<Check>(k)); n > 0)
-      json.add(checks[k].name, n);
-  json.end();
-  json.begin("not_checked");
-  for (const Check check : a.not_made) json.add(info(check).name, info(check).columns);
-  json.end();
-  json.add("undecided", a.undecided);
 }
 
 }  // namespace edmill::audit

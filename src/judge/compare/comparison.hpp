@@ -80,8 +80,9 @@ Comparison compare(const ComparisonOptions& options);
 /// The result as text.
 std::string table(const Comparison& comparison);
 
-/// docs/files.md, "comparison".
 std::string to_json(const Comparison& comparison);
+/// A table of the document's keys.
+std::string comparison_keys();
 
 /// JUnit's XML: a test case for the events, where they must agree, and for each quantity that is tested.
 std::string to_junit(const Comparison& comparison);

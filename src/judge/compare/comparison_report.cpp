@@ -4,7 +4,7 @@
 
 #include "base/version.hpp"
 #include "compare/comparison.hpp"
-#include "io/json_text.hpp"
+#include "io/fields.hpp"
 
 namespace edmill::compare {
 
@@ -24,18 +24,92 @@ std::string with_interval(const std::optional<double>& value, const std::optiona
   return half_width ? fmt::format("{:.6g} ± {:.2g}", *value, *half_width) : fmt::format("{:.6g}", *value);
 }
 
-void put(io::JsonText& json, std::string_view key, const Event& e) {
-  json.begin(key);
-  json.add("line", e.line, "ball", e.ball, "partner_kind", e.with_wall ? "wall" : "ball", "partner",
-           e.partner);
-  for (std::size_t v = 0; v < model::logged_count; ++v) json.add(model::logged_quantities[v].name, e[v]);
-  json.end();
+/// The values that an event may have.
+auto values_of(const auto& has) {
+  std::vector<std::size_t> list;
+  for (std::size_t k = 0; k < model::logged_count; ++k)
+    if (has(k)) list.push_back(k);
+  return list;
 }
 
-void put_log(io::JsonText& json, std::string_view key, const LogScan& scan) {
-  json.add_group(key, "file", scan.file, "events", scan.events, "first_time", scan.first, "last_time",
-                 scan.last);
-}
+std::string_view name_of_value(std::size_t value) { return model::logged_quantities[value].name; }
+
+/// Visits the fields of a document. docs/files.md, "Comparison"
+struct Fields {
+  const Comparison& c;
+
+  void operator()(auto& v) const {
+    v("format", "", "", "edmill comparison 1");
+    v("version", "", "of the program", version());
+    v("commit", "", "of the program", commit());
+    v("verdict", "", "`agree`, `differ`, `too_few`", name_of(c.verdict));
+    v.group("a", "the first log", [&] { log(v, c.a); });
+    v.group("b", "the other log, with the same fields", [&] { log(v, c.b); });
+    v("tolerance", "1", "relative, of the comparison event by event", c.options.event_tolerance());
+    v.group("event_by_event", "", [&] { events(v, c.events); });
+    if (v.has(c.times.count > 0))
+      v.group("statistics", "of the common time; where that suffices", [&] { statistics(v); });
+  }
+
+ private:
+  static void log(auto& v, const LogScan& scan) {
+    v("file", "", "", scan.file);
+    v("events", "1", "number", scan.events);
+    v("first_time", "s", "of an event", scan.first);
+    v("last_time", "s", "of an event", scan.last);
+  }
+  void events(auto& v, const EventComparison& e) const {
+    v("agreeing", "1", "events before the first difference", e.agreeing);
+    v("horizon", "s", "time of the last of them", e.agreeing > 0 ? std::optional(e.horizon) : std::nullopt);
+    v("same_partners", "1", "events before the bodies differ", e.same_partners);
+    if (v.has(c.events_verdict.has_value())) {
+      v("asked_for", "1", "with `--events`", c.options.events.value_or(0));
+      v("verdict", "", "with `--events`", name_of(c.events_verdict.value_or(Verdict::agree)));
+    }
+    if (v.has(e.first.has_value()))
+      v.group("first_difference", "", [&] { difference(v, e.first.value_or(FirstDifference{})); });
+    v.by_name("largest", "1", "relative difference of each value up to the horizon",
+              values_of([&](std::size_t k) { return c.a.has[k] && c.b.has[k]; }), name_of_value,
+              [&](std::size_t k) { return e.largest[k]; });
+    v("digits_lost_per_event", "1", "by a straight line through the differences", e.digits_lost_per_event);
+  }
+  static void difference(auto& v, const FirstDifference& first) {
+    v("quantity", "", "`partners` or a value's name", first.quantity);
+    v("relative_difference", "1", "of that value", first.relative_difference);
+    v.group("a", "the event in A", [&] { event(v, first.a); });
+    v.group("b", "the event in B, with the same fields", [&] { event(v, first.b); });
+  }
+  static void event(auto& v, const Event& e) {
+    v("line", "1", "of the log", e.line);
+    v("ball", "", "", e.ball);
+    v("partner_kind", "", "`wall` or `ball`", e.with_wall ? "wall" : "ball");
+    v("partner", "", "", e.partner);
+    for (const auto k : values_of([](std::size_t) { return true; })) v(name_of_value(k), "", "", e[k]);
+  }
+  void statistics(auto& v) const {
+    v("from", "s", "", c.times.from);
+    v("until", "s", "", c.times.until());
+    v("batch_length", "s", "", c.times.length);
+    v("batches", "1", "number", c.times.count);
+    v.each("quantities", "by name", c.quantities, &Quantity::name, [&](const Quantity& q) {
+      v("unit", "", "", q.unit);
+      v("a", "`unit`", "mean in A; null for a spectrum", q.a);
+      v("a_ci95", "`unit`", "half the width of its 95 % interval", q.a_half_width);
+      v("b", "`unit`", "mean in B", q.b);
+      v("b_ci95", "`unit`", "half the width of its 95 % interval", q.b_half_width);
+      v("difference", "`unit`", "B - A; of a spectrum Kolmogorov's distance", q.difference);
+      const bool is_spectrum = q.difference && !q.a;
+      if (v.has(!is_spectrum))
+        v("difference_ci95", "`unit`", "half the width of its 95 % interval", q.half_width);
+      if (v.has(is_spectrum))
+        v("limit95", "1", "of a spectrum: the distance that 5 % of permutations exceed", q.half_width);
+      v("probability", "1", "of such a difference by chance, after Holm; null when not tested",
+        q.probability);
+      v("verdict", "", "`agree`, `differ`, `too_few`, `not_compared`", name_of(q.verdict));
+      if (v.has(!q.reason.empty())) v("reason", "", "of `not_compared`", q.reason);
+    });
+  }
+};
 
 }  // namespace
 
@@ -90,47 +164,8 @@ std::string table(const Comparison& c) {
   return out;
 }
 
-std::string to_json(const Comparison& c) {
-  io::JsonText json;
-  json.add("format", "edmill comparison 1", "version", version(), "commit", commit(), "verdict",
-           name_of(c.verdict));
-  put_log(json, "a", c.a);
-  put_log(json, "b", c.b);
-  json.add("tolerance", c.options.event_tolerance());
+std::string to_json(const Comparison& c) { return io::JsonFields::of(Fields{c}); }
 
-  const auto& e = c.events;
-  json.begin("event_by_event");
-  json.add("agreeing", e.agreeing, "horizon", e.agreeing > 0 ? std::optional(e.horizon) : std::nullopt,
-           "same_partners", e.same_partners);
-  if (c.events_verdict) json.add("asked_for", *c.options.events, "verdict", name_of(*c.events_verdict));
-  if (e.first) {
-    json.begin("first_difference");
-    json.add("quantity", e.first->quantity, "relative_difference", e.first->relative_difference);
-    put(json, "a", e.first->a);
-    put(json, "b", e.first->b);
-    json.end();
-  }
-  json.begin("largest");
-  for (std::size_t v = 0; v < model::logged_count; ++v)
-    if (c.a.has[v] && c.b.has[v]) json.add(model::logged_quantities[v].name, e.largest[v]);
-  json.end();
-  json.add("digits_lost_per_event", e.digits_lost_per_event);
-  json.end();
-
-  if (c.times.count > 0) {
-    json.begin("statistics");
-    json.add("from", c.times.from, "until", c.times.until(), "batch_length", c.times.length, "batches",
-             c.times.count);
-    json.groups("quantities", c.quantities, &Quantity::name, [&](const auto& q) {
-      json.add("unit", q.unit, "a", q.a, "a_ci95", q.a_half_width);
-      json.add("b", q.b, "b_ci95", q.b_half_width, "difference", q.difference);
-      json.add(q.difference && !q.a ? "limit95" : "difference_ci95", q.half_width, "probability",
-               q.probability, "verdict", name_of(q.verdict));
-      if (!q.reason.empty()) json.add("reason", q.reason);
-    });
-    json.end();
-  }
-  return json.finish();
-}
+std::string comparison_keys() { return io::KeyTable::of(Fields{{}}); }
 
 }  // namespace edmill::compare

@@ -77,6 +77,8 @@ ContactAudit audit_contacts(const casefile::CaseSpec& spec, const std::string& l
 
 std::string table(const ContactAudit& audit);
 std::string to_json(const ContactAudit& audit);
+/// A table of the document's keys.
+std::string contact_audit_keys();
 /// JUnit's XML, a test case for each value.
 std::string to_junit(const ContactAudit& audit);
 

@@ -10,7 +10,7 @@
 #include "compare/junit.hpp"
 #include "dem/contacts.hpp"
 #include "dem/statistics.hpp"
-#include "io/json_text.hpp"
+#include "io/fields.hpp"
 #include "logs/event_log.hpp"
 #include "plot/chart.hpp"
 
@@ -116,6 +116,56 @@ void judge(ContactComparison& c) {
                                                         : Verdict::too_few;
 }
 
+/// Visits the fields of a document. docs/files.md, "Logs of contacts"
+struct ComparisonFields {
+  const ContactComparison& c;
+
+  void operator()(auto& v) const {
+    v("format", "", "", "edmill contact comparison 1");
+    v("verdict", "", "`agrees`, `differs`, `too few`", word_for(c.verdict));
+    v.group("a", "the first record", [&] { rates(v, c.a); });
+    v.group("b", "the other one, with the same fields", [&] { rates(v, c.b); });
+    v("difference", "1", "of the dose rates, relative to A", c.ratio - 1);
+    v("half_width", "1", "of its 95 % interval", c.half_width);
+    if (v.has(c.within.has_value())) v("within", "1", "largest difference that agrees", c.within);
+  }
+
+ private:
+  static void rates(auto& v, const ContactRates& r) {
+    v("log", "", "", r.log);
+    v("from", "s", "", r.first);
+    v("until", "s", "", r.last);
+    v("contact_time", "s", "median of single contacts with walls; 0 of impacts", r.contact_time);
+    v("single_rate", "1/s", "single contacts", r.single_rate);
+    v("grouped_dose_share", "1", "of groups and lasting contacts", r.grouped);
+    v("milling_dose_rate", "W", "by the balance of energy", r.dose_rate);
+    v("milling_dose_rate_half_width", "W", "of its 95 % interval", r.half_width);
+  }
+};
+
+struct LimitFields {
+  const Limit& limit;
+
+  void operator()(auto& v) const {
+    v("format", "", "", "edmill limit 1");
+    v.each("points", "by log", limit.points, &ContactRates::log, [&](const ContactRates& p) {
+      v("contact_time", "s", "", p.contact_time);
+      v("milling_dose_rate", "W", "", p.dose_rate);
+      v("half_width", "W", "of its 95 % interval", p.half_width);
+    });
+    v("limit", "W", "dose rate with contacts that take no time", limit.at_zero.dose_rate);
+    v("half_width", "W", "of its 95 % interval", limit.at_zero.half_width);
+    v("slope", "W/s", "of the line over the contact time", limit.slope);
+    if (!v.has(limit.to_edmill.has_value())) return;
+    const auto c = limit.to_edmill.value_or(ContactComparison{});
+    v("edmill", "W", "with `--edmill`: dose rate of the run", c.a.dose_rate);
+    v("edmill_half_width", "W", "of its 95 % interval", c.a.half_width);
+    v("ratio", "1", "of the limit over it", c.ratio);
+    v("ratio_half_width", "1", "of its 95 % interval", c.half_width);
+    v("verdict", "", "`agrees`, `differs`, `too few`", word_for(c.verdict));
+  }
+};
+
 }  // namespace
 
 ContactComparison compare_contacts(const compare::ComparisonOptions& options) {
@@ -152,17 +202,9 @@ std::string table(const ContactComparison& c) {
          fmt::format("\n  verdict: {}\n", has_dose ? verdict_of(c) : "too few data: a record has no dose");
 }
 
-std::string to_json(const ContactComparison& c) {
-  io::JsonText json;
-  json.add("format", "edmill contact comparison 1", "verdict", word_for(c.verdict));
-  for (const auto* r : {&c.a, &c.b})
-    json.add_group(r == &c.a ? "a" : "b", "log", r->log, "from", r->first, "until", r->last, "contact_time",
-                   r->contact_time, "single_rate", r->single_rate, "grouped_dose_share", r->grouped,
-                   "milling_dose_rate", r->dose_rate, "milling_dose_rate_half_width", r->half_width);
-  json.add("difference", c.ratio - 1, "half_width", c.half_width);
-  if (c.within) json.add("within", *c.within);
-  return json.finish();
-}
+std::string to_json(const ContactComparison& c) { return io::JsonFields::of(ComparisonFields{c}); }
+
+std::string contact_comparison_keys() { return io::KeyTable::of(ComparisonFields{{}}); }
 
 std::string to_junit(const ContactComparison& c) {
   using compare::Verdict;
@@ -211,18 +253,9 @@ std::string table(const Limit& limit) {
   return out;
 }
 
-std::string to_json(const Limit& limit) {
-  io::JsonText json;
-  json.add("format", "edmill limit 1");
-  json.groups("points", limit.points, &ContactRates::log, [&](const ContactRates& p) {
-    json.add("contact_time", p.contact_time, "milling_dose_rate", p.dose_rate, "half_width", p.half_width);
-  });
-  json.add("limit", limit.at_zero.dose_rate, "half_width", limit.at_zero.half_width, "slope", limit.slope);
-  if (const auto& c = limit.to_edmill)
-    json.add("edmill", c->a.dose_rate, "edmill_half_width", c->a.half_width, "ratio", c->ratio,
-             "ratio_half_width", c->half_width, "verdict", word_for(c->verdict));
-  return json.finish();
-}
+std::string to_json(const Limit& limit) { return io::JsonFields::of(LimitFields{limit}); }
+
+std::string limit_keys() { return io::KeyTable::of(LimitFields{{}}); }
 
 std::string to_svg(const Limit& limit) {
   const double last = 1e6 * limit.points.front().contact_time, value = limit.at_zero.dose_rate;

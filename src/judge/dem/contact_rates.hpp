@@ -35,6 +35,8 @@ ContactComparison compare_contacts(const compare::ComparisonOptions& options);
 
 std::string table(const ContactComparison& comparison);
 std::string to_json(const ContactComparison& comparison);
+/// A table of the document's keys.
+std::string contact_comparison_keys();
 std::string to_junit(const ContactComparison& comparison);
 
 struct Limit {
@@ -54,6 +56,7 @@ Limit limit_of(const std::vector<std::string>& logs, const std::string& run, dou
 
 std::string table(const Limit& limit);
 std::string to_json(const Limit& limit);
+std::string limit_keys();
 /// A drawing of the points, the line and edmill's value.
 std::string to_svg(const Limit& limit);
 

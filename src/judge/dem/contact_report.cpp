@@ -3,7 +3,7 @@
 #include "base/version.hpp"
 #include "compare/junit.hpp"
 #include "dem/contact_audit.hpp"
-#include "io/json_text.hpp"
+#include "io/fields.hpp"
 
 namespace edmill::dem {
 
@@ -27,6 +27,65 @@ std::string sentence(const Judged& j) {
   return fmt::format("{} is {}{}{}, the case has {:.6g}", j.name, interval(j.found),
                      j.unit.empty() ? "" : " ", j.unit, j.expected);
 }
+
+/// Visits the fields of a document. docs/files.md, "Logs of contacts"
+struct Fields {
+  const ContactAudit& a;
+
+  void operator()(auto& v) const {
+    v("format", "", "", "edmill contact audit 2");
+    v("version", "", "of the program", version());
+    v("verdict", "", "`agrees`, `differs`, `too few`", verdicts[static_cast<std::size_t>(a.verdict)]);
+    v("case", "", "", a.case_name);
+    v("log", "", "", a.log_name);
+    v("contacts", "1", "number", a.facts.contacts);
+    v("frames", "1", "number", a.facts.frames);
+    v("frame_interval", "s", "", a.facts.statistics.interval);
+    v("contact_time", "s", "median time in which a ball does not fly", a.facts.statistics.contact_time);
+    v.group("classes", "by name ([dem.md](dem.md#what-can-be-imported))", [&] {
+      for (std::size_t k = 0; k < contact_class_names.size(); ++k)
+        v.group(contact_class_names[k], "", [&] {
+          v("contacts", "1", "number", a.counts[k]);
+          v("milling_dose", "J", "", a.facts.doses[k]);
+        });
+    });
+    v("milling_dose_rate", "W", "by the balance of energy", a.dose_rate);
+    v("milling_dose_rate_half_width", "W", "of its 95 % interval", a.dose_rate_half_width);
+    v.each("values", "by name, SI", a.judged, &Judged::name, [&](const Judged& j) {
+      v("found", "", "", j.found.value);
+      v("low", "", "end of the 95 % interval", j.found.low);
+      v("high", "", "end of the 95 % interval", j.found.high);
+      v("contacts", "1", "number that show it", j.found.count);
+      v("dose_share", "1", "of these contacts", j.dose_share);
+      v("expected", "", "by the case", j.expected);
+      v("allowed", "", "beyond the interval", j.allowed);
+      v("judged", "", "false where too few contacts show it, or it follows from another", j.known());
+      v("agrees", "", "true also where it was not judged", j.agrees());
+      if (v.has(!j.equation.empty())) v("equation", "", "of [theory.md](theory.md)", j.equation);
+    });
+    v("wall_distance", "m", "of the places where balls leave their flights from walls", a.wall_distance);
+    v("wall_resolution", "m", "of these places, by frames", a.wall_resolution);
+    const auto ratio_of = [](const SlipBin& s) { return fmt::format("{:.4g}", s.ratio); };
+    v.each("slips", "what a contact leaves of the slip, by slip over approach", a.slips, ratio_of,
+           [&](const SlipBin& s) {
+             if (v.has(s.of_walls.known())) {
+               v("walls", "1", "of the slip at the touch", s.of_walls.value);
+               v("walls_half_width", "1", "of the 95 % interval", s.of_walls.half_width());
+             }
+             if (v.has(s.of_balls.known())) {
+               v("balls", "1", "of the slip at the touch", s.of_balls.value);
+               v("balls_half_width", "1", "of the 95 % interval", s.of_balls.half_width());
+             }
+           });
+    v.each("causes", "by key, numbers of the case with which the walls are where balls meet them", a.causes,
+           &GeometryCause::key, [&](const GeometryCause& c) {
+             v("value", "", "SI", c.value);
+             v("half_width", "", "of its interval", c.half_width);
+             v("expected", "", "by the case", c.expected);
+             v("left", "m", "distance from the walls with it", c.left);
+           });
+  }
+};
 
 }  // namespace
 
@@ -62,39 +121,9 @@ std::string table(const ContactAudit& a) {
   return out + fmt::format("\n  verdict: {}\n", sentences[static_cast<std::size_t>(a.verdict)]);
 }
 
-std::string to_json(const ContactAudit& a) {
-  io::JsonText json;
-  json.add("format", "edmill contact audit 2", "version", version(), "verdict",
-           verdicts[static_cast<std::size_t>(a.verdict)]);
-  json.add("case", a.case_name, "log", a.log_name, "contacts", a.facts.contacts);
-  json.add("frames", a.facts.frames, "frame_interval", a.facts.statistics.interval, "contact_time",
-           a.facts.statistics.contact_time);
-  json.begin("classes");
-  for (std::size_t k = 0; k < contact_class_names.size(); ++k)
-    json.group(contact_class_names[k],
-               [&] { json.add("contacts", a.counts[k], "milling_dose", a.facts.doses[k]); });
-  json.end();
-  json.add("milling_dose_rate", a.dose_rate, "milling_dose_rate_half_width", a.dose_rate_half_width);
-  json.groups("values", a.judged, &Judged::name, [&](const Judged& j) {
-    json.add("found", j.found.value, "low", j.found.low, "high", j.found.high);
-    json.add("contacts", j.found.count, "dose_share", j.dose_share, "expected", j.expected);
-    json.add("allowed", j.allowed, "judged", j.known(), "agrees", j.agrees());
-    if (!j.equation.empty()) json.add("equation", j.equation);
-  });
-  json.add("wall_distance", a.wall_distance, "wall_resolution", a.wall_resolution);
-  const auto ratio_of = [](const auto& s) { return fmt::format("{:.4g}", s.ratio); };
-  json.groups("slips", a.slips, ratio_of, [&](const auto& s) {
-    for (const auto* m : {&s.of_walls, &s.of_balls}) {
-      if (!m->known()) continue;
-      json.add(m == &s.of_walls ? "walls" : "balls", m->value,
-               m == &s.of_walls ? "walls_half_width" : "balls_half_width", m->half_width());
-    }
-  });
-  json.groups("causes", a.causes, &GeometryCause::key, [&](const GeometryCause& c) {
-    json.add("value", c.value, "half_width", c.half_width, "expected", c.expected, "left", c.left);
-  });
-  return json.finish();
-}
+std::string to_json(const ContactAudit& a) { return io::JsonFields::of(Fields{a}); }
+
+std::string contact_audit_keys() { return io::KeyTable::of(Fields{{}}); }
 
 std::string to_junit(const ContactAudit& a) {
   std::vector<compare::JunitCase> cases;

@@ -101,7 +101,5 @@ Identification replay(const Assumed& nominal, const std::vector<Assumption>& ass
 
 /// As lines of the audit's report.
 std::string table(const Identification& found);
-/// As the entry "identified" of the audit's document. docs/files.md, "Audit"
-void put_json(io::JsonText& json, const Identification& found);
 
 }  // namespace edmill::identify

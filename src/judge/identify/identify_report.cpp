@@ -32,20 +32,19 @@ namespace {
 
 /// Lengths of time that a log may show, in the order of reports.
 struct Sign {
-  const char* key;
   std::optional<double> TimeStepping::*time;
   fmt::format_string<const double&> text;
 };
 constexpr Sign signs[] = {
-    {"step", &TimeStepping::step,
+    {&TimeStepping::step,
      "time steps: all times are multiples of {:.6g} s, the step or the rounding of times"},
-    {"step_by_depth", &TimeStepping::step_by_depth,
+    {&TimeStepping::step_by_depth,
      "contacts found by overlap, with a step near {:.3g} s; a --gap-tolerance of the worst overlap accepts "
      "them"},
-    {"first_order_step", &TimeStepping::first_order_step,
+    {&TimeStepping::first_order_step,
      "an integrator of first order with steps of {:.3g} s: flights leave the parabola by g h t/2, h the "
      "step"},
-    {"jitter", &TimeStepping::jitter,
+    {&TimeStepping::jitter,
      "times with errors of {:.3g} s (root mean square), early and late alike: flights deviate along their "
      "paths alone"}};
 
@@ -120,58 +119,6 @@ std::string table(const Identification& found) {
   else if (found.violations == 0)
     out += fmt::format("  no cause: no violation in the columns of the first {} impacts\n", found.events);
   return out;
-}
-
-namespace {
-
-void put_stepping(io::JsonText& json, const TimeStepping& stepping) {
-  json.begin("time_stepping");
-  for (const auto& sign : signs)
-    if (const auto& time = stepping.*sign.time) json.add(sign.key, *time);
-  if (stepping.second_order) json.add("order", 2);
-  if (const auto& soft = stepping.soft)
-    json.add_group("soft_contacts", "duration", soft->duration, "low", soft->low, "high", soft->high,
-                   "logged_at", soft->at == LoggedAt::begin ? "begin" : "end", "contacts", soft->contacts,
-                   "exponent", soft->exponent, "spring", soft->spring, "modulus", soft->modulus);
-  json.end();
-}
-
-}  // namespace
-
-void put_json(io::JsonText& json, const Identification& found) {
-  json.begin("identified");
-  json.add("events", found.events, "violations", found.violations);
-  if (found.too_few) json.add("ended", "too few impacts");
-  if (found.interrupted) json.add("ended", "interrupted");
-  if (found.follows) json.add("follows", *found.follows);
-  json.add_group("tried", "numbers", found.tried.numbers, "mistakes", found.tried.mistakes, "parts",
-                 found.tried.parts, "stages", fmt::format("{}", fmt::join(found.tried.stages, "; ")));
-  json.begin("causes");
-  for (std::size_t k = 0; k < found.causes.size(); ++k) {
-    const auto& cause = found.causes[k];
-    json.begin(std::to_string(k + 1));
-    json.add("text", cause.text(), "explains", cause.explains);
-    if (!cause.others.empty()) json.add("others", cause.others);
-    if (cause.could_follow > 0) json.add("follows", cause.follows, "could_follow", cause.could_follow);
-    json.add("gain", cause.gain);
-    const auto numbers = fitted(cause);
-    std::vector<std::string> mistakes;
-    for (std::size_t m = 0; m + numbers.size() < cause.found.size(); ++m)
-      mistakes.push_back(cause.found[m].what.name());
-    json.numbered("mistakes", mistakes);
-    json.groups(
-        "values", numbers, [](const Found& v) { return v.what.key; },
-        [&](const Found& v) {
-          json.add("value", v.value, "half_width", v.half_width, "nominal", v.what.value);
-          if (!v.what.in_place_of.empty()) json.add("in_place_of", v.what.in_place_of);
-          if (!v.what.equation.empty()) json.add("equation", v.what.equation);
-        });
-    json.numbered("alike", cause.alike);
-    json.end();
-  }
-  json.end();
-  put_stepping(json, found.stepping);
-  json.end();
 }
 
 }  // namespace edmill::identify

@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "audit/audit_fields.hpp"
 #include "base/errors.hpp"
 #include "compare/junit.hpp"
 #include "dem/contact_audit.hpp"
 #include "dem/contact_rates.hpp"
+#include "identify/identify_fields.hpp"
 #include "io/input_file.hpp"
-#include "io/json_text.hpp"
 
 namespace edmill::app {
 
@@ -94,20 +95,36 @@ Judged audit(const casefile::CaseSpec& spec, const AuditOptions& given) {
   auto found = audit::audit(built.the_case, built.states, options);
   found.case_name = spec.file;
   std::string table = audit::table(found);
-  io::JsonText json;
-  audit::put_json(json, found);
   using identify::Search;
   std::uint64_t explained = 0;
   for (const auto& diagnosis : found.diagnoses) explained += diagnosis.events;
   const bool is_open =
       found.verdict == audit::Verdict::differ && !audit::accounts_for(explained, found.findings.total());
+  std::optional<identify::Identification> identified;
   if (!found.interrupted && (given.identify || is_open)) {
-    const auto identified =
+    identified =
         identify::identify(spec, options, given.identify ? Search::all : Search::single, given.searching);
-    table += identify::table(identified);
-    identify::put_json(json, identified);
+    table += identify::table(*identified);
   }
-  return {found.verdict, json.finish(), to_junit(found), table};
+  const auto json = io::JsonFields::of([&](auto& v) {
+    audit::Fields{found}(v);
+    if (identified) identify::Fields{*identified}(v);
+  });
+  return {found.verdict, json, to_junit(found), table};
+}
+
+std::string document_keys() {
+  const auto section = [](const char* command, const std::string& keys) {
+    return fmt::format("### {}\n\n{}\n", command, keys);
+  };
+  return section("compare", compare::comparison_keys()) +
+         section("compare, of contacts that last", dem::contact_comparison_keys()) +
+         section("audit", io::KeyTable::of([](auto& v) {
+                   audit::Fields{{}}(v);
+                   identify::Fields{{}}(v);
+                 })) +
+         section("audit, of contacts that last", dem::contact_audit_keys()) +
+         section("limit", dem::limit_keys());
 }
 
 }  // namespace edmill::app

@@ -41,4 +41,7 @@ struct AuditOptions {
 /// @throws InputError
 Judged audit(const casefile::CaseSpec& spec, const AuditOptions& options);
 
+/// Tables of the keys of all documents of verdicts, for docs/reference.md.
+std::string document_keys();
+
 }  // namespace edmill::app

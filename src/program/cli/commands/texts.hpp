@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/judge.hpp"
 #include "base/version.hpp"
 #include "casefile/keys.hpp"
 #include "casefile/output_entry.hpp"
@@ -155,7 +156,8 @@ inline std::string outputs() {
 
 }  // namespace detail
 
-/// docs/reference.md: commands with options, exit codes, keys of files, outputs, keys of summary.json.
+/// docs/reference.md: commands with options, exit codes, keys of files, outputs, keys of
+/// summary.json and of documents.
 inline std::string reference(const CLI::App& app) {
   using namespace detail;
   return "# Reference\n\nPrinted by `edmill reference` from the tables with which the program reads command "
@@ -169,7 +171,10 @@ inline std::string reference(const CLI::App& app) {
          "### Units\n\n" +
          units() + sections() +
          "## Keys of summary.json\n\nThe result of a run; docs/files.md says how to read it.\n\n" +
-         io::summary_reference();
+         io::summary_reference() +
+         "\n## Keys of documents\n\nWhat `--json FILE` writes, SI; values that do not exist are null, and "
+         "`*` stands for a name or a number.\n\n" +
+         app::document_keys();
 }
 
 /// @tparam text  of the whole command line
