@@ -1,7 +1,8 @@
-// Means of a few runs and their intervals.
+// Means, medians, their intervals and tests.
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -9,6 +10,25 @@ namespace edmill::numerics {
 
 /// The value that a share of the others is below; 0 of none.
 double quantile(std::vector<double> values, double share);
+
+/// A median with its interval by order statistics, which ask nothing of the distribution.
+struct Median {
+  static constexpr std::uint64_t least = 8;  ///< values that hold the median between them in 99 %
+
+  double value = 0, low = 0, high = 0;
+  std::uint64_t count = 0;
+
+  bool known() const { return count >= least; }
+  double half_width() const { return (high - low) / 2; }
+};
+
+/// The median; of an even number of values the upper one of the two in the middle.
+/// @param alike  number of medians whose intervals hold all of them in 95 %
+Median median_of(std::vector<double> values, double alike = 1);
+/// The median of y where x is 0, on the straight line with the median slope (Theil and Sen).
+Median median_at_zero(const std::vector<double>& x, std::vector<double> y, double alike = 1);
+/// The mean of |y - k x| with the multiple k that makes it least: the median of y/x weighted by |x|.
+double mean_left_by(const std::vector<double>& x, const std::vector<double>& y);
 
 struct Estimate {
   std::optional<double> mean, half_width;  ///< of the 95 % interval; needs two values
@@ -43,6 +63,13 @@ class Line {
 /// Whether the means of two samples differ at `significance` (Welch's test, two-sided). Samples of fewer than
 /// two values never differ.
 bool differ(const std::vector<double>& a, const std::vector<double>& b, double significance);
+
+/// Probability that the mean of `differences` is at least as far from 0 when 0 is expected: Student's t,
+/// two-sided. @pre at least two values
+double paired_t_probability(const std::vector<double>& differences);
+
+/// Holm's adjusted probabilities: rejecting those up to 5 % has a familywise error rate of at most 5 %.
+std::vector<double> holm(const std::vector<double>& probabilities);
 
 /// Whether a value is outside the interval that contains another value of this sample with probability
 /// 1 - `significance` (Student's prediction interval). Always false for fewer than two values.

@@ -5,8 +5,6 @@
 #include <numeric>
 #include <random>
 
-#include "base/student.hpp"
-
 namespace edmill::compare {
 
 std::size_t SpectrumClasses::of(double value) const {
@@ -48,17 +46,6 @@ BatchValues ratio_values(const BatchValues& sums, const BatchValues& numbers) {
   for (std::size_t k = 0; k < sums.size(); ++k)
     values[k] = ratio + (sums[k] - ratio * numbers[k]) / mean_number;
   return values;
-}
-
-double paired_t_probability(const BatchValues& differences) {
-  const double n = static_cast<double>(differences.size());
-  const double mean = std::accumulate(differences.begin(), differences.end(), 0.0) / n;
-  double squares = 0;
-  for (const double d : differences) squares += (d - mean) * (d - mean);
-  const double error = std::sqrt(squares / (n - 1) / n);
-  if (!(error > 0)) return mean == 0 ? 1 : 0;
-  const numerics::Student student(n - 1);
-  return 2 * boost::math::cdf(boost::math::complement(student, std::abs(mean) / error));
 }
 
 SpectrumTest test_spectra(const std::vector<Batch>& a, const std::vector<Batch>& b, Spectrum spectrum) {
@@ -116,20 +103,6 @@ SpectrumTest test_spectra(const std::vector<Batch>& a, const std::vector<Batch>&
   std::sort(distances.begin(), distances.end());
   test.limit = distances[static_cast<std::size_t>(0.95 * exchanges)];
   return test;
-}
-
-std::vector<double> holm(const std::vector<double>& probabilities) {
-  std::vector<std::size_t> order(probabilities.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t i, std::size_t j) { return probabilities[i] < probabilities[j]; });
-  std::vector<double> adjusted(probabilities.size());
-  double largest = 0;
-  for (std::size_t r = 0; r < order.size(); ++r) {
-    largest = std::max(largest, static_cast<double>(order.size() - r) * probabilities[order[r]]);
-    adjusted[order[r]] = std::min(1.0, largest);
-  }
-  return adjusted;
 }
 
 }  // namespace edmill::compare

@@ -62,10 +62,6 @@ using BatchValues = std::vector<double>;
 /// @pre the numbers are not all 0
 BatchValues ratio_values(const BatchValues& sums, const BatchValues& numbers);
 
-/// Probability that the mean of `differences` is at least as far from 0 when 0 is expected: Student's t,
-/// two-sided. @pre at least two values
-double paired_t_probability(const BatchValues& differences);
-
 /// Largest distance between the distribution functions of two spectra, with a permutation test over batches.
 struct SpectrumTest {
   double distance = 0;     ///< Kolmogorov's, over the bounds of the classes
@@ -76,8 +72,5 @@ struct SpectrumTest {
 /// Each of 9999 permutations swaps batch k of A and B, or not, at random for every k; seeded, so that the
 /// same logs give the same result. @pre as many batches in A as in B, and both spectra are not empty
 SpectrumTest test_spectra(const std::vector<Batch>& a, const std::vector<Batch>& b, Spectrum spectrum);
-
-/// Holm's adjusted probabilities: rejecting those up to 5 % has a familywise error rate of at most 5 %.
-std::vector<double> holm(const std::vector<double>& probabilities);
 
 }  // namespace edmill::compare

@@ -150,7 +150,7 @@ class Quantities {
          .b_half_width = of_b.half_width,
          .difference = of_both.mean,
          .half_width = of_both.half_width},
-        events, within ? 1 : paired_t_probability(differences));
+        events, within ? 1 : numerics::paired_t_probability(differences));
   }
 
   void spectrum(const std::string& name, const std::string& reason, Spectrum spectrum, double events) {
@@ -172,7 +172,7 @@ class Quantities {
     BatchValues tested;
     for (const auto& q : rows_)
       if (q.probability) tested.push_back(*q.probability);
-    const auto adjusted = holm(tested);
+    const auto adjusted = numerics::holm(tested);
     auto next = adjusted.begin();
     for (auto& q : rows_) {
       if (same && q.verdict != Verdict::not_compared) {

@@ -24,7 +24,7 @@ std::string with_interval(const std::optional<double>& value, const std::optiona
   return half_width ? fmt::format("{:.6g} ± {:.2g}", *value, *half_width) : fmt::format("{:.6g}", *value);
 }
 
-/// The values that an event may have.
+/// The values of an event that logs have.
 auto values_of(const auto& has) {
   std::vector<std::size_t> list;
   for (std::size_t k = 0; k < model::logged_count; ++k)
@@ -84,7 +84,7 @@ struct Fields {
     v("ball", "", "", e.ball);
     v("partner_kind", "", "`wall` or `ball`", e.with_wall ? "wall" : "ball");
     v("partner", "", "", e.partner);
-    for (const auto k : values_of([](std::size_t) { return true; })) v(name_of_value(k), "", "", e[k]);
+    for (std::size_t k = 0; k < model::logged_count; ++k) v(name_of_value(k), "", "", e[k]);
   }
   void statistics(auto& v) const {
     v("from", "s", "", c.times.from);

@@ -10,6 +10,7 @@
 #include "base/errors.hpp"
 #include "base/statistics.hpp"
 #include "decks/soft_contact.hpp"
+#include "dem/dose_rate.hpp"
 #include "identify/assumed.hpp"
 
 namespace edmill::dem {
@@ -257,7 +258,8 @@ Judged judged(const Value& value, const std::string& where, const std::vector<Me
       if (value.vanishing) vanishing.push_back(measured.*value.vanishing);
     }
   j.spread = (numerics::quantile(off, 0.75) - numerics::quantile(off, 0.25)) / 2;
-  j.found = value.vanishing ? median_at_zero(vanishing, off, number) : median_of(std::move(off), number);
+  j.found =
+      value.vanishing ? numerics::median_at_zero(vanishing, off, number) : median_of(std::move(off), number);
   j.expected = median_of(std::move(expected)).value;
   j.allowed += value.by_pressing * median_of(std::move(pressed)).value +
                value.by_turning * median_of(std::move(turned)).value +
@@ -339,7 +341,8 @@ void judge_wall_velocity(const std::vector<Measured>& walls, ContactAudit& audit
       wall_speeds.push_back((1 + s.law_restitution) * s.wall_speed);
     }
     const double margin = all ? 1 : 1.25;  // one wall has few contacts
-    const bool is_velocity = margin * mean_left_by(wall_speeds, changes) < mean_left_by(approaches, changes);
+    const bool is_velocity =
+        margin * numerics::mean_left_by(wall_speeds, changes) < numerics::mean_left_by(approaches, changes);
     if (is_velocity && !e->agrees()) velocity.allowed = 0;
     if (!is_velocity && !(velocity.agrees() && e->agrees()))
       velocity.not_judged = "it would follow from the restitution";
@@ -483,11 +486,9 @@ ContactAudit audit_contacts(const casefile::CaseSpec& spec, const std::string& f
   const double size = audit.facts.radius_factor;
   const bool is_other_size = size != 1 && size != 0;
   if (!is_other_size) judge_places(spec, at_walls, interrupt, audit);
-  const auto leave_unexplained_out = [&](const char* because) {
-    leave_out(audit, because, [](const Judged& j) { return j.name == unexplained_dose; });
-  };
-  if (audit.jumps() > 0) leave_unexplained_out("balls jump");
-  if (audit.wall_velocity_differs()) leave_unexplained_out(follows_from_velocity);
+  if (const bool jumps = audit.jumps() > 0; jumps || audit.wall_velocity_differs())
+    leave_out(audit, jumps ? "balls jump" : follows_from_velocity,
+              [](const Judged& j) { return j.name == unexplained_dose; });
   if (is_other_size || (!audit.causes.empty() && audit.causes[0].key.starts_with("ball")))
     leave_out(audit, "the balls have another size", [](const Judged& j) { return j.of != Judged::Of::log; });
   else if (!audit.walls_met())

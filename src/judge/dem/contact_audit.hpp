@@ -5,12 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "base/statistics.hpp"
 #include "casefile/build_case.hpp"
 #include "compare/comparison.hpp"
 #include "dem/contacts.hpp"
-#include "dem/statistics.hpp"
 
 namespace edmill::dem {
+
+using numerics::Median, numerics::median_of;
 
 /// One value of the code against that of the case.
 struct Judged {
@@ -77,7 +79,6 @@ ContactAudit audit_contacts(const casefile::CaseSpec& spec, const std::string& l
 
 std::string table(const ContactAudit& audit);
 std::string to_json(const ContactAudit& audit);
-/// A table of the document's keys.
 std::string contact_audit_keys();
 /// JUnit's XML, a test case for each value.
 std::string to_junit(const ContactAudit& audit);

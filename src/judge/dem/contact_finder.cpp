@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include "base/errors.hpp"
+#include "base/statistics.hpp"
 #include "dem/contacts.hpp"
-#include "dem/statistics.hpp"
 
 namespace edmill::dem {
 
@@ -59,9 +59,9 @@ void set_gravity(const std::vector<Frame>& frames, FrameStatistics& s) {
           accelerations.push_back(
               (frames[k].balls[i].velocity[axis] - frames[k - span].balls[i].velocity[axis]) /
               (frames[k].time - frames[k - span].time));
-      gravity[axis] = median_of(accelerations).value;
+      gravity[axis] = numerics::median_of(accelerations).value;
       for (const double value : accelerations) off.push_back(std::abs(value - gravity[axis]));
-      const double one = 1.4826 * median_of(std::move(off)).value;
+      const double one = 1.4826 * numerics::median_of(std::move(off)).value;
       half_width[axis] = one + 1.96 * 1.2533 * one / std::sqrt(static_cast<double>(accelerations.size()));
       scatter = std::max(scatter, one);
     }
@@ -80,7 +80,7 @@ FrameStatistics statistics_of(const std::vector<Frame>& frames, const Vector& ex
   const std::size_t balls = frames[0].balls.size();
   std::vector<double> intervals;
   for (std::size_t k = 1; k < frames.size(); ++k) intervals.push_back(frames[k].time - frames[k - 1].time);
-  s.interval = median_of(intervals).value;
+  s.interval = numerics::median_of(intervals).value;
   set_gravity(frames, s);
   const Vector off = (s.gravity - expected_gravity).cwiseAbs(), known_to = 3 * s.gravity_half_width;
   if ((off.array() <= known_to.array() + 1e-6).all()) s.gravity = expected_gravity;
@@ -94,7 +94,7 @@ FrameStatistics statistics_of(const std::vector<Frame>& frames, const Vector& ex
       if (const double square = dot<double>(due, due); square > 0)
         ways.push_back(dot<double>(way, due) / square);
     }
-  s.way_factor = median_of(std::move(ways)).value;
+  s.way_factor = numerics::median_of(std::move(ways)).value;
   std::sort(changes.begin(), changes.end());
   s.kick = std::clamp(20 * changes[changes.size() / 4], 2e-5, 1e-2);
   std::vector<double> stretches;
@@ -109,7 +109,7 @@ FrameStatistics statistics_of(const std::vector<Frame>& frames, const Vector& ex
       }
     }
   }
-  s.contact_time = stretches.empty() ? s.interval : median_of(stretches).value;
+  s.contact_time = stretches.empty() ? s.interval : numerics::median_of(stretches).value;
   return s;
 }
 

@@ -9,7 +9,7 @@
 #include "base/errors.hpp"
 #include "compare/junit.hpp"
 #include "dem/contacts.hpp"
-#include "dem/statistics.hpp"
+#include "dem/dose_rate.hpp"
 #include "io/fields.hpp"
 #include "logs/event_log.hpp"
 #include "plot/chart.hpp"
@@ -52,7 +52,7 @@ ContactRates rates_of(const std::string& log, const char* what, double first, do
         fmt::format("{}: found {} single {} with walls, expected at least 20", log, durations.size(), what));
   r.dose_rate = rate.mean();
   r.half_width = rate.half_width();
-  r.contact_time = median_of(std::move(durations)).value;
+  r.contact_time = numerics::median_of(std::move(durations)).value;
   r.single_rate = static_cast<double>(singles) / (r.last - r.first);
   r.grouped = all > 0 ? grouped / all : 0;
   return r;
@@ -122,7 +122,7 @@ struct ComparisonFields {
 
   void operator()(auto& v) const {
     v("format", "", "", "edmill contact comparison 1");
-    v("verdict", "", "`agrees`, `differs`, `too few`", word_for(c.verdict));
+    v("verdict", "", "`agree`, `differ`, `too few`", word_for(c.verdict));
     v.group("a", "the first record", [&] { rates(v, c.a); });
     v.group("b", "the other one, with the same fields", [&] { rates(v, c.b); });
     v("difference", "1", "of the dose rates, relative to A", c.ratio - 1);
@@ -162,7 +162,7 @@ struct LimitFields {
     v("edmill_half_width", "W", "of its 95 % interval", c.a.half_width);
     v("ratio", "1", "of the limit over it", c.ratio);
     v("ratio_half_width", "1", "of its 95 % interval", c.half_width);
-    v("verdict", "", "`agrees`, `differs`, `too few`", word_for(c.verdict));
+    v("verdict", "", "`agree`, `differ`, `too few`", word_for(c.verdict));
   }
 };
 

@@ -35,7 +35,6 @@ ContactComparison compare_contacts(const compare::ComparisonOptions& options);
 
 std::string table(const ContactComparison& comparison);
 std::string to_json(const ContactComparison& comparison);
-/// A table of the document's keys.
 std::string contact_comparison_keys();
 std::string to_junit(const ContactComparison& comparison);
 

@@ -224,10 +224,11 @@ void judge_places(const casefile::CaseSpec& spec, const std::vector<Contact>& co
     if (interrupt && *interrupt) break;
     const auto cause = geometry.fit(candidate);
     if (!cause || cause->left > 2 * geometry.resolution) continue;
-    // A deviation that frames barely resolve counts only if a number clearly differs from the case's, and no
-    // wrong velocity of the walls, which moves the places where balls leave their flights, explains it.
-    const bool is_clear = !audit.wall_velocity_differs() && 2 * cause->left <= geometry.distance &&
-                          std::abs(cause->value - cause->expected) > 3 * cause->half_width;
+    // A deviation that frames barely resolve counts only if a number clearly differs from the case's. A wrong
+    // velocity of the walls moves the places where balls leave their flights, too.
+    const double half_widths = audit.wall_velocity_differs() ? 8 : 3;
+    const bool is_clear = 2 * cause->left <= geometry.distance &&
+                          std::abs(cause->value - cause->expected) > half_widths * cause->half_width;
     if (!met || is_clear) audit.causes.push_back(*cause);
   }
   std::sort(audit.causes.begin(), audit.causes.end(),

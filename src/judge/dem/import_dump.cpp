@@ -10,12 +10,19 @@
 #include "base/errors.hpp"
 #include "casefile/build_case.hpp"
 #include "dem/contacts.hpp"
-#include "dem/statistics.hpp"
 #include "io/output_folder.hpp"
 
 namespace edmill::dem {
 
 namespace {
+
+/// The largest deviation from 1 of the ratios of a record's values to the case's; 0 without any, 1
+/// where all differ by the rounding of numbers that are written.
+double factor_of(const std::vector<double>& ratios) {
+  if (ratios.empty()) return 0;
+  const double factor = std::ranges::max(ratios, {}, [](double ratio) { return std::abs(ratio - 1); });
+  return std::abs(factor - 1) < 1e-5 ? 1 : factor;
+}
 
 /// Frames from which the statistics of all are taken.
 constexpr std::size_t first_frames = 4000;

@@ -377,7 +377,8 @@ class Evidence {
 };
 
 /// A stage of the search: the best hypotheses of one size, each extended by one mistake, one number, or one
-/// number in a part of the log. Stages without parts extend hypotheses about the whole log.
+/// number in a part of the log. Stages without parts extend hypotheses about the whole log. The numbers bound
+/// the time of a search; verification/plain/faults_test.py shows that its faults are found with them.
 struct Stage {
   const char* name;                                     ///< null: it is reported with the stage before
   std::size_t size, bases = 1;                          ///< of the hypotheses that it extends, and how many
