@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/student.hpp"
+#include "base/trigonometry.hpp"
 
 namespace edmill::numerics {
 
@@ -15,18 +16,28 @@ double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Variance of the mean.
-double variance_of_mean(const std::vector<double>& values) {
+/// Standard error of the mean. The squares of small deviations may be none of a double.
+double error_of_mean(const std::vector<double>& values) {
   const double mean = mean_of(values), n = static_cast<double>(values.size());
-  double sum = 0;
-  for (const double v : values) sum += (v - mean) * (v - mean);
-  return sum / (n - 1) / n;
+  double largest = 0, sum = 0;
+  for (const double v : values) largest = std::max(largest, std::abs(v - mean));
+  if (!(largest > 0)) return 0;
+  for (const double v : values) sum += (v - mean) / largest * ((v - mean) / largest);
+  return largest * std::sqrt(sum / (n - 1) / n);
 }
 
 /// The value that a |t| of `freedom` degrees exceeds with probability `significance`.
 double student_limit(double freedom, double significance) {
   const Student distribution(freedom);
   return boost::math::quantile(boost::math::complement(distribution, significance / 2));
+}
+
+/// Whether one standard deviation exceeds another one by more than chance (F test).
+bool exceeds(double one, double freedom, double other, double freedom_of_other, double significance) {
+  if (!(one > other)) return false;
+  if (!(other > 0)) return true;
+  return one / other * (one / other) >
+         boost::math::quantile(boost::math::complement(Fisher(freedom, freedom_of_other), significance));
 }
 
 }  // namespace
@@ -95,23 +106,140 @@ Estimate estimate(const std::vector<double>& values) {
   if (values.empty()) return e;
   e.mean = mean_of(values);
   if (values.size() > 1)
-    e.half_width =
-        student_limit(static_cast<double>(values.size()) - 1, 0.05) * std::sqrt(variance_of_mean(values));
+    e.half_width = student_limit(static_cast<double>(values.size()) - 1, 0.05) * error_of_mean(values);
   return e;
+}
+
+namespace {
+
+/// Cosine transforms of a series, of 1/2, 1, 3/2 ... cycles, each of the variance of a value where these are
+/// independent. Twelve hold correlation over a twentieth of the series; fewer of a short one.
+std::vector<double> cosines_of(const std::vector<double>& values) {
+  constexpr std::size_t most = 12;
+  const double mean = mean_of(values), n = static_cast<double>(values.size());
+  std::vector<double> transforms;
+  for (std::size_t j = 1; j <= std::min(most, values.size() / 2); ++j) {
+    double sum = 0;
+    for (std::size_t k = 0; k < values.size(); ++k)
+      sum += (values[k] - mean) *
+             sin_cos(pi<double>() * static_cast<double>(j) * (static_cast<double>(k) + 0.5) / n).cos;
+    transforms.push_back(sum * std::sqrt(2 / n));
+  }
+  return transforms;
+}
+
+/// Root mean square, without squares of small numbers.
+double size_of(const std::vector<double>& values, std::size_t first = 0) {
+  double largest = 0, sum = 0;
+  for (std::size_t k = first; k < values.size(); ++k) largest = std::max(largest, std::abs(values[k]));
+  if (!(largest > 0)) return 0;
+  for (std::size_t k = first; k < values.size(); ++k) sum += values[k] / largest * (values[k] / largest);
+  return largest * std::sqrt(sum / static_cast<double>(values.size() - first));
+}
+
+/// Third central moment over the cube of the standard deviation, for a sample.
+double skewness_of(const std::vector<double>& values) {
+  const double mean = mean_of(values), n = static_cast<double>(values.size());
+  std::vector<double> deviations;
+  for (const double v : values) deviations.push_back(v - mean);
+  const double size = size_of(deviations);
+  if (!(size > 0)) return 0;
+  double cubes = 0;
+  for (const double d : deviations) cubes += d / size * (d / size) * (d / size);
+  return cubes / n * std::sqrt(n * (n - 1)) / (n - 2);
+}
+
+}  // namespace
+
+Estimate series_estimate(const std::vector<double>& values) {
+  constexpr std::size_t fewest = 5;
+  if (values.size() < fewest) return {values.empty() ? std::nullopt : std::optional(mean_of(values)), {}};
+  const auto transforms = cosines_of(values);
+  const double n = static_cast<double>(values.size()), skewness = skewness_of(values);
+  // The factor is measured: docs/theory.md, section 8.
+  return {mean_of(values), student_limit(static_cast<double>(transforms.size()), 0.05) * size_of(transforms) /
+                               std::sqrt(n) * (1 + 3 * skewness * skewness / n)};
+}
+
+bool drifts(const std::vector<double>& values) {
+  const auto transforms = cosines_of(values);
+  if (transforms.size() < 4) return false;
+  const double others = size_of(transforms, 1);
+  return std::abs(transforms[0]) > student_limit(static_cast<double>(transforms.size()) - 1, 0.01) * others;
+}
+
+namespace {
+
+constexpr double of_own_interval = 12;  ///< degrees of freedom
+/// Standard error of a mean whose interval a series gives.
+double error_of(double half_width) { return half_width / student_limit(of_own_interval, 0.05); }
+
+/// Of runs of one steady state.
+Estimate pooled_estimate(const std::vector<double>& means, const std::vector<double>& errors) {
+  const double n = static_cast<double>(means.size()), between = means.size() > 1 ? error_of_mean(means) : 0,
+               within = size_of(errors) / std::sqrt(n), own = of_own_interval * n, others = n - 1,
+               largest = std::max(between, within);
+  if (!(largest > 0)) return {mean_of(means), 0};
+  const double b = between / largest, w = within / largest;
+  return {mean_of(means), student_limit(own + others, 0.05) * largest *
+                              std::sqrt((own * w * w + others * b * b) / (own + others))};
+}
+
+}  // namespace
+
+OfSeeds pooled(const std::vector<double>& means, const std::vector<double>& half_widths) {
+  if (means.empty() || half_widths.size() != means.size()) return {estimate(means)};
+  std::vector<std::size_t> order(means.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return means[a] < means[b]; });
+  std::vector<double> sorted, errors;
+  std::vector<std::size_t> first{0};  // of each group
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    sorted.push_back(means[order[k]]);
+    errors.push_back(error_of(half_widths[order[k]]));
+    if (k > 0 && sorted[k] - sorted[k - 1] > std::hypot(half_widths[order[k]], half_widths[order[k - 1]]))
+      first.push_back(k);
+  }
+  const double n = static_cast<double>(means.size()), within = size_of(errors) / std::sqrt(n);
+  if (means.size() < 2 || !exceeds(error_of_mean(means), n - 1, within, of_own_interval * n, 0.01))
+    return {pooled_estimate(sorted, errors)};
+  if (first.size() == 1) return {estimate(means)};
+  OfSeeds result{{mean_of(means), std::nullopt}};
+  first.push_back(order.size());
+  for (std::size_t g = 0; g + 1 < first.size(); ++g) {
+    const auto part = [&](const std::vector<double>& all) {
+      return std::vector<double>(all.begin() + static_cast<std::ptrdiff_t>(first[g]),
+                                 all.begin() + static_cast<std::ptrdiff_t>(first[g + 1]));
+    };
+    const auto e = pooled_estimate(part(sorted), part(errors));
+    result.states.push_back({*e.mean, *e.half_width, first[g + 1] - first[g]});
+  }
+  return result;
+}
+
+bool means_differ(const std::vector<std::vector<double>>& series, double significance) {
+  const double n = static_cast<double>(series.front().size()), count = static_cast<double>(series.size());
+  std::vector<double> means, errors;
+  for (const auto& values : series) {
+    means.push_back(mean_of(values));
+    errors.push_back(error_of_mean(values));
+  }
+  return exceeds(error_of_mean(means) * std::sqrt(count), count - 1, size_of(errors), count * (n - 1),
+                 significance);
 }
 
 bool differ(const std::vector<double>& a, const std::vector<double>& b, double significance) {
   if (a.size() < 2 || b.size() < 2) return false;
-  const double va = variance_of_mean(a), vb = variance_of_mean(b);
+  const double ea = error_of_mean(a), eb = error_of_mean(b), error = std::hypot(ea, eb);
   const double distance = std::abs(mean_of(a) - mean_of(b));
-  if (va + vb <= 0) return distance > 0;
+  if (!(error > 0)) return distance > 0;
   const double na = static_cast<double>(a.size()) - 1, nb = static_cast<double>(b.size()) - 1;
-  const double freedom = (va + vb) * (va + vb) / (va * va / na + vb * vb / nb);
-  return distance > student_limit(freedom, significance) * std::sqrt(va + vb);
+  const double freedom = 1 / (std::pow(ea / error, 4) / na + std::pow(eb / error, 4) / nb);
+  return distance > student_limit(freedom, significance) * error;
 }
 
 double paired_t_probability(const std::vector<double>& differences) {
-  const double mean = mean_of(differences), error = std::sqrt(variance_of_mean(differences));
+  const double mean = mean_of(differences), error = error_of_mean(differences);
   if (!(error > 0)) return mean == 0 ? 1 : 0;
   const Student student(static_cast<double>(differences.size()) - 1);
   return 2 * boost::math::cdf(boost::math::complement(student, std::abs(mean) / error));
@@ -134,7 +262,7 @@ std::vector<double> holm(const std::vector<double>& probabilities) {
 bool stands_apart(double value, const std::vector<double>& sample, double significance) {
   if (sample.size() < 2) return false;
   const double n = static_cast<double>(sample.size());
-  const double spread = std::sqrt(variance_of_mean(sample) * n * (1 + 1 / n));
+  const double spread = error_of_mean(sample) * std::sqrt(n + 1);
   return std::abs(value - mean_of(sample)) > student_limit(n - 1, significance) * spread;
 }
 

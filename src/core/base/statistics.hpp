@@ -37,6 +37,35 @@ struct Estimate {
 /// Mean and Student's 95 % interval of independent values.
 Estimate estimate(const std::vector<double>& values);
 
+/// The mean of values that follow each other in time, and its 95 % interval: Student's over their cosine
+/// transforms of the lowest frequencies, which contain the correlation of values near each other (Lazarus,
+/// Lewis, Stock and Watson 2018); wider where the values are skewed. No interval of fewer than five values.
+Estimate series_estimate(const std::vector<double>& values);
+
+/// Whether such values drift: their lowest frequency exceeds the next ones (Student's t, 1 %).
+bool drifts(const std::vector<double>& values);
+
+/// A mean that several runs have, and how many do.
+struct SteadyState {
+  double mean, half_width;
+  std::size_t runs;
+};
+/// What runs that differ by their seeds say of a mean.
+struct OfSeeds : Estimate {
+  /// The least first, where the runs differ by more than their own intervals allow: no interval holds them
+  /// all.
+  std::vector<SteadyState> states = {};
+};
+/// The mean of runs with their own intervals: the variance within them and that between them pooled. Where
+/// the latter is larger (F test, 1 %) and the runs fall into groups whose intervals are apart, these are
+/// reported.
+/// @param half_widths  of their 95 % intervals; empty where one has none, then by the runs' means alone
+OfSeeds pooled(const std::vector<double>& means, const std::vector<double>& half_widths);
+
+/// Whether the means of several series differ by more than the scatter of the series allows (analysis of
+/// variance, with this significance). @param series  of the same length, two of them or more
+bool means_differ(const std::vector<std::vector<double>>& series, double significance);
+
 /// Least squares of a straight line, point by point, with weights.
 class Line {
  public:
