@@ -155,7 +155,8 @@ class Session : private Observer<double> {
                      "milling_dose", last_.milling_dose);
     if (now > summary.start_time) {
       json.add("dose", summary.milling_dose, "dose_rate", summary.milling_dose_rate());
-      if (summary.milling_dose_rate_half_width) json.add("half_width", *summary.milling_dose_rate_half_width);
+      json.add("dose_rate_text",
+               with_interval(summary.milling_dose_rate(), summary.milling_dose_rate_half_width));
       json.add("collisions", summary.collisions, "dose_by_partner", summary.dose_by_partner);
     }
     json.add("speeds", by_speed_);

@@ -54,8 +54,7 @@ function bars(svg, counts) {
 function show_facts(more = {}) {
   const facts = {'time': `${number(frame.time, 6)} s`, 'impacts': frame.impacts};
   if ('dose_rate' in frame) {
-    const width = 'half_width' in frame ? ` ± ${number(frame.half_width, 2)}` : '';
-    facts['milling dose rate'] = `${number(frame.dose_rate)}${width} W`;
+    facts['milling dose rate'] = `${frame.dose_rate_text} W`;
     const all = frame.collisions.reduce((a, b) => a + b, 0);
     facts['collisions'] = `${number(all / (frame.time - scene.start))} per second`;
     scene.partners.forEach((name, k) => { facts[name] = `${frame.collisions[k]}, ${number(frame.dose_by_partner[k], 3)} J`; });

@@ -10,6 +10,8 @@
 #include "app/judge.hpp"
 #include "app/run.hpp"
 #include "app/study.hpp"
+#include "app/variations.hpp"
+#include "base/clean_text.hpp"
 #include "base/errors.hpp"
 #include "decks/deck.hpp"
 #include "dem/contact_rates.hpp"
@@ -241,7 +243,45 @@ std::string new_case(const std::string& machine, const std::vector<std::string>&
   return machines::new_case({machine, balls, powder, speed, restitution, friction, target_dose, time});
 }
 
+/// @return whether a run failed, and what the seeds say together
+std::pair<bool, std::string> seeds(const std::string& file, const std::vector<std::string>& settings,
+                                   const std::string& precision, std::uint64_t count,
+                                   const std::string& folder, int jobs) {
+  app::SeedsOptions options;
+  options.file = file;
+  options.folder = folder;
+  options.jobs = jobs;
+  options.quiet = true;
+  options.settings = settings;
+  options.precision = precision;
+  options.count = count;
+  const auto result = with_interrupt(options, [](const auto& all) { return app::seeds(all); });
+  return {result && result->counts.failed > 0, result ? result->optimum : ""};
+}
+
+/// @return of the case as it is, and of each variation: what it is, dose rate and half-width, whether it
+/// differs; and the table
+py::tuple vary(const Case& the_case, double uncertainty) {
+  struct Options {
+    const std::atomic<bool>* interrupt = nullptr;
+  } options;
+  const auto& spec = CaseAccess::spec(the_case);
+  const auto found = with_interrupt(options, [&](const Options& all) {
+    const auto run = run::make_run(spec.precision, spec, {.interrupt = all.interrupt});
+    run->finish();
+    return app::vary(spec, spec.precision, study::record_of(run->facts()), uncertainty, all.interrupt);
+  });
+  py::list rows;
+  for (const auto& v : found.runs)
+    rows.append(py::make_tuple(v.what, v.record.facts.find("milling_dose_rate"),
+                               v.record.facts.find("intervals/milling_dose_rate"), v.differs));
+  return py::make_tuple(rows, found.text());
+}
+
 const Binding tools([](Module& m) {
+  m.def("with_interval", &with_interval);
+  m.def("seeds", &seeds);
+  m.def("vary", &vary);
   m.def("sweep", &study<app::sweep>);
   m.def("optimize", &study<app::optimize>);
   m.def("compare", &compare);

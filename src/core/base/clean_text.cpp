@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <boost/locale/utf.hpp>
+#include <cmath>
+#include <utility>
 
 namespace edmill {
 
@@ -16,6 +18,12 @@ std::size_t character_size(std::string_view text) {
   const bool is_blank = code == '\t' || code == '\n' || code == '\r';
   const bool is_other = code >= 0x20 && code <= 0x10ffff && code != 0xfffe && code != 0xffff;
   return is_blank || is_other ? static_cast<std::size_t>(end - text.begin()) : 0;
+}
+
+/// That scientific notation has with so many digits.
+int exponent_of(double value, int digits) {
+  const auto text = fmt::format("{:.{}e}", value, digits - 1);
+  return std::stoi(text.substr(text.find('e') + 1));
 }
 
 }  // namespace
@@ -47,6 +55,34 @@ std::string one_line(std::string_view text) {
 std::string percent(double share) {
   const double hundredths = 100 * share;
   return hundredths < 99.5 ? fmt::format("{:.2g} %", hundredths) : fmt::format("{:.0f} %", hundredths);
+}
+
+std::string with_interval(double value, std::optional<double> half_width) {
+  if (!half_width || !(*half_width > 0) || !std::isfinite(*half_width))
+    return fmt::format("{:.4g}{}", value, half_width ? " \u00b1 0" : "");
+  double width = *half_width;
+  const int exponent = exponent_of(std::max(std::abs(value), width), 4);
+  const bool scientific = exponent >= 5 || exponent < -3;
+  const double scale = std::pow(10.0, scientific ? exponent : 0);
+  value /= scale;
+  width /= scale;
+  const int last = exponent_of(width, 2) - 1;  // place of the last digit
+  const double unit = std::pow(10.0, std::max(last, 0));
+  const auto text = [&](double x) {
+    return fmt::format("{:.{}f}", last > 0 ? std::round(x / unit) * unit : x, std::max(-last, 0));
+  };
+  const auto both = text(value) + " \u00b1 " + text(width);
+  return scientific ? fmt::format("({})e{}", both, exponent) : both;
+}
+
+std::string time_with_interval(double seconds, std::optional<double> half_width) {
+  constexpr double min = 60, h = 60 * min, day = 24 * h;
+  const auto [size, unit] = seconds >= 3 * day   ? std::pair{day, "days"}
+                            : seconds >= 2 * h   ? std::pair{h, "h"}
+                            : seconds >= 2 * min ? std::pair{min, "min"}
+                                                 : std::pair{1.0, "s"};
+  return with_interval(seconds / size, half_width ? std::optional(*half_width / size) : std::nullopt) + " " +
+         unit;
 }
 
 }  // namespace edmill

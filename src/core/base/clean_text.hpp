@@ -1,7 +1,8 @@
-// Texts of any bytes, such as names of files, in files whose characters a standard prescribes; shares as
-// texts.
+// Texts of any bytes, such as names of files, in files whose characters a standard prescribes; shares and
+// numbers with intervals as texts.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -18,5 +19,11 @@ std::string_view trimmed(std::string_view text);
 
 /// A share: "0.5 %", "7.1 %", "100 %".
 std::string percent(double share);
+
+/// A number with the digits that the half-width of its interval allows: "27.92 ± 0.26", "(1.167 ± 0.035)e5";
+/// four digits without one.
+std::string with_interval(double value, std::optional<double> half_width);
+/// A time with its unit, as a person says it: "20.98 ± 0.29 min", "3.8 ± 0.2 days".
+std::string time_with_interval(double seconds, std::optional<double> half_width);
 
 }  // namespace edmill

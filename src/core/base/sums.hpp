@@ -27,12 +27,12 @@ class CompensatedSum {
 };
 
 /// Totals at the ends of batches of whole drive periods, so that each has all phases of the drive. When there
-/// are too many they are joined in pairs: a run of any length has 20 to 39 whole ones after its first 20
+/// are too many they are joined in pairs: a run of any length has 64 to 127 whole ones after its first 64
 /// periods.
 template <class Real>
 class Batches {
  public:
-  static constexpr std::size_t most = 40;
+  static constexpr std::size_t most = 128;
 
   void begin(const Instant<Real>& start) { start_ = start; }
 

@@ -104,7 +104,7 @@ struct DoseRatePrecision {
     bool is_precise() {
       const auto elapsed = static_cast<std::int64_t>(batches.count()) * batches.periods();
       if (elapsed < next_look) return false;
-      const auto e = numerics::estimate(batches.amounts(0));
+      const auto e = numerics::series_estimate(batches.amounts(0));
       const double wanted = static_cast<double>(limit) * *e.mean;
       if (*e.half_width <= wanted) return true;
       const double ratio = wanted > 0 ? *e.half_width / wanted : 2;

@@ -53,6 +53,11 @@ struct FieldList {
       by_partner("1/s", [&](std::size_t k) { return per_second(Real(number(s.collisions[k]))); });
       v("total", "1/s", "of all", per_second(Real(number(s.total_collisions()))));
     });
+    v.group("impact_rate",
+            "of collisions that the least separation speed does not decide: not of contacts at rest", [&] {
+              by_partner("1/s", [&](std::size_t k) { return per_second(Real(number(s.impacts[k]))); });
+              v("total", "1/s", "of all", per_second(Real(number(s.impacts_counted()))));
+            });
     v("milling_dose", "J", "energy dissipated by all impacts", s.milling_dose);
     v("milling_dose_rate", "W", "", per_second(s.milling_dose));
     v("inverse_milling_dose_rate", "s/J", "null without a dose",
@@ -108,19 +113,23 @@ struct FieldList {
             v("specific_milling_dose_rate", "W/kg", "",
               i.dose_rate.half_width / static_cast<double>(*s.powder_mass));
           v("wall_work_rate", "W", "", i.wall_work_rate.half_width);
-          v.group("collision_rate", "", [&] {
-            by_partner("1/s", [&](std::size_t k) { return i.collision_rates[k].half_width; });
-            v("total", "1/s", "of all", i.collision_rate.half_width);
+          v.group("impact_rate", "", [&] {
+            by_partner("1/s", [&](std::size_t k) { return i.impact_rates[k].half_width; });
+            v("total", "1/s", "of all", i.impact_rate.half_width);
           });
           v.group("milling_dose_rate_by_partner", "", [&] {
             by_partner("W", [&](std::size_t k) { return i.dose_rates[k].half_width; });
             v("total", "W", "of all", i.dose_rate.half_width);
           });
           v("milling_dose_rate_of_batches", "W", "in the order of time", i.dose_rate.means);
+          if (!i.several_states.empty())
+            v("several_states", "",
+              "why other seeds may settle in another state; absent where nothing shows it", i.several_states);
         });
     v.group("warnings",
             "by kind, why numbers are not to be trusted: `too_few_collisions`, `too_short`, `transient`, "
-            "`wide_interval`, `precision`, `separation_share`, `supplied_energy`, `by_rule`, `stall_share`, "
+            "`several_states`, `wide_interval`, `precision`, `supplied_energy`, "
+            "`by_rule`, `stall_share`, "
             "`energy`, `end_reason`",
             [&] {
               for (const auto& warning : s.warnings) v(warning.kind, "", "", warning.text);
@@ -255,8 +264,9 @@ std::string summary_reference() {
   s.error = "-";
   s.powder_mass = s.ball_mass = s.milling_dose = s.end_time = 1;
   s.intervals.batches = Intervals::fewest;
-  s.intervals.collision_rates.resize(2);
+  s.intervals.impact_rates.resize(2);
   s.intervals.dose_rates.resize(2);
+  s.intervals.several_states = "-";
   s.target = {1, "", 1};
   s.collapse.emplace();
   s.stall.emplace();
@@ -288,7 +298,7 @@ std::string summary_json(const Summary<Real>& s) {
 
 Intervals::Rate Intervals::of(std::vector<double> amounts, double length) {
   for (auto& amount : amounts) amount /= length;
-  const double half_width = numerics::estimate(amounts).half_width.value_or(0);
+  const double half_width = numerics::series_estimate(amounts).half_width.value_or(0);
   return {std::move(amounts), half_width};
 }
 

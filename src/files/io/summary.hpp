@@ -25,8 +25,9 @@ struct Provenance {
   std::optional<std::uint64_t> right_digits;  ///< to the end, where digits were asked for
 };
 
-/// 95 % intervals of the rates of one run, by Student's t over batches of whole drive periods. Half-widths in
-/// the units of the rates; none where the statistics have too few batches.
+/// 95 % intervals of the rates of one run, from batches of whole drive periods. Half-widths in the units of
+/// the rates; none where the statistics have too few batches. Impacts are collisions that the least
+/// separation speed does not decide: contacts at rest come in bursts whose rate a run does not know.
 struct Intervals {
   static constexpr std::size_t fewest = 5;
 
@@ -38,9 +39,10 @@ struct Intervals {
   static Rate of(std::vector<double> amounts, double length);
 
   std::size_t batches = 0;
-  double batch_length = 0;                        ///< [s]
-  std::vector<Rate> collision_rates, dose_rates;  ///< with each partner
-  Rate collision_rate, dose_rate, wall_work_rate, counted_dose_rate;
+  double batch_length = 0;                     ///< [s]
+  std::vector<Rate> impact_rates, dose_rates;  ///< with each partner
+  Rate impact_rate, dose_rate, wall_work_rate, counted_dose_rate;
+  std::string several_states;  ///< why the charge may settle in another state with another seed; mostly empty
 
   bool any() const { return batches >= fewest; }
 };
@@ -68,6 +70,7 @@ struct Summary {
   Real period{0};                   ///< of the drive [s]
   model::Partners partners;
   std::vector<std::uint64_t> collisions;  ///< with each partner
+  std::vector<std::uint64_t> impacts;     ///< of these, not at rest
   std::vector<Real> dose_by_partner;      ///< [J]
   Real milling_dose{0}, wall_work{0};     ///< [J]
   model::Energy<Real> energy_at_start, energy_at_end;
@@ -106,11 +109,14 @@ struct Summary {
   }
 
   explicit Summary(const model::Partners& of = model::Partners())
-      : partners(of), collisions(of.count()), dose_by_partner(of.count(), Real(0)) {}
+      : partners(of), collisions(of.count()), impacts(of.count()), dose_by_partner(of.count(), Real(0)) {}
 
   Real duration() const { return end_time - start_time; }
   std::uint64_t total_collisions() const {
     return std::accumulate(collisions.begin(), collisions.end(), std::uint64_t{0});
+  }
+  std::uint64_t impacts_counted() const {
+    return std::accumulate(impacts.begin(), impacts.end(), std::uint64_t{0});
   }
   /// What supplied energy and closure are measured against [J]: the dose, or the kinetic energy of the balls
   /// at an end of the record where that is larger.

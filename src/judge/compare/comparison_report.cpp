@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/clean_text.hpp"
 #include "base/version.hpp"
 #include "compare/comparison.hpp"
 #include "io/fields.hpp"
@@ -18,10 +19,8 @@ std::string describe(const Event& e) {
   return text;
 }
 
-/// "12.3 ± 0.4", without what is missing.
-std::string with_interval(const std::optional<double>& value, const std::optional<double>& half_width) {
-  if (!value) return "-";
-  return half_width ? fmt::format("{:.6g} ± {:.2g}", *value, *half_width) : fmt::format("{:.6g}", *value);
+std::string interval_of(const std::optional<double>& value, const std::optional<double>& half_width) {
+  return value ? with_interval(*value, half_width) : "-";
 }
 
 /// The values of an event that logs have.
@@ -153,9 +152,9 @@ std::string table(const Comparison& c) {
       // A distance is printed with its limit, which is not an interval.
       const bool spectrum = q.difference && !q.a;
       out += fmt::format("  {:<32}{:>22}{:>22}{:>22}{:>9}  {}{}\n", q.name + " [" + q.unit + "]",
-                         with_interval(q.a, q.a_half_width), with_interval(q.b, q.b_half_width),
+                         interval_of(q.a, q.a_half_width), interval_of(q.b, q.b_half_width),
                          spectrum ? fmt::format("{:.3g} (< {:.3g})", *q.difference, *q.half_width)
-                                  : with_interval(q.difference, q.half_width),
+                                  : interval_of(q.difference, q.half_width),
                          q.probability ? fmt::format("{:.2g}", *q.probability) : "-", name_of(q.verdict),
                          q.reason.empty() ? "" : ": " + q.reason);
     }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "base/clean_text.hpp"
 #include "base/errors.hpp"
 #include "compare/junit.hpp"
 #include "dem/contacts.hpp"
@@ -84,7 +85,7 @@ ContactRates rates_of_impacts(const std::string& place, const Window& window) {
 }
 
 std::string sentence(const ContactComparison& c) {
-  return fmt::format("dose rate of B over that of A: {:.4f} ± {:.4f}", c.ratio, c.half_width);
+  return "dose rate of B over that of A: " + with_interval(c.ratio, c.half_width);
 }
 
 const char* word_for(compare::Verdict verdict) {
@@ -190,8 +191,7 @@ std::string table(const ContactComparison& c) {
       [](const ContactRates& r) { return fmt::format("{:.5g}", r.single_rate); });
   row("dose in groups and lasting ones",
       [](const ContactRates& r) { return fmt::format("{:.2f} %", 100 * r.grouped); });
-  row("dose rate [W]",
-      [](const ContactRates& r) { return fmt::format("{:.4f} ± {:.4f}", r.dose_rate, r.half_width); });
+  row("dose rate [W]", [](const ContactRates& r) { return with_interval(r.dose_rate, r.half_width); });
   out += fmt::format("\n  {}\n", sentence(c));
   if (c.b.contact_time > 0)
     out +=
@@ -240,14 +240,13 @@ Limit limit_of(const std::vector<std::string>& logs, const std::string& run, dou
 std::string table(const Limit& limit) {
   std::string out = fmt::format("  {:>12}  {:<24}{}\n", "contact time", "dose rate [W]", "log");
   const auto row = [&](const std::string& time, const ContactRates& r) {
-    out += fmt::format("  {:>12}  {:<24}{}\n", time,
-                       fmt::format("{:.4f} ± {:.4f}", r.dose_rate, r.half_width), r.log);
+    out += fmt::format("  {:>12}  {:<24}{}\n", time, with_interval(r.dose_rate, r.half_width), r.log);
   };
   for (const auto& p : limit.points) row(fmt::format("{:.3g} s", p.contact_time), p);
   row("0", limit.at_zero);
   if (const auto& c = limit.to_edmill) {
     row("0", c->a);
-    out += fmt::format("\n  limit over edmill: {:.4f} ± {:.4f}\n\n  verdict: {}\n", c->ratio, c->half_width,
+    out += fmt::format("\n  limit over edmill: {}\n\n  verdict: {}\n", with_interval(c->ratio, c->half_width),
                        verdict_of(*c));
   }
   return out;

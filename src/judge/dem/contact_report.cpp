@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "base/clean_text.hpp"
 #include "base/version.hpp"
 #include "compare/junit.hpp"
 #include "dem/contact_audit.hpp"
@@ -94,10 +95,11 @@ std::string table(const ContactAudit& a) {
   std::string out = fmt::format(
       "{}: {} contacts in {} frames, {:.3g} s apart, {:g} s to {:g} s; a contact lasts {:.3g} s{}\n"
       "judged by {}\n\n{}\n"
-      "  dose rate, by the balance of energy: {:.4g} ± {:.2g} W\n\n  {:<44}{:<28}{:>10}{:>10}  {}\n",
+      "  dose rate, by the balance of energy: {} W\n\n  {:<44}{:<28}{:>10}{:>10}  {}\n",
       a.log_name, f.contacts, f.frames, f.statistics.interval, f.first, f.last, f.statistics.contact_time,
-      a.interrupted ? " (interrupted)" : "", a.case_name, class_table(f.doses, a.counts), a.dose_rate,
-      a.dose_rate_half_width, "value", "found, 95 % interval", "case", "allowed", "");
+      a.interrupted ? " (interrupted)" : "", a.case_name, class_table(f.doses, a.counts),
+      with_interval(a.dose_rate, a.dose_rate_half_width), "value", "found, 95 % interval", "case", "allowed",
+      "");
   for (const auto& j : a.judged)
     if (!j.is_part || !j.agrees() || j.is_open())
       out += j.known() ? fmt::format("  {:<44}{:<28}{:>10.5g}{:>10.2g}  {}\n", j.name, interval(j.found),
@@ -114,7 +116,7 @@ std::string table(const ContactAudit& a) {
     out += "\n  what a contact leaves of the slip\n  slip/approach   at walls            between balls\n";
   for (const auto& s : a.slips) {
     const auto cell = [](const Median& m) {
-      return m.known() ? fmt::format("{:.3f} ± {:.3f}", m.value, m.half_width()) : "-";
+      return m.known() ? with_interval(m.value, m.half_width()) : "-";
     };
     out += fmt::format("  {:<16.3f}{:<20}{}\n", s.ratio, cell(s.of_walls), cell(s.of_balls));
   }

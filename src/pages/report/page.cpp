@@ -130,7 +130,7 @@ std::vector<MainRate> main_rates(const io::Facts& f) {
           {"specific milling dose rate", "W/kg", rate_in(f, "specific_milling_dose_rate")},
           {"milling time", "h", time},
           {"power from the walls", "W", rate_in(f, "wall_work_rate")},
-          {"collisions", "1/s", rate_in(f, "collision_rate/total")}};
+          {"impacts", "1/s", rate_in(f, "impact_rate/total")}};
 }
 
 std::string capitalised(std::string text) {

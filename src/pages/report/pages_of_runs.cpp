@@ -171,28 +171,6 @@ std::string page_of_runs(const std::vector<RunFolder>& runs) {
                   version(), commit(), document});
 }
 
-/// What the page shows of each point, and in which units.
-struct Shown {
-  const char *quantity, *name, *unit;
-  double size;  ///< of the unit, in SI
-};
-constexpr Shown shown[] = {{"milling_dose_rate", "milling dose rate", "W", 1},
-                           {"specific_milling_dose_rate", "specific milling dose rate", "W/kg", 1},
-                           {"milling_time", "milling time", "h", 3600}};
-
-/// Of a point's runs; of one run alone, its own interval.
-std::optional<RateOf> rate_of_point(const Point& point, const Shown& what) {
-  const auto e = numerics::estimate(point.values(study::quantity_named(what.quantity)));
-  if (!e.mean) return std::nullopt;
-  auto rate = RateOf{*e.mean, e.half_width}.in_units_of(what.size);
-  if (point.done() != 1) return rate;
-  const auto& run =
-      std::ranges::find_if(point.runs, [](const auto& r) { return r.record && r.record->done(); });
-  const auto own = rate_in(run->record->facts, "milling_dose_rate");
-  if (own && own->half_width && own->value > 0) rate.half_width = rate.value * *own->half_width / own->value;
-  return rate;
-}
-
 std::string name_of_point(const Point& point, std::size_t index) {
   std::string name = point.name;
   for (const auto& [key, value] : point.settings)
@@ -222,18 +200,26 @@ struct Places {
 };
 
 void draw_points(pugi::xml_node grid, const std::vector<Point>& points, const Places& places,
-                 const Shown& what) {
+                 const study::Quantity& what) {
   const auto [low, high] = std::ranges::minmax(places.x);
   const double room = high > low ? 0.08 * (high - low) : 0.6;
   plot::Chart chart{
-      what.quantity,
-      capitalised(what.name),
-      fmt::format("For each point a short line at its {}, within its 95 % interval.", what.name),
+      what.name,
+      capitalised(what.title),
+      fmt::format(
+          "For each point a short line at its {}, within its 95 % interval; one for each steady state.",
+          what.title),
       {places.title, low - room, high + room},
-      {fmt::format("{} [{}]", what.name, what.unit)}};
-  for (std::size_t k = 0; k < points.size(); ++k)
-    if (const auto rate = rate_of_point(points[k], what))
-      add_level(chart, places.x[k] - 0.5 * room, places.x[k] + 0.5 * room, *rate, "", "c0");
+      {fmt::format("{} [{}]", what.title, what.unit)}};
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const auto found = points[k].estimate(what);
+    const auto level = [&](double mean, const std::optional<double>& half_width) {
+      add_level(chart, places.x[k] - 0.5 * room, places.x[k] + 0.5 * room,
+                RateOf{mean, half_width}.in_units_of(what.size), "", "c0");
+    };
+    for (const auto& state : found.states) level(state.mean, state.half_width);
+    if (found.states.empty() && found.mean) level(*found.mean, found.half_width);
+  }
   if (chart.curves.empty()) return;
   draw_fitted(grid, chart);
 }
@@ -298,7 +284,7 @@ std::string study_page(const study::Study& study, const std::string& kind, const
   if (!finding.empty()) add(add_section(main, "finding", "Finding"), "pre", {{"tabindex", "0"}}, finding);
   auto section = add_section(main, "points", "Points");
   std::vector<std::string> headings{"point", "name", "runs"};
-  for (const auto& what : shown) headings.push_back(fmt::format("{} [{}]", what.name, what.unit));
+  for (const auto& what : study::main_quantities()) headings.push_back(what.title);
   Rows rows;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const auto& point = points[k];
@@ -306,22 +292,21 @@ std::string study_page(const study::Study& study, const std::string& kind, const
     std::vector<std::string> row{
         std::to_string(k + 1), name_of_point(point, k),
         std::to_string(point.done()) + (failed > 0 ? fmt::format(", {} failed", failed) : "")};
-    for (const auto& what : shown) {
-      const auto rate = rate_of_point(point, what);
-      row.push_back(rate ? text_of(*rate) : "\u2013");
-    }
+    for (const auto& what : study::main_quantities())
+      row.push_back(study::text_of(point.estimate(what), what));
     rows.push_back(std::move(row));
   }
   add_table(section, "rates-of-points", "Rates", headings, rows);
   add_note(section,
-           "\u00b1: 95 % interval by Student\u2019s t over the runs of a point; of a single run, its own "
-           "interval. All numbers:");
+           "\u00b1: 95 % interval, from the intervals of the runs and their scatter; where seeds settle in "
+           "several "
+           "steady states, each with the number of its runs. All numbers:");
   auto files = add(section, "ul");
   add(add(files, "li"), "a", {{"href", study.name() + ".csv"}}, study.name() + ".csv: a row for each point");
   add(add(files, "li"), "a", {{"href", "runs.csv"}}, "runs.csv: a row for each run");
   auto grid = add(add_section(main, "charts", "Charts"), "div", {{"class", "charts"}});
   const Places places(points);
-  for (const auto& what : shown) draw_points(grid, points, places, what);
+  for (const auto& what : study::main_quantities()) draw_points(grid, points, places, what);
   add_runs(main, points);
   const auto counts = study.counts();
   return page_of({kind + " " + std::filesystem::path(study.file()).filename().string(),

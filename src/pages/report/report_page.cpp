@@ -7,6 +7,7 @@
 
 #include "io/atomic_file.hpp"
 #include "io/checkpoint_file.hpp"
+#include "io/input_file.hpp"
 #include "io/output_folder.hpp"
 #include "report/embedded.hpp"
 #include "report/sections.hpp"
@@ -144,11 +145,22 @@ void add_case(pugi::xml_node main, const RunFolder& run) {
   add(add(details, "pre", {{"tabindex", "0"}}), "code", {}, spec.text);
 }
 
+void add_check(pugi::xml_node main, const RunFolder& run) {
+  const auto file = run.place / check_file;
+  if (!std::filesystem::exists(file)) return;
+  auto section = add_section(main, "check", "What decides the dose rate");
+  add(add(section, "pre", {{"tabindex", "0"}}), "code", {}, io::content_of(file));
+  add_note(
+      section,
+      "Runs of the case with one thing changed in each; a dose rate differs where the intervals are apart.");
+}
+
 std::string page_of_run(const RunFolder& run) {
   pugi::xml_document document;
   auto main = add(document, "main");
   add_headline(main, run);
   add_warnings(main, run);
+  add_check(main, run);
   add_animation(main, run);
   add_rates(main, run);
   add_spectra(main, run);

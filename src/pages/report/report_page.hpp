@@ -16,6 +16,9 @@ class Study;
 
 namespace edmill::report {
 
+/// In the folder of a run: what decides its dose rate, as text, which the page shows.
+inline constexpr const char* check_file = "check.txt";
+
 /// Adds the outputs of the report to a case; their files are in the folder `report`.
 void add_report_outputs(casefile::CaseSpec& spec);
 

@@ -1,6 +1,7 @@
 // The result table of a run on the terminal.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 #include <tuple>
 
@@ -13,27 +14,18 @@ namespace {
 
 using io::Facts;
 
-/// "12.3 ± 0.4 h", in the unit that reads best.
-std::string time_text(double seconds, const std::optional<double>& half_width) {
-  const auto [size, unit] = seconds >= 7200  ? std::pair{3600.0, "h"}
-                            : seconds >= 120 ? std::pair{60.0, "min"}
-                                             : std::pair{1.0, "s"};
-  return fmt::format("{:.4g}{} {}", seconds / size,
-                     half_width ? fmt::format(" ± {:.2g}", *half_width / size) : "", unit);
-}
-
 std::string row_text(std::string_view name, std::string_view value) {
   return fmt::format("  {:<28}{}\n", name, value);
 }
 
 std::string collision_rows(const Facts& f, const model::Partners& partners) {
-  std::string out = fmt::format("  {:<28}{:>12}{:>14}{:>10}{:>14}\n", "collisions", "number", "per second",
-                                "±", "dose [J]");
+  std::string out = fmt::format("  {:<28}{:>12}{:>10}{:>26}{:>14}\n", "collisions", "number", "at rest",
+                                "impacts per second", "dose [J]");
   const auto row = [&](const std::string& name, const std::string& key, double dose) {
-    const auto rate = f.find("collision_rate/" + key), half_width = f.find("intervals/collision_rate/" + key);
-    out += fmt::format("    {:<26}{:>12.0f}{:>14}{:>10}{:>14.6g}\n", name, f.number("collisions/" + key),
-                       rate ? fmt::format("{:.1f}", *rate) : "-",
-                       half_width ? fmt::format("{:.2g}", *half_width) : "-", dose);
+    const auto rate = f.find("impact_rate/" + key), all = f.find("collision_rate/" + key);
+    const auto text = rate ? with_interval(*rate, f.find("intervals/impact_rate/" + key)) : std::string("-");
+    out += fmt::format("    {:<26}{:>12.0f}{:>10}{:>26}{:>14.6g}\n", name, f.number("collisions/" + key),
+                       rate && *all > 0 ? percent(std::max(0.0, 1 - *rate / *all)) : "-", text, dose);
   };
   for (int k = 0; k < partners.count(); ++k) {
     const auto& [key, label, meaning] = partners[k];
@@ -52,11 +44,8 @@ std::string rate_rows(const Facts& f) {
         std::tuple{"inverse milling dose rate", "inverse_milling_dose_rate", "s/J"},
         std::tuple{"wall work rate", "wall_work_rate", "W"},
         std::tuple{"specific milling dose rate", "specific_milling_dose_rate", "W/kg"}})
-    if (const auto rate = f.find(key)) {
-      const auto half_width = f.find(std::string("intervals/") + key);
-      out += row_text(name, fmt::format("{:.6g}{} {}", *rate,
-                                        half_width ? fmt::format(" ± {:.2g}", *half_width) : "", unit));
-    }
+    if (const auto rate = f.find(key))
+      out += row_text(name, with_interval(*rate, f.find(std::string("intervals/") + key)) + " " + unit);
   return out;
 }
 
@@ -64,7 +53,7 @@ std::string target_rows(const Facts& f) {
   const auto time = f.find("target/milling_time");
   return row_text("target dose",
                   fmt::format("{:g} kJ/g, {}", f.number("target/dose") / 1e6, f.text("target/counts"))) +
-         row_text("milling time", time ? time_text(*time, f.find("target/milling_time_half_width"))
+         row_text("milling time", time ? time_with_interval(*time, f.find("target/milling_time_half_width"))
                                        : "none: nothing of the dose counts");
 }
 
@@ -96,10 +85,10 @@ std::string result_table(const Facts& f, const model::Partners& partners) {
   if (const auto closure = f.find("energy/closure_relative"))
     row(scale == "dose" ? "energy closure / dose" : "energy closure / kinetic",
         fmt::format("{:.2e}", *closure));
-  row("least separation speed", fmt::format("{:.1f} % of impacts, {} of the dose; supplies {} of the {}",
-                                            100 * f.number("least_separation/impact_share"),
-                                            share("least_separation/milling_dose_share"),
-                                            share("least_separation/supplied_energy_share"), scale));
+  row("least separation speed",
+      fmt::format("{} of collisions, {} of the dose; supplies {} of the {}",
+                  share("least_separation/impact_share"), share("least_separation/milling_dose_share"),
+                  share("least_separation/supplied_energy_share"), scale));
   if (f.number("stalls/impacts") > 0)
     row("stalls, without friction", fmt::format("{} of impacts, {} of the dose", share("stalls/impact_share"),
                                                 share("stalls/milling_dose_share")));

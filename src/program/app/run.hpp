@@ -15,8 +15,10 @@
 namespace edmill::app {
 
 struct RunOptions : run::RunSetup {
-  std::string folder;   ///< of the outputs
-  bool report = false;  ///< write the page report.html, and the tables that it shows
+  std::string folder;        ///< of the outputs
+  bool report = false;       ///< write the page report.html, and the tables that it shows
+  bool check = false;        ///< find what decides the dose rate; with a report also where that takes seconds
+  double uncertainty = 0.1;  ///< of restitution and friction, for it
   /// Called when the run has results to keep: before that, an interrupted program may end at once.
   std::function<void()> begun = [] {};
   /// Called where the file system has no locks, so that nothing keeps a second run out of the folder.

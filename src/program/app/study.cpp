@@ -9,6 +9,7 @@
 
 #include "base/errors.hpp"
 #include "casefile/memory_for.hpp"
+#include "io/input_file.hpp"
 #include "io/output_folder.hpp"
 #include "plot/chart.hpp"
 #include "report/report_page.hpp"
@@ -121,6 +122,31 @@ std::optional<StudyResult> optimize(const StudyOptions& options) {
     const auto finding = study::describe(spec, study, result);
     study.write_page(report::study_page(study, "Optimisation", finding));
     return StudyResult{study.counts(), study.interrupted(), folder, finding, ""};
+  });
+}
+
+std::optional<StudyResult> seeds(const SeedsOptions& options) {
+  if (io::is_stream(options.file))
+    throw InputError("--seeds: found a case from a pipe, expected a file: each run reads it");
+  const auto the_case = casefile::read_case(options.file, options.settings);
+  casefile::SweepSpec spec;
+  spec.file = spec.case_file = options.file;
+  spec.precision = options.precision;
+  spec.seed = the_case.seed;
+  study::Point point;
+  for (const auto& setting : options.settings) {
+    const auto equals = setting.find('=');
+    point.settings.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
+  }
+  return on_all_ranks(options, [&](study::Executor& executor) {
+    study::Study study(spec, options.folder, "seeds", executor, !options.quiet);
+    study.add_runs(study.add_point(point), options.count);
+    study.require_a_good_case();
+    if (options.estimate) return StudyResult{{}, false, "", "", study.forecast()};
+    study.run();
+    const auto found = study::describe(study.points().front());
+    study.write_page(report::study_page(study, fmt::format("{} seeds", options.count), found));
+    return StudyResult{study.counts(), study.interrupted(), options.folder, found, ""};
   });
 }
 

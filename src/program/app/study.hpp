@@ -26,7 +26,7 @@ struct StudyResult {
   study::StudyCounts counts;
   bool interrupted = false;
   std::string folder;
-  std::string optimum;   ///< what an optimisation found, as text
+  std::string optimum;   ///< what an optimisation, or several seeds, found, as text
   std::string estimate;  ///< how long it will take, as text, where only that is asked for
 };
 
@@ -34,6 +34,17 @@ struct StudyResult {
 /// @throws InputError
 std::optional<StudyResult> sweep(const StudyOptions& options);
 std::optional<StudyResult> optimize(const StudyOptions& options);
+
+struct SeedsOptions : StudyOptions {  ///< the file is the case, the folder is required
+  std::vector<std::string> settings;  ///< over the case
+  std::string precision;              ///< of all runs; empty for the case's own
+  std::uint64_t count = 0;
+};
+
+/// Runs of a case that differ by their seeds: the next ones from that of the case on. What they say together
+/// is in the result's `optimum`, and on a page.
+/// @throws InputError
+std::optional<StudyResult> seeds(const SeedsOptions& options);
 
 struct BifurcationOptions {
   std::string over;         ///< key of a number that the case gives

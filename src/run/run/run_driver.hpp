@@ -116,7 +116,8 @@ class RunDriver {
       : guests_(guests),
         simulation_(built.the_case, built.states, built.start, guests.interrupt),
         every_run_(built.the_case),
-        statistics_(model::partners_of(built.the_case.mill.vessel), built.the_case.counted_dose),
+        statistics_(model::partners_of(built.the_case.mill.vessel), built.the_case.balls,
+                    built.the_case.counted_dose),
         first_(built.start) {
     every_run_.attach_to(simulation_);
     for (auto* observer : guests.observers) simulation_.attach(*observer);
@@ -252,6 +253,7 @@ io::Summary<Real> summary_of(const casefile::CaseSpec& spec, const casefile::Ini
   for (int k = 0; k < summary.partners.count(); ++k) {
     const auto& totals = statistics.by_partner()[k];
     summary.collisions[k] = totals.collisions;
+    summary.impacts[k] = totals.collisions - totals.touched;
     summary.dose_by_partner[k] = totals.milling_dose.value();
   }
   summary.milling_dose = statistics.milling_dose();

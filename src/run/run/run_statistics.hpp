@@ -1,14 +1,17 @@
 // Totals of a run since the start of statistics, and warnings about its results.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "base/statistics.hpp"
 #include "base/sums.hpp"
 #include "engine/observer.hpp"
 #include "io/summary.hpp"
+#include "model/ball.hpp"
 #include "model/case.hpp"
 #include "model/parts/partners.hpp"
 
@@ -28,10 +31,15 @@ class RunStatistics : public engine::Observer<Real> {
     }
   };
 
+  /// @param balls    of the case
   /// @param counted  what of an impact's dose works the powder
-  explicit RunStatistics(const model::Partners& partners,
-                         const model::CountedDose<Real>& counted = model::CountedDose<Real>())
-      : counts_(counted), totals_(partners.count()) {}
+  RunStatistics(const model::Partners& partners, const std::vector<model::BallProperties<Real>>& balls,
+                const model::CountedDose<Real>& counted)
+      : counts_(counted), totals_(partners.count()), balls_(balls.size()) {
+    constexpr std::size_t most_alike = 64;
+    while (doses_.size() < std::min(most_alike, balls.size()) && balls[doses_.size()] == balls[0])
+      doses_.push_back(0);
+  }
 
   void begin(const Instant<Real>& start) { batches_.begin(start); }
 
@@ -52,9 +60,12 @@ class RunStatistics : public engine::Observer<Real> {
       ++t.in_stall;
       t.stall_dose += outcome.milling_dose;
     }
+    const double share = static_cast<double>(outcome.milling_dose) / (impact.with_wall ? 1 : 2);
+    add_to_ball(impact.ball, share);
+    if (!impact.with_wall) add_to_ball(impact.partner, share);
   }
 
-  void archive(Archive& a) override { a(totals_, counted_dose_, batches_); }
+  void archive(Archive& a) override { a(totals_, counted_dose_, batches_, doses_); }
 
   /// By the partners' places.
   const std::vector<Totals>& by_partner() const { return totals_; }
@@ -97,29 +108,72 @@ class RunStatistics : public engine::Observer<Real> {
       return rate;
     };
     for (std::size_t k = 0; k < totals_.size(); ++k) {
-      found.collision_rates.push_back(next());
+      found.impact_rates.push_back(next());
       found.dose_rates.push_back(next());
     }
-    found.collision_rate = next();
+    found.impact_rate = next();
     found.dose_rate = next();
     found.wall_work_rate = next();
     found.counted_dose_rate = next();
+    if (balls_ == 1)
+      found.several_states = "a single ball, which often settles in one of several orbits";
+    else if (repeats(found.dose_rate, static_cast<double>(batches.periods())))
+      found.several_states = "its impacts repeat";
+    else if (stay_apart(batches, place))
+      found.several_states = "its balls do not change places: balls that are alike have different dose rates";
     return found;
   }
 
  private:
+  /// Doses of impacts that follow each other by chance scatter from period to period, by more than this over
+  /// the root of the number of balls.
+  bool repeats(const io::Intervals::Rate& dose, double periods) const {
+    constexpr double least_scatter = 0.05, least_share = 0.2;
+    const auto e = numerics::estimate(dose.means);
+    const double n = static_cast<double>(dose.means.size()), scatter = *e.half_width * std::sqrt(n) / 2;
+    return *e.mean > 0 &&
+           (scatter * std::sqrt(periods * static_cast<double>(balls_)) < least_scatter * *e.mean ||
+            dose.half_width < least_share * *e.half_width);
+  }
+
+  /// Whether balls that are alike differ in their doses by more than their scatter over the record, which
+  /// is that of eight parts: shorter ones depend on each other. @param place  of the first ball's
+  bool stay_apart(const numerics::Batches<Real>& batches, std::size_t place) const {
+    constexpr std::size_t parts = 8;
+    constexpr double significance = 3e-5;
+    const std::size_t length = batches.count() / parts;
+    if (doses_.size() < 2 || length == 0) return false;
+    std::vector<std::vector<double>> series;
+    std::vector<double> of_all(parts);
+    for (std::size_t ball = 0; ball < doses_.size(); ++ball) {
+      const auto amounts = batches.amounts(place + ball);
+      auto& own = series.emplace_back(parts);
+      for (std::size_t k = 0; k < parts * length; ++k) own[k / length] += amounts[k];
+      for (std::size_t k = 0; k < parts; ++k) of_all[k] += own[k] / static_cast<double>(doses_.size());
+    }
+    for (auto& own : series)
+      for (std::size_t k = 0; k < parts; ++k) own[k] -= of_all[k];
+    return numerics::means_differ(series, significance);
+  }
+
+  void add_to_ball(int ball, double dose) {
+    if (static_cast<std::size_t>(ball) < doses_.size()) doses_[static_cast<std::size_t>(ball)] += dose;
+  }
+
+  /// In the order of the intervals, then of each ball.
   std::vector<double> totals_now() const {
     std::vector<double> now;
-    double collisions = 0, dose = 0, work = 0;
+    double impacts = 0, dose = 0, work = 0;
     for (const auto& t : totals_) {
-      now.push_back(static_cast<double>(t.collisions));
+      now.push_back(static_cast<double>(t.collisions - t.touched));
       now.push_back(static_cast<double>(t.milling_dose.value()));
-      collisions += now[now.size() - 2];
+      impacts += now[now.size() - 2];
       dose += now.back();
       work += static_cast<double>(t.wall_work.value());
     }
     now.insert(now.end(),
-               {collisions, dose, work, counts_.all() ? dose : static_cast<double>(counted_dose_.value())});
+               {impacts, dose, work, counts_.all() ? dose : static_cast<double>(counted_dose_.value())});
+    now.insert(now.end(), doses_.begin(), doses_.end());
     return now;
   }
 
@@ -127,6 +181,9 @@ class RunStatistics : public engine::Observer<Real> {
   std::vector<Totals> totals_;
   numerics::CompensatedSum<Real> counted_dose_;
   numerics::Batches<Real> batches_;
+  std::size_t balls_;
+  std::vector<double>
+      doses_;  ///< of the first balls, those that are alike; each has half of a dose with another [J]
 };
 
 /// What of a run is not to be trusted, and why.

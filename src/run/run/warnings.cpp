@@ -11,8 +11,8 @@ namespace edmill::run {
 
 namespace {
 
-constexpr double touched_share_limit = 0.05, supplied_share_limit = 0.01, stall_share_limit = 0.01,
-                 closure_limit = 1e-9, interval_limit = 0.05, by_rule_share_limit = 0.01;
+constexpr double supplied_share_limit = 0.01, stall_share_limit = 0.01, closure_limit = 1e-9,
+                 interval_limit = 0.05, by_rule_share_limit = 0.01;
 constexpr double fewest_collisions = 1000;
 
 constexpr std::pair<model::EndReason, const char*> ends[] = {
@@ -25,14 +25,6 @@ constexpr std::pair<model::EndReason, const char*> ends[] = {
     {model::EndReason::undecided,
      "The run ended at a decision that no scalar could make; the results cover the time up to then."}};
 
-/// Whether the transient is not over: the first batch is outside the others' prediction interval, or the
-/// halves differ.
-bool drifts(const std::vector<double>& means) {
-  const auto half = means.begin() + static_cast<std::ptrdiff_t>(means.size() / 2);
-  return numerics::stands_apart(means.front(), {means.begin() + 1, means.end()}, 0.01) ||
-         numerics::differ({means.begin(), half}, {half, means.end()}, 0.01);
-}
-
 void check_dose_rate(const io::Facts& f, const std::optional<double>& wanted, const auto& warn) {
   const double duration = f.number("duration");
   const auto* means = f.numbers("intervals/milling_dose_rate_of_batches");
@@ -43,12 +35,17 @@ void check_dose_rate(const io::Facts& f, const std::optional<double>& wanted, co
                                     io::Intervals::fewest));
     return;
   }
-  const auto e = numerics::estimate(*means);
+  const auto e = numerics::series_estimate(*means);
   const double relative = *e.mean != 0 ? std::abs(*e.half_width / *e.mean) : 0;
-  if (drifts(*means))
+  if (io::has_dose(f) && (numerics::drifts(*means) ||
+                          numerics::stands_apart(means->front(), {means->begin() + 1, means->end()}, 0.01)))
     warn("transient",
          "The dose rate drifts within the statistics: begin them later (run.start_time), when it "
          "is steady.");
+  if (f.has("intervals/several_states"))
+    warn("several_states",
+         fmt::format("Other seeds may settle at another dose rate: {}. Run several: edmill run --seeds 8.",
+                     f.text("intervals/several_states")));
   if (wanted && relative > *wanted) {
     const double ratio = relative / *wanted;
     warn("precision",
@@ -70,9 +67,6 @@ std::vector<io::Warning> warnings_of(const io::Facts& f, const std::optional<dou
                supplied = f.number("least_separation/supplied_energy_share"),
                in_stalls = f.number("stalls/milling_dose_share"),
                closure = std::abs(f.find("energy/closure_relative").value_or(0));
-  const bool has_dose = io::has_dose(f);
-  const double touched =
-      f.number(has_dose ? "least_separation/milling_dose_share" : "least_separation/impact_share");
   const auto end_reason = io::end_reason_of(f);
   std::vector<io::Warning> list;
   const auto warn = [&](const char* kind, const std::string& text) { list.push_back({kind, text}); };
@@ -83,11 +77,6 @@ std::vector<io::Warning> warnings_of(const io::Facts& f, const std::optional<dou
          fmt::format("Only {:g} collisions were counted; below {:g} the rates are not reliable.", collisions,
                      fewest_collisions));
   check_dose_rate(f, wanted_precision, warn);
-  if (touched > touched_share_limit)
-    warn("separation_share",
-         fmt::format("{} of the {} that the least separation speed decides: run also with half of "
-                     "contact.least_separation.",
-                     percent(touched), has_dose ? "dose comes from impacts" : "impacts are among those"));
   if (in_stalls > stall_share_limit)
     warn("stall_share", fmt::format("{} of the dose comes from impacts without friction, in stalls of bodies "
                                     "that touch: friction acts less than the case says.",

@@ -199,10 +199,8 @@ std::string line_of(const OptimizeSpec& spec, const Study& study, std::size_t in
   const auto& point = study.points()[index];
   std::string line = fmt::format("  point {}:", index + 1);
   for (const auto& [key, value] : point.settings) line += fmt::format(" {} = {},", key, value);
-  const auto e = numerics::estimate(point.values(quantity_named(spec.objective())));
-  const std::string unit = spec.objective() == "milling_dose_rate" ? "W" : "W/kg";
-  return line + fmt::format(" {:.6g} ± {:.2g} {} ({} runs)\n", e.mean.value_or(0), e.half_width.value_or(0),
-                            unit, point.done());
+  const auto quantity = quantity_named(spec.objective());
+  return line + fmt::format(" {} ({} runs)\n", text_of(point.estimate(quantity), quantity), point.done());
 }
 
 /// Says so where the best value of a variable is the end of its range.

@@ -70,14 +70,24 @@ std::vector<Quantity> amounts() {
           {"milling_dose_rate_ci95", "intervals/milling_dose_rate"}};
 }
 
+const std::vector<Quantity>& main_quantities() {
+  static const std::vector<Quantity> list{
+      {"milling_dose_rate", "milling_dose_rate", "intervals/milling_dose_rate", "milling dose rate", "W"},
+      {"specific_milling_dose_rate", "specific_milling_dose_rate", "intervals/specific_milling_dose_rate",
+       "specific milling dose rate", "W/kg"},
+      {"milling_time", "target/milling_time", "target/milling_time_half_width", "milling time", "h", 3600}};
+  return list;
+}
+
 std::vector<Quantity> quantities(int walls) {
-  std::vector<Quantity> list;
-  for (const auto* name : {"inverse_milling_dose_rate", "milling_dose_rate", "specific_milling_dose_rate"})
-    list.push_back({name, name});
-  list.push_back({"milling_time", "target/milling_time"});
-  list.push_back({"wall_work_rate", "wall_work_rate"});
+  const auto& shown = main_quantities();
+  std::vector<Quantity> list{
+      {"inverse_milling_dose_rate", "inverse_milling_dose_rate", "intervals/inverse_milling_dose_rate"}};
+  list.insert(list.end(), shown.begin(), shown.end());
+  list.push_back({"wall_work_rate", "wall_work_rate", "intervals/wall_work_rate"});
   const auto add = [&](const std::string& partner) {
     list.push_back({"collision_rate_" + partner, "collision_rate/" + partner});
+    list.push_back({"impact_rate_" + partner, "impact_rate/" + partner, "intervals/impact_rate/" + partner});
   };
   for (int k = 0; k <= walls; ++k) add(model::partner_key(k, walls));
   add("total");

@@ -42,14 +42,20 @@ std::optional<RunRecord> from_json(const std::string& text);
 /// A number that tables average.
 struct Quantity {
   std::string name;
-  std::string path;  ///< in the summary
+  std::string path;           ///< in the summary
+  std::string interval = {};  ///< path of the half-width of a run's own interval; empty without one
+  /// What pages and terminals show: a title, and the unit with its size in SI.
+  const char *title = "", *unit = "";
+  double size = 1;
 
   /// Nothing where nothing defines it, such as rates of a wall that the run's vessel does not have.
   std::optional<double> of(const RunRecord& record) const { return record.facts.find(path); }
 };
+/// Dose rate, specific dose rate and milling time: what a study is made for.
+const std::vector<Quantity>& main_quantities();
 /// What the table of runs has before these: times, energies, the charge ratio.
 std::vector<Quantity> amounts();
-/// All of them, with the collision rates of so many walls.
+/// All of them, with the rates of collisions and impacts with so many walls.
 std::vector<Quantity> quantities(int walls);
 /// The one of a name, which is no collision rate.
 Quantity quantity_named(const std::string& name);

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <numbers>
 
+#include "base/clean_text.hpp"
 #include "base/errors.hpp"
 #include "casefile/case_spec.hpp"
 #include "io/atomic_file.hpp"
@@ -91,6 +92,43 @@ std::vector<double> Point::values(const Quantity& quantity) const {
     values.push_back(*value);
   }
   return values;
+}
+
+numerics::OfSeeds Point::estimate(const Quantity& quantity) const {
+  const auto means = values(quantity);
+  std::vector<double> half_widths;
+  for (const auto& run : runs)
+    if (run.record && run.record->done() && !quantity.interval.empty())
+      if (const auto own = run.record->facts.find(quantity.interval)) half_widths.push_back(*own);
+  return numerics::pooled(means, half_widths);
+}
+
+std::string text_of(const numerics::OfSeeds& found, const Quantity& quantity) {
+  const auto text = [&](double mean, const std::optional<double>& half_width) {
+    return with_interval(mean / quantity.size,
+                         half_width ? std::optional(*half_width / quantity.size) : std::nullopt) +
+           " " + quantity.unit;
+  };
+  if (found.states.empty()) return found.mean ? text(*found.mean, found.half_width) : "-";
+  std::string all;
+  for (const auto& state : found.states)
+    all += fmt::format("{}{} ({} run{})", all.empty() ? "" : ", ", text(state.mean, state.half_width),
+                       state.runs, state.runs == 1 ? "" : "s");
+  return all;
+}
+
+std::string describe(const Point& point) {
+  std::string out;
+  for (const auto& quantity : main_quantities()) {
+    const auto found = point.estimate(quantity);
+    if (!found.mean) continue;
+    out += fmt::format("{:<28}{}\n", quantity.title, text_of(found, quantity));
+  }
+  const auto found = point.estimate(main_quantities().front());
+  if (!found.states.empty())
+    out += fmt::format("The seeds settle in {} steady states: no single number holds them all.\n",
+                       found.states.size());
+  return out;
 }
 
 std::vector<Point> points_of(const casefile::SweepSpec& spec) {
@@ -318,17 +356,21 @@ Table Study::point_table() const {
   const auto varied = keys();
   const auto shown = quantities();
   auto columns = point_columns(varied);
-  for (const auto* name : {"replicas", "done", "failed"}) columns.push_back({name, Type::integer});
-  for (const auto& quantity : shown)
-    for (const auto* what : {"", "_ci95"}) columns.push_back({quantity.name + what, Type::number});
+  for (const auto* name : {"replicas", "done", "failed", "states"}) columns.push_back({name, Type::integer});
+  for (const auto& quantity : shown) {
+    columns.push_back({quantity.name, Type::number});
+    if (!quantity.interval.empty()) columns.push_back({quantity.name + "_ci95", Type::number});
+  }
   Table table(std::move(columns));
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const auto& point = points_[k];
     put_point(table, k, point, varied);
-    table.put(point.runs.size(), point.done(), point.failed());
+    const auto states = point.estimate(main_quantities().front()).states.size();
+    table.put(point.runs.size(), point.done(), point.failed(), std::max<std::size_t>(states, 1));
     for (const auto& quantity : shown) {
-      const auto e = numerics::estimate(point.values(quantity));
-      table.put(e.mean, e.half_width);
+      const auto e = point.estimate(quantity);
+      table.put(e.mean);
+      if (!quantity.interval.empty()) table.put(e.half_width);
     }
   }
   return table;

@@ -33,7 +33,16 @@ struct Point {
   std::size_t failed() const;
   /// A quantity of all runs that are done, in the order of their seeds; empty when one of them lacks it.
   std::vector<double> values(const Quantity& quantity) const;
+  /// What these runs, with their own intervals, say of it.
+  numerics::OfSeeds estimate(const Quantity& quantity) const;
 };
+
+/// "1.0934 ± 0.0021 W"; where seeds settle in several states "1.0934 ± 0.0021 W (5 runs), 1.36 ± 0.01 W (3
+/// runs)".
+std::string text_of(const numerics::OfSeeds& found, const Quantity& quantity);
+
+/// What the runs of a point say together, with their steady states: lines for a terminal.
+std::string describe(const Point& point);
 
 /// Points of a sweep: the entries times the grid, whose last key changes fastest.
 std::vector<Point> points_of(const casefile::SweepSpec& spec);

@@ -90,11 +90,19 @@ class Run:
         """Work of the walls per time [W]."""
         return self._value("wall_work_rate")
 
+    def _rates(self, kind: str) -> dict[str, Value]:
+        widths = self.summary["intervals"].get(kind, {})
+        return {name: Value(rate, widths.get(name)) for name, rate in self.summary[kind].items() if rate is not None}
+
     @property
     def collision_rates(self) -> dict[str, Value]:
-        """Collisions per second with each partner, and of all: "total"."""
-        widths = self.summary["intervals"].get("collision_rate", {})
-        return {name: Value(rate, widths.get(name)) for name, rate in self.summary["collision_rate"].items() if rate is not None}
+        """Collisions per second with each partner, and of all: "total". They have no intervals: contacts at rest come in bursts."""
+        return self._rates("collision_rate")
+
+    @property
+    def impact_rates(self) -> dict[str, Value]:
+        """The same of collisions that the least separation speed does not decide, with their 95 % intervals."""
+        return self._rates("impact_rate")
 
     @property
     def milling_time(self) -> Value | None:

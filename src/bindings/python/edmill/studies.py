@@ -12,9 +12,10 @@ from typing import Any
 import numpy as np
 
 from . import _edmill
-from .case import Case, _toml
+from .case import Case, _toml, case_of
 from .checks import place, require, whole
 from .tables import Records, Tables
+from .values import Value
 
 
 class Study:
@@ -85,3 +86,44 @@ def sweep(source: Mapping | str | os.PathLike, folder: str | os.PathLike, jobs: 
 def optimize(source: Mapping | str | os.PathLike, folder: str | os.PathLike, jobs: int = 0) -> Study:
     """As `edmill optimize`."""
     return _study(_edmill.optimize, "optimize", source, folder, jobs)
+
+
+class Seeds(Study):
+    """Runs that differ by their seeds. `points` has one row, whose `states` says in how many steady states they settle."""
+
+    def __init__(self, folder: pathlib.Path, failed: bool, text: str):
+        super().__init__(folder, "seeds", failed)
+        self.text = text  #: what the seeds say together; where there are several states, each with the number of its runs
+
+    def __repr__(self) -> str:
+        return self.text
+
+
+def seeds(case: Case, count: int, folder: str | os.PathLike, precision: str | None = None, jobs: int = 0) -> Seeds:
+    """As `edmill run --seeds`: so many runs, with the seed of the case and the next ones."""
+    case, count = case_of(case), whole("count", count, 2, 100000)
+    with tempfile.NamedTemporaryFile("w", suffix=".toml", dir=".", encoding="utf-8") as file:
+        file.write(case.text)
+        file.flush()
+        failed, text = _edmill.seeds(file.name, list(case.settings), precision or "", count, str(place("folder", folder)),
+                                     whole("jobs", jobs, 0, 4096))
+    return Seeds(pathlib.Path(folder), failed, text)
+
+
+class Variations(dict):
+    """Dose rates by what is changed, the case as it is first. `differing` are those that differ from it."""
+
+    def __init__(self, rows, text: str):
+        super().__init__({what: None if rate is None else Value(rate, half_width) for what, rate, half_width, _ in rows})
+        self.differing = [what for what, *_, differs in rows if differs]
+        self.text = text  #: the table of `edmill run --check`
+
+    def __repr__(self) -> str:
+        return self.text
+
+
+def what_decides(case: Case, uncertainty: float = 0.1) -> Variations:
+    """As `edmill run --check`: the run again with another seed, half of the least separation speed, and restitution and
+    friction changed by their uncertainty."""
+    require("uncertainty", uncertainty, isinstance(uncertainty, (int, float)) and 0 < uncertainty <= 1, "a number above 0, 1 at most")
+    return Variations(*_edmill.vary(case_of(case)._case, float(uncertainty)))

@@ -3,6 +3,8 @@ from __future__ import annotations
 
 import decimal
 
+from . import _edmill
+
 
 class Value(float):
     """A rate of a run, in double: a float with the half-width of its 95 % interval, or None where the run is too short for one."""
@@ -32,4 +34,4 @@ class Value(float):
         return abs(float(self) - float(other)) > (self.half_width ** 2 + other.half_width ** 2) ** 0.5
 
     def __repr__(self) -> str:
-        return f"{float(self):.6g}" + ("" if self.half_width is None else f" ± {self.half_width:.2g}")
+        return _edmill.with_interval(float(self), self.half_width)

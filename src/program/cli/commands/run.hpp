@@ -9,6 +9,7 @@
 
 #include "app/certify.hpp"
 #include "app/run.hpp"
+#include "app/study.hpp"
 #include "base/errors.hpp"
 #include "casefile/precisions.hpp"
 #include "casefile/quantity.hpp"
@@ -79,8 +80,9 @@ class RunCommand {
   std::string precision_;   ///< scalar of the run; that of the case when empty
   std::string shadow_;      ///< a wider scalar to compare with; none when empty
   std::string checkpoint_;  ///< how often to save the state; when empty, never, or as before
-  bool report_ = false, quiet_ = false;
-  bool estimate_ = false;  ///< estimate the cost of the run, and do not run
+  bool report_ = false, quiet_ = false, check_ = false;
+  double uncertainty_ = 0.1;  ///< of restitution and friction
+  bool estimate_ = false;     ///< estimate the cost of the run, and do not run
 
  private:
   app::RunOptions options_of_run() const {
@@ -88,6 +90,8 @@ class RunCommand {
     app::RunOptions options;
     options.folder = folder_;
     options.report = report_;
+    options.check = check_;
+    options.uncertainty = uncertainty_;
     options.interrupt = &interrupt_flag();
     options.begun = listen_for_signals;
     options.without_locks = [](const std::filesystem::path& place) {
@@ -155,6 +159,20 @@ class RunCommand {
   }
 };
 
+/// Tells of a study. @return an exit code; `ok` for an interrupted one too, whose signal the caller knows
+inline int end_of_study(const std::optional<app::StudyResult>& result, bool quiet) {
+  if (!result) return ok;
+  if (!result->estimate.empty()) {
+    io::print("{}\n", result->estimate);
+    return ok;
+  }
+  const auto& c = result->counts;
+  if (!quiet)
+    io::print("{}{} runs: {} reused, {} run now, {} failed{}\nTables are in {}\n", result->optimum, c.total,
+              c.kept, c.ran, c.failed, result->interrupted ? ", interrupted" : "", result->folder);
+  return c.failed > 0 ? some_runs_failed : ok;
+}
+
 inline const std::string every = "how often to save the run's state, \"10 min\" or \"2 s simulated\"";
 inline constexpr const char* quiet_run = "no progress line and no result table";
 
@@ -184,8 +202,28 @@ struct Run : RunCommand {
         ->excludes("--precision");
     command.add_flag("--estimate", estimate_,
                      "estimate events, digits, time and memory of the run, and do not run");
-    command.add_option("--checkpoint", checkpoint_, every + " (default: never)")->excludes(shadow);
-    command.add_flag("--report", report_, "write report.html, and the tables that it shows");
+    auto* checkpoint =
+        command.add_option("--checkpoint", checkpoint_, every + " (default: never)")->excludes(shadow);
+    auto* report = command.add_flag("--report", report_, "write report.html, and the tables that it shows");
+    auto* check = command.add_flag(
+        "--check", check_,
+        "also find what decides the dose rate: six more runs with another seed, half of the "
+        "least separation speed, other restitution and friction (default with --report, where "
+        "they take less than ten seconds)");
+    command
+        .add_option("--uncertainty", uncertainty_, "of restitution and friction, for --check (default: 0.1)")
+        ->check(CLI::Range(0.001, 1.0));
+    command
+        .add_option(
+            "--seeds", seeds_,
+            "so many runs on all cores, with the case's seed and the next ones: their answer together, and "
+            "the steady states in which they settle")
+        ->check(CLI::Range(2, 100000))
+        ->excludes(shadow)
+        ->excludes(checkpoint)
+        ->excludes(report)
+        ->excludes(check)
+        ->excludes("--digits");
     command.add_flag("--quiet", quiet_, quiet_run);
     command.add_option("--until-precision", until_precision_,
                        "run until the 95 % interval of the dose rate is this part of it, \"1%\" or 0.01: up "
@@ -200,7 +238,7 @@ struct Run : RunCommand {
     if (digits_ > 0) settings.push_back(fmt::format("run.digits={}", digits_));
     if (!target_.empty()) settings.push_back("powder.target_dose=\"" + target_ + "\"");
     if (settings != given_.overrides) spec = casefile::parse_case(spec.text, spec.file, settings);
-    return run_case(spec);
+    return seeds_ > 0 ? run_seeds(settings) : run_case(spec);
   }
 
  private:
@@ -215,8 +253,21 @@ struct Run : RunCommand {
       settings.push_back(fmt::format("run.end_time=\"{} s\"", 100 * spec.end_time->to<double>()));
   }
 
+  int run_seeds(const std::vector<std::string>& settings) {
+    app::SeedsOptions options;
+    options.file = given_.file;
+    options.folder = folder_.empty() ? "out/" + name_of(given_.file) : folder_;
+    options.quiet = quiet_;
+    options.estimate = estimate_;
+    options.settings = settings;
+    options.precision = precision_;
+    options.count = seeds_;
+    return interruptible(options, [&] { return end_of_study(app::seeds(options), quiet_); });
+  }
+
   std::string until_precision_, target_;
   unsigned digits_ = 0;
+  std::uint64_t seeds_ = 0;
   CaseArgument given_;
 };
 

@@ -5,6 +5,7 @@
 #include "base/errors.hpp"
 #include "casefile/quantity.hpp"
 #include "cli/commands/case_argument.hpp"
+#include "cli/commands/run.hpp"
 #include "cli/exit_codes.hpp"
 #include "io/progress_line.hpp"
 #include "io/terminal.hpp"
@@ -114,24 +115,10 @@ struct Study {
     command.add_flag("--quiet", options_.quiet, "no progress line and no report");
   }
   int run() {
-    return interruptible(options_, [&] { return end_of(work(options_)); });
+    return interruptible(options_, [&] { return end_of_study(work(options_), options_.quiet); });
   }
 
  private:
-  /// @return an exit code; `ok` for an interrupted study too, whose signal the caller knows
-  int end_of(const std::optional<app::StudyResult>& result) const {
-    if (!result) return ok;
-    if (!result->estimate.empty()) {
-      io::print("{}\n", result->estimate);
-      return ok;
-    }
-    const auto& c = result->counts;
-    if (!options_.quiet)
-      io::print("{}{} runs: {} reused, {} run now, {} failed{}\nTables are in {}\n", result->optimum, c.total,
-                c.kept, c.ran, c.failed, result->interrupted ? ", interrupted" : "", result->folder);
-    return c.failed > 0 ? some_runs_failed : ok;
-  }
-
   app::StudyOptions options_;
 };
 
