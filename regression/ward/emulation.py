@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The effect of finite time resolution on the dose rate, by stepped/stepped_mill.cpp: all cases with exact search and a
-collapse time of 0.5 ms; four cases of the 5 g sample also with other collapse times, with edmill's rule (a control), with
+"""The effect of finite time resolution on the dose rate, by stepped/stepped_mill.cpp: all cases with exact search, with a
+collapse time of 0.5 ms and with impacts within 0.5 ms of the last that lose nothing; four cases of the 5 g sample also with other collapse times, with edmill's rule (a control), with
 losses of quick impacts left out, and with stepped search.
 
 usage: emulation.py STEPPED_MILL FOLDER [JOBS] > emulation.csv    FOLDER keeps what is done
@@ -33,6 +33,7 @@ METHODS = (  # method of emulation.csv, options of stepped_mill
     ("stepped", "--search stepped --collapse-time 0"),
     ("stepped_put_back", "--search stepped --collapse-time 0 --put-back 1"),
 )
+OF_ALL = f"t_c_{COLLAPSE_TIME_OF_ALL}", "lossless_5e-4"
 NOT_OF_MANY_BALLS = ("passed_through", "lossless_1e-3", "stepped")  # the program is slow
 
 
@@ -68,7 +69,7 @@ def plan():
     for case in sorted(tables.cases(), key=lambda case: case.count):
         detailed = case.powder == "5" and case.count in COUNTS
         for method, options in METHODS:
-            if method == f"t_c_{COLLAPSE_TIME_OF_ALL}" or (
+            if method in OF_ALL or (
                     detailed and (case.count < 60 or method not in NOT_OF_MANY_BALLS)):
                 yield case, method, options
 

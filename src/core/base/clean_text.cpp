@@ -57,6 +57,10 @@ std::string percent(double share) {
   return hundredths < 99.5 ? fmt::format("{:.2g} %", hundredths) : fmt::format("{:.0f} %", hundredths);
 }
 
+std::string counted(std::uint64_t number, std::string_view noun) {
+  return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
+}
+
 std::string with_interval(double value, std::optional<double> half_width) {
   if (!half_width || !(*half_width > 0) || !std::isfinite(*half_width))
     return fmt::format("{:.4g}{}", value, half_width ? " \u00b1 0" : "");

@@ -2,6 +2,7 @@
 // numbers with intervals as texts.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,6 +21,8 @@ std::string_view trimmed(std::string_view text);
 /// A share: "0.5 %", "7.1 %", "100 %".
 std::string percent(double share);
 
+/// "1 ball", "28 balls".
+std::string counted(std::uint64_t number, std::string_view noun);
 /// A number with the digits that the half-width of its interval allows: "27.92 ± 0.26", "(1.167 ± 0.035)e5";
 /// four digits without one.
 std::string with_interval(double value, std::optional<double> half_width);

@@ -113,16 +113,16 @@ Estimate estimate(const std::vector<double>& values) {
 namespace {
 
 /// Cosine transforms of a series, of 1/2, 1, 3/2 ... cycles, each of the variance of a value where these are
-/// independent. Twelve hold correlation over a twentieth of the series; fewer of a short one.
+/// independent. Twelve contain correlation over a twentieth of the series; fewer of a short one.
 std::vector<double> cosines_of(const std::vector<double>& values) {
-  constexpr std::size_t most = 12;
   const double mean = mean_of(values), n = static_cast<double>(values.size());
+  const std::size_t count = std::clamp<std::size_t>(values.size() / 4, 2, 12);
   std::vector<double> transforms;
-  for (std::size_t j = 1; j <= std::min(most, values.size() / 2); ++j) {
+  for (std::size_t j = 1; j <= count; ++j) {
+    const double turn = pi<double>() * static_cast<double>(j) / n;
     double sum = 0;
     for (std::size_t k = 0; k < values.size(); ++k)
-      sum += (values[k] - mean) *
-             sin_cos(pi<double>() * static_cast<double>(j) * (static_cast<double>(k) + 0.5) / n).cos;
+      sum += (values[k] - mean) * sin_cos(turn * (static_cast<double>(k) + 0.5)).cos;
     transforms.push_back(sum * std::sqrt(2 / n));
   }
   return transforms;

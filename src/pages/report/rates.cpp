@@ -95,8 +95,8 @@ void add_partners(pugi::xml_node section, const RunFolder& run) {
     add_note(
         section,
         fmt::format(
-            "Area: of the wall, or of all balls. Each of the {} balls has a part in {} W on the average: an "
-            "impact between balls counts half for either, one with a wall whole.",
+            "Area: of the wall, or of all balls. A ball (of {}) has a part in {} W on the average: an impact "
+            "between balls counts half for either, one with a wall whole.",
             run.spec.ball_count(), readable(*rate / static_cast<double>(run.spec.ball_count()), 3)));
 }
 

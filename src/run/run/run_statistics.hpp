@@ -33,8 +33,9 @@ class RunStatistics : public engine::Observer<Real> {
 
   /// @param balls    of the case
   /// @param counted  what of an impact's dose works the powder
-  RunStatistics(const model::Partners& partners, const std::vector<model::BallProperties<Real>>& balls,
-                const model::CountedDose<Real>& counted)
+  explicit RunStatistics(const model::Partners& partners,
+                         const std::vector<model::BallProperties<Real>>& balls = {},
+                         const model::CountedDose<Real>& counted = {})
       : counts_(counted), totals_(partners.count()), balls_(balls.size()) {
     constexpr std::size_t most_alike = 64;
     while (doses_.size() < std::min(most_alike, balls.size()) && balls[doses_.size()] == balls[0])
@@ -115,8 +116,9 @@ class RunStatistics : public engine::Observer<Real> {
     found.dose_rate = next();
     found.wall_work_rate = next();
     found.counted_dose_rate = next();
-    if (balls_ == 1)
-      found.several_states = "a single ball, which often settles in one of several orbits";
+    constexpr std::size_t few = 2;
+    if (balls_ <= few)
+      found.several_states = "one or two balls often settle in one of several orbits";
     else if (repeats(found.dose_rate, static_cast<double>(batches.periods())))
       found.several_states = "its impacts repeat";
     else if (stay_apart(batches, place))

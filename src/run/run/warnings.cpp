@@ -74,8 +74,8 @@ std::vector<io::Warning> warnings_of(const io::Facts& f, const std::optional<dou
     if (end_reason == reason) warn("end_reason", text);
   if (collisions < fewest_collisions)
     warn("too_few_collisions",
-         fmt::format("Only {:g} collisions were counted; below {:g} the rates are not reliable.", collisions,
-                     fewest_collisions));
+         fmt::format("Only {} counted; below {:g} the rates are not reliable.",
+                     counted(static_cast<std::uint64_t>(collisions), "collision"), fewest_collisions));
   check_dose_rate(f, wanted_precision, warn);
   if (in_stalls > stall_share_limit)
     warn("stall_share", fmt::format("{} of the dose comes from impacts without friction, in stalls of bodies "

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/clean_text.hpp"
 #include "casefile/quantity.hpp"
 
 namespace edmill::study {
@@ -200,7 +201,8 @@ std::string line_of(const OptimizeSpec& spec, const Study& study, std::size_t in
   std::string line = fmt::format("  point {}:", index + 1);
   for (const auto& [key, value] : point.settings) line += fmt::format(" {} = {},", key, value);
   const auto quantity = quantity_named(spec.objective());
-  return line + fmt::format(" {} ({} runs)\n", text_of(point.estimate(quantity), quantity), point.done());
+  return line +
+         fmt::format(" {} ({})\n", text_of(point.estimate(quantity), quantity), counted(point.done(), "run"));
 }
 
 /// Says so where the best value of a variable is the end of its range.
@@ -235,7 +237,8 @@ std::string describe(const OptimizeSpec& spec, const Study& study, const Optimum
   const auto& points = study.points();
   const auto excluded =
       std::count_if(points.begin(), points.end(), [](const Point& p) { return p.failed() > 0; });
-  if (excluded > 0) text += fmt::format("{} points with failed runs were left out\n", excluded);
+  if (excluded > 0)
+    text += "left out: " + counted(static_cast<std::uint64_t>(excluded), "point") + " with failed runs\n";
   return text;
 }
 

@@ -112,8 +112,8 @@ std::string text_of(const numerics::OfSeeds& found, const Quantity& quantity) {
   if (found.states.empty()) return found.mean ? text(*found.mean, found.half_width) : "-";
   std::string all;
   for (const auto& state : found.states)
-    all += fmt::format("{}{} ({} run{})", all.empty() ? "" : ", ", text(state.mean, state.half_width),
-                       state.runs, state.runs == 1 ? "" : "s");
+    all += fmt::format("{}{} ({})", all.empty() ? "" : ", ", text(state.mean, state.half_width),
+                       counted(state.runs, "run"));
   return all;
 }
 
@@ -270,12 +270,12 @@ std::string Study::forecast(const std::vector<Job>& jobs, const RecordFunction& 
   const auto with_time = [&](std::uint64_t runs) {
     const double more =
         static_cast<double>(runs) / static_cast<double>(std::max<std::size_t>(jobs.size(), 1));
-    return fmt::format("{} runs", runs) + (wall_time ? ", " + in_words(*wall_time * more) : "");
+    return counted(runs, "run") + (wall_time ? ", " + in_words(*wall_time * more) : "");
   };
   const auto c = counts();
-  auto text = c.kept > 0 ? fmt::format("{} runs reused; ", c.kept) : std::string();
+  auto text = c.kept > 0 ? counted(c.kept, "run") + " reused; " : std::string();
   if (jobs.empty()) return text + "no run is left to do";
-  text += with_time(jobs.size()) + fmt::format(" on {} threads", threads);
+  text += with_time(jobs.size()) + " on " + counted(static_cast<std::uint64_t>(threads), "thread");
   if (!wall_time) text += "; how long they take is not known where no end_time ends them";
   if (most_runs_ > c.total) text += "; in all at most " + with_time(most_runs_ - c.kept);
   return text;

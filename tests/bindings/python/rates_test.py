@@ -18,6 +18,8 @@ def test_rates_are_those_of_the_summary(case):
     assert run.dose_rate.half_width == run.summary["intervals"]["milling_dose_rate"]
     assert run.dose_rate.low < run.dose_rate < run.dose_rate.high
     assert run.collision_rates["total"] == run.summary["collision_rate"]["total"]
+    assert run.impact_rates["total"].half_width == run.summary["intervals"]["impact_rate"]["total"]
+    assert run.impact_rates["total"] <= run.collision_rates["total"]
     assert run.milling_time == pytest.approx(1e7 * 3e-3 / run.dose_rate)
     assert "±" in repr(run)
     assert pickle.loads(pickle.dumps(run)).dose_rate.half_width == run.dose_rate.half_width
@@ -25,6 +27,26 @@ def test_rates_are_those_of_the_summary(case):
     assert run.dose_rate.differs(other.dose_rate) and run.dose_rate.differs(run.dose_rate) is False
     short = edmill.run(case, until="0.3 s")
     assert short.dose_rate.half_width is None and short.dose_rate.differs(run.dose_rate) is None and short.warnings
+
+
+def test_seeds_have_one_answer(case, tmp_path):
+    found = edmill.seeds(case.with_settings('run.end_time="0.6 s"'), 3, tmp_path / "seeds")
+    row, runs = found.points[0], found.runs
+    assert row["done"] == 3 and row["states"] == 1 and len(runs) == 3
+    assert row["milling_dose_rate"] == pytest.approx(np.mean(runs["milling_dose_rate"]))
+    value = edmill.Value(row["milling_dose_rate"], row["milling_dose_rate_ci95"])
+    assert repr(value) in repr(found)
+    assert value.half_width < min(runs["milling_dose_rate_ci95"])
+    with pytest.raises(edmill.InputError, match="count"):
+        edmill.seeds(case, 1, tmp_path / "one")
+
+
+def test_what_decides_names_every_run(case):
+    found = edmill.what_decides(case, uncertainty=0.2)
+    assert next(iter(found.values())) == edmill.run(case).dose_rate
+    assert {"another seed", "half of the least separation speed", "restitution + 0.2", "friction - 0.2"} < set(found)
+    assert "restitution - 0.2" in found.differing and "another seed" not in found.differing
+    assert "it depends on: " in found.text
 
 
 def test_a_run_ends_at_its_precision(case):

@@ -1,4 +1,5 @@
 edmill_test(archive_test base/archive_test.cpp)
+edmill_test(statistics_test base/statistics_test.cpp)
 edmill_test(chosen_digits_test base/chosen_digits_test.cpp)
 edmill_test(memory_test base/memory_test.cpp)
 edmill_test(trigonometry_test base/trigonometry_test.cpp)

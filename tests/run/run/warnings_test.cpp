@@ -54,11 +54,11 @@ TEST(Warnings, AGoodRunHasNone) {
   EXPECT_EQ(kinds(good_facts(), {}), Kinds{"too_short"});
 }
 
-TEST(Warnings, ALargeShareOfTheDoseByTheLeastSeparationSpeedIsTold) {
+TEST(Warnings, EvidenceOfSeveralStatesIsTold) {
   auto f = good_facts();
-  f.set("least_separation/milling_dose_share", 0.0501);
-  EXPECT_EQ(kinds(f, steady()), Kinds{"separation_share"});
-  EXPECT_NE(warnings_of(f, steady())[0].text.find("5 %"), std::string::npos);
+  f.set("intervals/several_states", std::string("its impacts repeat"));
+  EXPECT_EQ(kinds(f, steady()), Kinds{"several_states"});
+  EXPECT_NE(warnings_of(f, steady())[0].text.find("its impacts repeat"), std::string::npos);
 }
 
 TEST(Warnings, MoreThanOnePercentOfTheDoseAsSuppliedEnergyIsTold) {
@@ -85,18 +85,6 @@ TEST(Warnings, EnergyThatIsSuppliedWithoutADoseIsTold) {
   EXPECT_EQ(kinds(elastic(400, 9.5)), Kinds{"supplied_energy"});
   EXPECT_NE(warnings_of(facts_of(elastic(400, 9.5)), steady())[0].text.find("90 % of the kinetic energy"),
             std::string::npos);
-}
-
-TEST(Warnings, ALargeShareOfTheImpactsIsToldWithoutADose) {
-  EXPECT_EQ(kinds(elastic(501, 0)), Kinds{"separation_share"});
-  EXPECT_NE(warnings_of(facts_of(elastic(2000, 0)), steady())[0].text.find("20 % of the impacts"),
-            std::string::npos);
-  auto rounding = elastic(501, 0);
-  rounding.milling_dose = 1e-14;
-  EXPECT_EQ(kinds(rounding), Kinds{"separation_share"});
-  auto dose = elastic(9000, 0);
-  dose.milling_dose = 20, dose.touched_dose = 0.9, dose.wall_work = 20;
-  EXPECT_EQ(kinds(dose), Kinds{});
 }
 
 TEST(Warnings, EnergyThatDoesNotCloseIsToldWithoutADose) {

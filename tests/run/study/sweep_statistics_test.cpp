@@ -81,19 +81,22 @@ TEST_F(SweepIntervals, TheTableHoldsWhatTheRunsGive) {
   const auto runs = rows("runs.csv"), points = rows("sweep.csv");
   ASSERT_EQ(runs.size(), 4u);
   ASSERT_EQ(points.size(), 2u);
-  for (const std::string name :
-       {"inverse_milling_dose_rate", "specific_milling_dose_rate", "collision_rate_ball_ball"}) {
-    double sum = 0, squares = 0;
-    for (std::size_t k = 1; k < 4; ++k) sum += std::stod(runs[k][column(runs, name)]);
-    const double mean = sum / 3;
-    for (std::size_t k = 1; k < 4; ++k) squares += std::pow(std::stod(runs[k][column(runs, name)]) - mean, 2);
-    // Student's limit of two degrees: t^2 = 2 p^2 / (1 - p^2) with p = 0.95.
-    const double limit = std::sqrt(2 * 0.95 * 0.95 / (1 - 0.95 * 0.95));
-    EXPECT_NEAR(std::stod(points[1][column(points, name)]), mean, 1e-12 * mean) << name;
-    EXPECT_NEAR(std::stod(points[1][column(points, name + "_ci95")]), limit * std::sqrt(squares / 6),
-                1e-9 * mean)
-        << name;
+  // The intervals of the runs and their scatter, pooled: 12 degrees of freedom of each run, and 2 of the
+  // runs.
+  const double of_run = 2.178812829667228, of_all = 2.024394164575136;  // Student's limits of 12 and 38
+  const std::string name = "milling_dose_rate";
+  double sum = 0, squares = 0, own = 0;
+  for (std::size_t k = 1; k < 4; ++k) {
+    sum += std::stod(runs[k][column(runs, name)]);
+    own += std::pow(std::stod(runs[k][column(runs, name + "_ci95")]) / of_run, 2) / 3;
   }
+  const double mean = sum / 3;
+  for (std::size_t k = 1; k < 4; ++k) squares += std::pow(std::stod(runs[k][column(runs, name)]) - mean, 2);
+  EXPECT_NEAR(std::stod(points[1][column(points, name)]), mean, 1e-12 * mean);
+  EXPECT_NEAR(std::stod(points[1][column(points, name + "_ci95")]),
+              of_all * std::sqrt((36 * own + squares) / 38 / 3), 1e-9 * mean);
+  EXPECT_EQ(points[1][column(points, "states")], "1");
+  EXPECT_EQ(column(points, "collision_rate_total_ci95"), points[0].size());  // contacts at rest have none
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "app/certify.hpp"
 #include "app/run.hpp"
 #include "app/study.hpp"
+#include "base/clean_text.hpp"
 #include "base/errors.hpp"
 #include "casefile/precisions.hpp"
 #include "casefile/quantity.hpp"
@@ -168,8 +169,9 @@ inline int end_of_study(const std::optional<app::StudyResult>& result, bool quie
   }
   const auto& c = result->counts;
   if (!quiet)
-    io::print("{}{} runs: {} reused, {} run now, {} failed{}\nTables are in {}\n", result->optimum, c.total,
-              c.kept, c.ran, c.failed, result->interrupted ? ", interrupted" : "", result->folder);
+    io::print("{}{}: {} reused, {} run now, {} failed{}\nTables are in {}\n", result->optimum,
+              counted(c.total, "run"), c.kept, c.ran, c.failed, result->interrupted ? ", interrupted" : "",
+              result->folder);
   return c.failed > 0 ? some_runs_failed : ok;
 }
 
