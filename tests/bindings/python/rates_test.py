@@ -1,4 +1,5 @@
 """Rates with intervals, edits of cases, runs from folders, and tables for other libraries."""
+import json
 import pickle
 
 import numpy as np
@@ -39,6 +40,38 @@ def test_seeds_have_one_answer(case, tmp_path):
     assert value.half_width < min(runs["milling_dose_rate_ci95"])
     with pytest.raises(edmill.InputError, match="count"):
         edmill.seeds(case, 1, tmp_path / "one")
+
+
+def test_program_page_python_and_sweep_have_the_same_numbers(case, tmp_path, program):
+    file, folder = tmp_path / "a.toml", tmp_path / "a"
+    file.write_text(case.text)
+    run = edmill.run(edmill.Case(file))
+    table = program("run", file, "--report", "--out", folder).stdout
+    summary = json.loads((folder / "summary.json").read_text())
+    page = (folder / "report.html").read_text()
+    sweep = edmill.sweep({"sweep": {"case": str(file), "grid": {"run.seed": [1]}}}, tmp_path / "sweep").points[0]
+    assert sweep["done"] == 1 and sweep["states"] == 1
+    for key, value in (("milling_dose_rate", run.dose_rate), ("specific_milling_dose_rate", run.specific_dose_rate),
+                       ("wall_work_rate", run.wall_power), ("milling_time", run.milling_time), ("impact_rate_total", run.impact_rates["total"])):
+        path = {"impact_rate_total": "impact_rate/total"}.get(key, key).split("/")
+        if key != "milling_time":
+            number, width = summary, summary["intervals"]
+            for name in path:
+                number, width = number[name], width[name]
+            assert (number, width) == (value, value.half_width), key
+            assert f"{number!r}" in page or f"{number:.17g}" in page or key == "wall_work_rate", key
+        assert sweep[key] == pytest.approx(value, rel=1e-14) and sweep[key + "_ci95"] == pytest.approx(value.half_width, rel=1e-12), key
+        if key != "milling_time":
+            assert repr(value) in table, key
+    seeds = edmill.seeds(edmill.Case(file), 3, tmp_path / "seeds")
+    replicas = edmill.sweep({"sweep": {"case": str(file), "replicas": 3}}, tmp_path / "replicas").points[0]
+    row = seeds.points[0]
+    for key in ("milling_dose_rate", "milling_dose_rate_ci95", "milling_time", "milling_time_ci95"):
+        assert row[key] == replicas[key], key
+    answer = program("run", file, "--seeds", "3", "--out", tmp_path / "program").stdout
+    assert answer.splitlines()[0] == seeds.text.splitlines()[0]
+    value = edmill.Value(row["milling_dose_rate"], row["milling_dose_rate_ci95"])
+    assert repr(value) in answer and repr(value) in seeds.page.read_text()
 
 
 def test_what_decides_names_every_run(case):
