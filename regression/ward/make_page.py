@@ -16,6 +16,15 @@ import tables
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = pathlib.Path(__file__).resolve().parent / "page.md"  # the text, with {places} for tables and figures
 DETAILED = ("5g_5_9_52mm", "5g_2_5_4_76mm", "5g_2_5_3_16mm", "5g_2_5_2_36mm")
+OF_ALL = "t_c_5e-4", "lossless_5e-4"  # methods of the second program that all cases have
+VARIANTS = ROOT / "regression/ward/fixtures/variants.csv"  # by variants.py
+RULES = (  # method or variant, words
+    (None, "edmill"), ("t_c_5e-4", "second program, t_c 0.5 ms in place of v_s"),
+    ("lossless_5e-4", "second program, impacts within 0.5 ms of the last lose nothing"),
+    ("arm_9_cm", "edmill, arm 9 cm for 10 cm"), ("swings_13.5_deg", "edmill, both swings 13.5 deg for 15 deg"),
+    ("friction_0.2", "edmill, friction 0.2 for 0.4"), ("friction_0.8", "edmill, friction 0.8"),
+    ("no_friction", "edmill, no friction"),
+)
 METHODS = (
     (None, "edmill, v_s 1 cm/s"), ("control", "second program, exact search, v_s 1 cm/s (control)"),
     ("t_c_1e-4", "t_c 0.1 ms in place of v_s"), ("t_c_3e-4", "t_c 0.3 ms"), ("t_c_5e-4", "t_c 0.5 ms"),
@@ -38,6 +47,7 @@ class Data:
         self.statistics = {row["case"]: row for row in read(fixtures.STATISTICS)}
         self.replicas = [row for row in read(fixtures.REPLICAS) if row["case"] == fixtures.SINGLE_BALL]
         self.emulation = {(row["case"], row["method"]): row for row in read(fixtures.EMULATION)}
+        self.emulation |= {(row["case"], row["variant"]): row for row in read(VARIANTS)}
 
     def inverse(self, case, method=None):
         """@return mean and half width [s/J]"""
@@ -63,13 +73,12 @@ def inverse_table(data):
         mean, half = data.inverse(case)
         row = [case.powder, case.charge_ratio, case.diameter, case.count, case.restitution]
         if case.count == 1:
-            rows.append(row + ["see below", "", case.thesis_inverse, "", ""])
+            rows.append(row + ["see below", "", case.thesis_inverse, "", "", ""])
             continue
-        lossy = data.inverse(case, "t_c_5e-4")[0]
-        rows.append(row + [f"{mean:.4f}", f"{100 * half / mean:.2f} %", case.thesis_inverse,
-                           f"{case.thesis_inverse / mean:.3f}", f"{case.thesis_inverse / lossy:.3f}"])
+        rows.append(row + [f"{mean:.4f}", f"{100 * half / mean:.2f} %", case.thesis_inverse, f"{case.thesis_inverse / mean:.3f}",
+                           *(f"{case.thesis_inverse / data.inverse(case, method)[0]:.3f}" for method in OF_ALL)])
     return table(["powder [g]", "charge ratio", "diameter [mm]", "balls", "e", "edmill [s/J]", "± 95 %", "thesis [s/J]",
-                  "thesis / edmill", "thesis / second program, t_c 0.5 ms"], rows)
+                  "thesis / edmill", "thesis / second program, t_c 0.5 ms", "thesis / second program, no loss within 0.5 ms"], rows)
 
 
 def rate_table(data):
@@ -123,10 +132,14 @@ def ratios(data, cases, method=None):
     return span((case.thesis_inverse / data.inverse(case, method)[0] for case in cases), ".2f")
 
 
-def lossless_off(data):
-    off = [abs(data.inverse(case, "lossless_5e-4")[0] / case.thesis_inverse - 1)
-           for case in data.cases if case.name in DETAILED]
-    return f"{100 * max(off):.1f} %"
+def rule_table(data):
+    """Each rule over all rows: thesis over computed, by diameter; and how many rows are within 3 %."""
+    rows = []
+    for method, words in RULES:
+        near = [case for case in data.many() if abs(case.thesis_inverse / data.inverse(case, method)[0] - 1) <= 0.03]
+        rows.append([words, *(ratios(data, [case for case in data.many() if case.diameter == diameter], method)
+                              for diameter in reversed(tables.DIAMETERS)), f"{len(near)} of {len(data.many())}"])
+    return table(["rule", *(f"{diameter} mm" for diameter in reversed(tables.DIAMETERS)), "rows within 3 %"], rows)
 
 
 def words(data):
@@ -140,7 +153,7 @@ def words(data):
         "single_table": single_table(data), "ratios": ratios(data, data.many()),
         "worst_interval": f"{max(100 * h / m for m, h in map(data.inverse, data.many())):.2f}",
         "closure": max((data.statistics[case.name]["largest_energy_closure"] for case in data.many()), key=float),
-        "diameter_table": diameter_table(data), "lossless_off": lossless_off(data),
+        "diameter_table": diameter_table(data), "rule_table": rule_table(data),
         "least_alike": f"{min(float(data.statistics[c.name]['replicas_alike_p']) for c in data.many()):.3f}",
         "date": source["date"], "commit": source["statistics"]["commit"], "compiler": source["statistics"]["compiler"],
         "cpu": f"{cpu} s",

@@ -1,6 +1,5 @@
 #include "app/run.hpp"
 
-#include "app/variations.hpp"
 #include "base/errors.hpp"
 #include "casefile/memory_for.hpp"
 #include "io/atomic_file.hpp"
@@ -14,16 +13,10 @@ namespace edmill::app {
 
 namespace {
 
-/// What decides the dose rate, as text, also in a file of the folder; empty where it is not sought.
-std::string checked(const casefile::CaseSpec& spec, const std::string& precision, const io::Facts& facts,
-                    const RunOptions& options) {
-  constexpr double quick = 10, repeats = 6;  // [s]
-  const auto own = study::record_of(facts);
-  const bool wanted = options.check || (options.report && repeats * own.cpu_seconds() < quick);
-  if (!wanted || !own.done() || !facts.has("intervals/milling_dose_rate")) return "";
-  const auto found = vary(spec, precision, own, options.uncertainty, options.interrupt);
-  if (found.interrupted) return "";
-  const auto text = found.text();
+/// The text of `what_decides`, which is in a file of the folder, too.
+std::string checked(const casefile::CaseSpec& spec, const io::Facts& facts, const RunOptions& options) {
+  const auto text = options.what_decides ? options.what_decides(spec, facts) : "";
+  if (text.empty()) return text;
   io::AtomicFile file(std::filesystem::path(options.folder) / report::check_file);
   file.stream() << text;
   file.complete();
@@ -51,7 +44,7 @@ RunResult run(const std::string& precision, casefile::CaseSpec spec, const RunOp
                      run->goes_on(),
                      {}};
     run->commit([&] {
-      result.table += checked(spec, precision, facts, options);
+      result.table += checked(spec, facts, options);
       if (options.report) result.report = report::put_report(options.folder).string();
       Archive archive;
       archive(result);

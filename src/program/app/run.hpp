@@ -9,16 +9,18 @@
 #include "base/archive.hpp"
 #include "casefile/case_spec.hpp"
 #include "io/checkpoint_file.hpp"
+#include "io/facts.hpp"
 #include "model/outcome.hpp"
 #include "run/any_run.hpp"
 
 namespace edmill::app {
 
 struct RunOptions : run::RunSetup {
-  std::string folder;        ///< of the outputs
-  bool report = false;       ///< write the page report.html, and the tables that it shows
-  bool check = false;        ///< find what decides the dose rate; with a report also where that takes seconds
-  double uncertainty = 0.1;  ///< of restitution and friction, for it
+  std::string folder;   ///< of the outputs
+  bool report = false;  ///< write the page report.html, and the tables that it shows
+  /// What decides the dose rate of a run that has ended, as text; empty where it is not sought
+  /// (app/variations.hpp).
+  std::function<std::string(const casefile::CaseSpec&, const io::Facts&)> what_decides = {};
   /// Called when the run has results to keep: before that, an interrupted program may end at once.
   std::function<void()> begun = [] {};
   /// Called where the file system has no locks, so that nothing keeps a second run out of the folder.

@@ -176,4 +176,13 @@ Variations vary(const casefile::CaseSpec& spec, const std::string& precision, co
   return found;
 }
 
+std::string what_decides(const casefile::CaseSpec& spec, const std::string& precision, const io::Facts& run,
+                         double uncertainty, double most_seconds, const std::atomic<bool>* interrupt) {
+  constexpr double runs = 6;
+  const auto own = study::record_of(run);
+  if (!own.done() || !run.has(dose_rate().interval) || runs * own.cpu_seconds() > most_seconds) return "";
+  const auto found = vary(spec, precision, own, uncertainty, interrupt);
+  return found.interrupted ? "" : found.text();
+}
+
 }  // namespace edmill::app

@@ -17,7 +17,8 @@ Summary<Real> whole_summary() {
   s.provenance = {"a \"case\".toml", "digest", {"run.seed=3"}, true, "mpfr50", "1", "2", "3", 7, 5};
   s.error = "why";
   s.start_time = Real(1) / 3, s.end_time = Real(7) / 3;
-  s.collisions = {1, 2, 3}, s.dose_by_partner = {Real(1) / 7, Real(2) / 7, Real(3) / 7};
+  s.collisions = {1, 2, 3}, s.impacts = {1, 1, 2},
+  s.dose_by_partner = {Real(1) / 7, Real(2) / 7, Real(3) / 7};
   s.milling_dose = Real(6) / 7, s.wall_work = Real(1) / 11;
   s.energy_at_start = {Real(1) / 13, Real(-2)}, s.energy_at_end = {Real(1) / 17, Real(-3)};
   s.energy_closure = Real(1) / 1000000007;
@@ -37,7 +38,8 @@ Summary<Real> whole_summary() {
                  {{}, 0.7},
                  {{1, 2, 3, 4, 5}, 0.8},
                  {{}, 0.9},
-                 {{}, 1}};
+                 {{}, 1},
+                 "its impacts repeat"};
   s.warnings = {{"transient", "The dose rate drifts."}};
   s.target = {Real(1000), "all of the dose", Real(1) / 31};
   return s;

@@ -8,8 +8,12 @@
 #include <numbers>
 #include <random>
 
+#include "base/statistics.hpp"
+
 namespace edmill::compare {
 namespace {
+
+using numerics::holm, numerics::paired_t_probability;
 
 TEST(Batches, ProbabilitiesAreStudents) {
   // With one degree of freedom it is Cauchy's distribution; with two, t / sqrt(2 + t^2).

@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 
 #include "app/certify.hpp"
 #include "app/run.hpp"
 #include "app/study.hpp"
+#include "app/variations.hpp"
 #include "base/clean_text.hpp"
 #include "base/errors.hpp"
 #include "casefile/precisions.hpp"
@@ -65,6 +67,12 @@ class RunCommand {
       const ReservedFolder reserved(folder_, !checkpoint_.empty(), spec);
       if (const int code = choose_digits(spec, scalar); code != ok) return code;
     }
+    if (check_ || report_)
+      options.what_decides = [&](const casefile::CaseSpec& ended, const io::Facts& facts) {
+        constexpr double quick = 10;  // [s]
+        return app::what_decides(ended, scalar, facts, uncertainty_, check_ ? INFINITY : quick,
+                                 options.interrupt);
+      };
     if (!checkpoint_.empty()) options.checkpoint = app::first_checkpoint(spec, scalar, report_, checkpoint_);
     const int code = with_progress(options, [&] { return app::run(scalar, spec, options); });
     if (code != ok || shadow_.empty()) return code;
@@ -91,8 +99,6 @@ class RunCommand {
     app::RunOptions options;
     options.folder = folder_;
     options.report = report_;
-    options.check = check_;
-    options.uncertainty = uncertainty_;
     options.interrupt = &interrupt_flag();
     options.begun = listen_for_signals;
     options.without_locks = [](const std::filesystem::path& place) {
