@@ -1,5 +1,7 @@
 #include "app/run.hpp"
 
+#include <cmath>
+
 #include "base/errors.hpp"
 #include "casefile/memory_for.hpp"
 #include "io/atomic_file.hpp"
@@ -15,7 +17,9 @@ namespace {
 
 /// The text of `what_decides`, which is in a file of the folder, too.
 std::string checked(const casefile::CaseSpec& spec, const io::Facts& facts, const RunOptions& options) {
-  const auto text = options.what_decides ? options.what_decides(spec, facts) : "";
+  constexpr double quick = 10;  // [s]
+  if (!options.what_decides || !(options.check || options.report)) return "";
+  const auto text = options.what_decides(spec, facts, options.check ? INFINITY : quick);
   if (text.empty()) return text;
   io::AtomicFile file(std::filesystem::path(options.folder) / report::check_file);
   file.stream() << text;

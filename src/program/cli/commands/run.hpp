@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <optional>
 
@@ -67,12 +66,6 @@ class RunCommand {
       const ReservedFolder reserved(folder_, !checkpoint_.empty(), spec);
       if (const int code = choose_digits(spec, scalar); code != ok) return code;
     }
-    if (check_ || report_)
-      options.what_decides = [&](const casefile::CaseSpec& ended, const io::Facts& facts) {
-        constexpr double quick = 10;  // [s]
-        return app::what_decides(ended, scalar, facts, uncertainty_, check_ ? INFINITY : quick,
-                                 options.interrupt);
-      };
     if (!checkpoint_.empty()) options.checkpoint = app::first_checkpoint(spec, scalar, report_, checkpoint_);
     const int code = with_progress(options, [&] { return app::run(scalar, spec, options); });
     if (code != ok || shadow_.empty()) return code;
@@ -99,6 +92,11 @@ class RunCommand {
     app::RunOptions options;
     options.folder = folder_;
     options.report = report_;
+    options.check = check_;
+    options.what_decides = [this](const casefile::CaseSpec& spec, const io::Facts& run, double most_seconds) {
+      return app::what_decides(spec, run.text("precision"), run, uncertainty_, most_seconds,
+                               &interrupt_flag());
+    };
     options.interrupt = &interrupt_flag();
     options.begun = listen_for_signals;
     options.without_locks = [](const std::filesystem::path& place) {
@@ -218,6 +216,7 @@ struct Run : RunCommand {
         "also find what decides the dose rate: six more runs with another seed, half of the "
         "least separation speed, other restitution and friction (default with --report, where "
         "they take less than ten seconds)");
+    check->excludes(checkpoint);
     command
         .add_option("--uncertainty", uncertainty_, "of restitution and friction, for --check (default: 0.1)")
         ->check(CLI::Range(0.001, 1.0));
