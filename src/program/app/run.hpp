@@ -19,10 +19,8 @@ struct RunOptions : run::RunSetup {
   std::string folder;   ///< of the outputs
   bool report = false;  ///< write the page report.html, and the tables that it shows
   bool check = false;   ///< find what decides the dose rate; with a report also where that takes seconds
-  /// Of a run that has ended, as text (app/variations.hpp). @param most_seconds  of processor time that it
-  /// may take
-  std::function<std::string(const casefile::CaseSpec&, const io::Facts&, double most_seconds)> what_decides =
-      {};
+  /// Of a run that has ended, as text (app/variations.hpp).
+  std::function<std::string(const casefile::CaseSpec&, const io::Facts&)> what_decides = {};
   /// Called when the run has results to keep: before that, an interrupted program may end at once.
   std::function<void()> begun = [] {};
   /// Called where the file system has no locks, so that nothing keeps a second run out of the folder.

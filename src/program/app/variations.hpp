@@ -37,9 +37,8 @@ struct Variations {
 Variations vary(const casefile::CaseSpec& spec, const std::string& precision, const study::RunRecord& own,
                 double uncertainty, const std::atomic<bool>* interrupt);
 
-/// The text for a run that has ended at its end with an interval; empty where it is interrupted.
-/// @param most_seconds  of processor time that the runs may take together
+/// The text for a run that has ended at its end with an interval; empty for others, or after an interrupt.
 std::string what_decides(const casefile::CaseSpec& spec, const std::string& precision, const io::Facts& run,
-                         double uncertainty, double most_seconds, const std::atomic<bool>* interrupt);
+                         double uncertainty, const std::atomic<bool>* interrupt);
 
 }  // namespace edmill::app

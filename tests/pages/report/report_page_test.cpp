@@ -31,7 +31,7 @@ TEST_F(Report, OfARunWithReportHasEverySection) {
   run("--report");
   const auto main = body();
   EXPECT_EQ(ids(main, "//section"),
-            (Ids{"results", "animation", "rates", "spectra", "vessel", "speeds", "energy", "case"}));
+            (Ids{"results", "check", "animation", "rates", "spectra", "vessel", "speeds", "energy", "case"}));
   EXPECT_EQ(ids(main, "//figure").size(), 12u);
   EXPECT_TRUE(main.select_nodes("//*[@class='missing']").empty());
   EXPECT_LT(page().size(), 6000000u);
@@ -82,7 +82,7 @@ TEST_F(Report, ShowsHowErrorsGrow) {
 }
 
 TEST_F(Report, WarningsHaveASectionOfTheirOwn) {
-  run("--report --set 'contact.least_separation=0.5 m/s'");
+  run("--report --set 'balls.0.count=2'");
   const auto sections = ids(body(), "//section");
   ASSERT_GE(sections.size(), 2u);
   EXPECT_EQ(sections[1], "warnings");

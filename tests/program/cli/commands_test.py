@@ -64,7 +64,7 @@ def resume(t):
 def report(t):
     said("report", "run", "--quiet")
     said("report", "run", "other", "--quiet", "--out", "both.html")
-    rate = f"{summary('run')['milling_dose_rate']:.3g}"
+    rate = f"{summary('run')['milling_dose_rate']:.2g}"
     for page in ("run/report.html", "both.html"):
         t.check(rate in pathlib.Path(page).read_text(), f"the rate {rate} in {page}")
 

@@ -93,9 +93,8 @@ class RunCommand {
     options.folder = folder_;
     options.report = report_;
     options.check = check_;
-    options.what_decides = [this](const casefile::CaseSpec& spec, const io::Facts& run, double most_seconds) {
-      return app::what_decides(spec, run.text("precision"), run, uncertainty_, most_seconds,
-                               &interrupt_flag());
+    options.what_decides = [this](const casefile::CaseSpec& spec, const io::Facts& run) {
+      return app::what_decides(spec, run.text("precision"), run, uncertainty_, &interrupt_flag());
     };
     options.interrupt = &interrupt_flag();
     options.begun = listen_for_signals;
@@ -208,14 +207,14 @@ struct Run : RunCommand {
         ->excludes("--precision");
     command.add_flag("--estimate", estimate_,
                      "estimate events, digits, time and memory of the run, and do not run");
+    auto* check =
+        command.add_flag("--check", check_,
+                         "also find what decides the dose rate: six more runs with another seed, half of the "
+                         "least separation speed, other restitution and friction (default with --report, of "
+                         "a run with fewer than a million impacts)");
     auto* checkpoint =
         command.add_option("--checkpoint", checkpoint_, every + " (default: never)")->excludes(shadow);
     auto* report = command.add_flag("--report", report_, "write report.html, and the tables that it shows");
-    auto* check = command.add_flag(
-        "--check", check_,
-        "also find what decides the dose rate: six more runs with another seed, half of the "
-        "least separation speed, other restitution and friction (default with --report, where "
-        "they take less than ten seconds)");
     check->excludes(checkpoint);
     command
         .add_option("--uncertainty", uncertainty_, "of restitution and friction, for --check (default: 0.1)")
