@@ -137,7 +137,10 @@ def folder(name):
 
 def check_same(place, what):
     found = results(place, without=())
-    t.check(same(found, expected) == [], f"{what}: {same(found, expected)}")
+    # An interrupt while a run at its end seeks what decides the dose rate leaves that out.
+    left_out = () if is_there(place, "check.txt") else (".edmill-files", "check.txt", "report.html")
+    differences = [name for name in same(found, expected) if name not in left_out]
+    t.check(differences == [], f"{what}: {differences}")
 
 
 def begin(place, interval):
