@@ -16,14 +16,24 @@ double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Standard error of the mean. The squares of small deviations may be none of a double.
-double error_of_mean(const std::vector<double>& values) {
-  const double mean = mean_of(values), n = static_cast<double>(values.size());
+std::vector<double> deviations_of(std::vector<double> values) {
+  const double mean = mean_of(values);
+  for (double& v : values) v -= mean;
+  return values;
+}
+
+/// Root mean square from a place on, without squares of small numbers.
+double size_of(const std::vector<double>& values, std::size_t first = 0) {
   double largest = 0, sum = 0;
-  for (const double v : values) largest = std::max(largest, std::abs(v - mean));
+  for (std::size_t k = first; k < values.size(); ++k) largest = std::max(largest, std::abs(values[k]));
   if (!(largest > 0)) return 0;
-  for (const double v : values) sum += (v - mean) / largest * ((v - mean) / largest);
-  return largest * std::sqrt(sum / (n - 1) / n);
+  for (std::size_t k = first; k < values.size(); ++k) sum += values[k] / largest * (values[k] / largest);
+  return largest * std::sqrt(sum / static_cast<double>(values.size() - first));
+}
+
+/// Standard error of the mean.
+double error_of_mean(const std::vector<double>& values) {
+  return size_of(deviations_of(values)) / std::sqrt(static_cast<double>(values.size()) - 1);
 }
 
 /// The value that a |t| of `freedom` degrees exceeds with probability `significance`.
@@ -115,37 +125,23 @@ namespace {
 /// Cosine transforms of a series, of 1/2, 1, 3/2 ... cycles, each of the variance of a value where these are
 /// independent. Twelve contain correlation over a twentieth of the series; fewer of a short one.
 std::vector<double> cosines_of(const std::vector<double>& values) {
-  const double mean = mean_of(values), n = static_cast<double>(values.size());
-  const std::size_t count = std::clamp<std::size_t>(values.size() / 4, 2, 12);
-  std::vector<double> transforms;
-  for (std::size_t j = 1; j <= count; ++j) {
-    const double turn = pi<double>() * static_cast<double>(j) / n;
-    double sum = 0;
+  const auto deviations = deviations_of(values);
+  const double n = static_cast<double>(values.size());
+  std::vector<double> transforms(std::clamp<std::size_t>(values.size() / 4, 2, 12));
+  for (std::size_t j = 0; j < transforms.size(); ++j)
     for (std::size_t k = 0; k < values.size(); ++k)
-      sum += (values[k] - mean) * sin_cos(turn * (static_cast<double>(k) + 0.5)).cos;
-    transforms.push_back(sum * std::sqrt(2 / n));
-  }
+      transforms[j] +=
+          deviations[k] * std::sqrt(2 / n) *
+          sin_cos(pi<double>() * (static_cast<double>(j) + 1) / n * (static_cast<double>(k) + 0.5)).cos;
   return transforms;
-}
-
-/// Root mean square, without squares of small numbers.
-double size_of(const std::vector<double>& values, std::size_t first = 0) {
-  double largest = 0, sum = 0;
-  for (std::size_t k = first; k < values.size(); ++k) largest = std::max(largest, std::abs(values[k]));
-  if (!(largest > 0)) return 0;
-  for (std::size_t k = first; k < values.size(); ++k) sum += values[k] / largest * (values[k] / largest);
-  return largest * std::sqrt(sum / static_cast<double>(values.size() - first));
 }
 
 /// Third central moment over the cube of the standard deviation, for a sample.
 double skewness_of(const std::vector<double>& values) {
-  const double mean = mean_of(values), n = static_cast<double>(values.size());
-  std::vector<double> deviations;
-  for (const double v : values) deviations.push_back(v - mean);
-  const double size = size_of(deviations);
-  if (!(size > 0)) return 0;
+  const auto deviations = deviations_of(values);
+  const double n = static_cast<double>(values.size()), size = size_of(deviations);
   double cubes = 0;
-  for (const double d : deviations) cubes += d / size * (d / size) * (d / size);
+  for (const double d : deviations) cubes += size > 0 ? d / size * (d / size) * (d / size) : 0;
   return cubes / n * std::sqrt(n * (n - 1)) / (n - 2);
 }
 

@@ -22,24 +22,32 @@ class JsonFields {
   void operator()(std::string_view key, std::string_view, std::string_view, const auto& value) {
     json_.add(key, value);
   }
-  void group(std::string_view key, std::string_view, const auto& fill) { json_.group(key, fill); }
+  void group(std::string_view key, std::string_view, const auto& fill) {
+    json_.begin(key);
+    fill();
+    json_.end();
+  }
   /// A group for each item of a list. @param name_of  of an item @param fill  its fields
   void each(std::string_view key, std::string_view, const auto& list, const auto& name_of, const auto& fill) {
-    json_.groups(key, list, name_of, fill);
+    group(key, "", [&] {
+      for (const auto& item : list) group(std::invoke(name_of, item), "", [&] { fill(item); });
+    });
   }
   /// The same by number, from "1" on.
   void numbered(std::string_view key, std::string_view, const auto& list, const auto& fill) {
     std::size_t number = 0;
-    json_.groups(
-        key, list, [&](const auto&) { return std::to_string(++number); }, fill);
+    each(
+        key, "", list, [&](const auto&) { return std::to_string(++number); }, fill);
   }
   void texts(std::string_view key, std::string_view, const std::vector<std::string>& list) {
-    json_.numbered(key, list);
+    std::size_t number = 0;
+    by_name(
+        key, "", "", list, [&](const auto&) { return std::to_string(++number); }, std::identity());
   }
   /// Values by names that are not those of fields.
   void by_name(std::string_view key, std::string_view, std::string_view, const auto& list,
                const auto& name_of, const auto& value_of) {
-    json_.group(key, [&] {
+    group(key, "", [&] {
       for (const auto& item : list) json_.add(std::invoke(name_of, item), std::invoke(value_of, item));
     });
   }

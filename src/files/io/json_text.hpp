@@ -40,24 +40,6 @@ class JsonText {
     add(keys_and_values...);
     end();
   }
-  void group(std::string_view key, const auto& fill) {
-    begin(key);
-    fill();
-    end();
-  }
-  /// A group for each item of a list, within one. @param key_of  of an item @param fill  of its group
-  void groups(std::string_view key, const auto& list, const auto& key_of, const auto& fill) {
-    group(key, [&] {
-      for (const auto& item : list) group(std::invoke(key_of, item), [&] { fill(item); });
-    });
-  }
-  /// Texts by their numbers, from "1" on.
-  void numbered(std::string_view key, const std::vector<std::string>& texts) {
-    group(key, [&] {
-      for (std::size_t k = 0; k < texts.size(); ++k) add(std::to_string(k + 1), texts[k]);
-    });
-  }
-
   /// A text, flag, number, list of these, or null: for nothing, nan and infinity, which JSON does not have.
   template <class T>
   static std::string of(const T& value) {

@@ -1,6 +1,7 @@
 #include "app/variations.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,12 +21,6 @@ namespace {
 constexpr const char *restitution = "restitution", *friction = "friction",
                      *least_separation = "least separation speed";
 
-/// A case with other values.
-struct Varied {
-  Variation variation;
-  casefile::CaseSpec spec;
-};
-
 /// The sections of contact laws in which a case gives a number.
 std::vector<std::string> sections_with(const casefile::CaseSpec& spec, const std::string& number) {
   std::vector<std::string> candidates{"contact", "contact.ball_ball", "contact.ball_wall"}, found;
@@ -42,14 +37,16 @@ class Cases {
  public:
   explicit Cases(casefile::CaseSpec spec) : spec_(std::move(spec)) { spec_.outputs.clear(); }
 
-  std::vector<Varied> list;
+  std::vector<Variation> runs;
+  std::vector<casefile::CaseSpec> specs;  ///< of the same places
 
   void add(const std::string& what, const std::string& number, const std::vector<std::string>& settings) try {
     auto all = spec_.settings;
     all.insert(all.end(), settings.begin(), settings.end());
     auto varied = casefile::parse_case(spec_.text, spec_.file, all);
     varied.outputs.clear();
-    list.push_back({{what, number}, std::move(varied)});
+    runs.push_back({what, number});
+    specs.push_back(std::move(varied));
   } catch (const InputError&) {  // no such case
   }
   /// A number of all laws together, within what it can be.
@@ -57,7 +54,7 @@ class Cases {
     std::vector<std::string> settings;
     for (const auto& section : sections_with(spec_, number)) {
       const auto key = section + "." + number;
-      const double value = std::stod(casefile::value_of_key(spec_, key).number),
+      const double value = casefile::parse_decimal(casefile::value_of_key(spec_, key).number)->to<double>(),
                    shifted = std::clamp(value + by, 0.0, most);
       if (shifted != value) settings.push_back(fmt::format("{}={:.6g}", key, shifted));
     }
@@ -74,7 +71,6 @@ class Cases {
       settings.push_back(fmt::format("{}.least_separation=\"{} m/s\"", section, speed / 2));
     if (speed > 0 && !settings.empty()) add("half of the least separation speed", least_separation, settings);
   }
-  void add_seed() { add("another seed", "seed", {fmt::format("run.seed={}", spec_.seed + 1)}); }
 
  private:
   casefile::CaseSpec spec_;
@@ -87,11 +83,6 @@ std::optional<double> rate_of(const Variation& v) {
 std::optional<double> half_width_of(const Variation& v) { return v.record.facts.find(dose_rate().interval); }
 
 }  // namespace
-
-bool Variations::by_least_separation() const {
-  return std::ranges::any_of(runs,
-                             [](const Variation& v) { return v.number == least_separation && v.differs; });
-}
 
 std::string Variations::text() const {
   std::string out = "  dose rate of other runs\n";
@@ -114,38 +105,34 @@ std::string Variations::text() const {
     others.erase(number);
     unknown.erase(number);
   }
-  const auto list = [](const std::set<std::string>& names) {
-    std::string text;
-    for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
-    return text;
-  };
   if (low <= high)
     out += fmt::format("  restitution and friction are known to {:g}: {:.3g} to {:.3g} W\n", uncertainty, low,
                        high);
-  if (!deciding.empty()) out += fmt::format("  it depends on: {}\n", list(deciding));
-  if (!others.empty())
-    out += fmt::format("  it does not depend on, within the intervals: {}\n", list(others));
-  if (!unknown.empty())
-    out += fmt::format("  the runs are too short to show whether it depends on: {}\n", list(unknown));
+  const auto add = [&](const char* what, const std::set<std::string>& names) {
+    if (!names.empty()) out += fmt::format("  {}: {}\n", what, fmt::join(names, ", "));
+  };
+  add("it depends on", deciding);
+  add("it does not depend on, within the intervals", others);
+  add("the runs are too short to show whether it depends on", unknown);
   return out;
 }
 
 Variations vary(const casefile::CaseSpec& spec, const std::string& precision, const study::RunRecord& own,
                 double uncertainty, const std::atomic<bool>* interrupt) {
   Cases cases(spec);
-  cases.add_seed();
+  cases.add("another seed", "seed", {fmt::format("run.seed={}", spec.seed + 1)});
   cases.add_half_least_separation();
   for (const double by : {-uncertainty, uncertainty}) cases.add_shifted(restitution, by, 1);
   for (const double by : {-uncertainty, uncertainty}) cases.add_shifted(friction, by, INFINITY);
   std::vector<study::Job> jobs;
-  for (std::size_t k = 0; k < cases.list.size(); ++k)
-    jobs.push_back({.case_file = std::to_string(k), .overrides = {}, .digest = std::to_string(k)});
+  for (std::size_t k = 0; k < cases.specs.size(); ++k)
+    jobs.push_back({.case_file = spec.file, .overrides = {}, .digest = std::to_string(k)});
   study::Ranks ranks;
   std::atomic<bool> never = false;  // runs end by themselves when they are interrupted
   study::Executor executor(
       ranks, 0,
       [&](const study::Job& job) {
-        const auto& varied = cases.list[std::stoul(job.case_file)].spec;
+        const auto& varied = cases.specs[std::stoul(job.digest)];
         auto record = casefile::with_memory_for(varied, [&] {
           const auto run = run::make_run(precision, varied, {.interrupt = interrupt});
           run->finish();
@@ -156,7 +143,7 @@ Variations vary(const casefile::CaseSpec& spec, const std::string& precision, co
       },
       never);
   Variations found{.uncertainty = uncertainty, .runs = {{"the case as it is", "", own}}};
-  for (const auto& varied : cases.list) found.runs.push_back(varied.variation);
+  found.runs.insert(found.runs.end(), cases.runs.begin(), cases.runs.end());
   executor.run(
       jobs,
       [&](const study::RunRecord& record) {
@@ -164,14 +151,13 @@ Variations vary(const casefile::CaseSpec& spec, const std::string& precision, co
       },
       [] {});
   found.interrupted = interrupt && *interrupt;
+  const auto base = rate_of(found.runs[0]), width_of_base = half_width_of(found.runs[0]);
   for (auto& v : found.runs) {
-    const auto rate = rate_of(v), base = rate_of(found.runs[0]), width = half_width_of(v),
-               width_of_base = half_width_of(found.runs[0]);
+    const auto rate = rate_of(v), width = half_width_of(v);
     if (!rate || !base || !width || !width_of_base) continue;
-    constexpr double close = 0.05;  // of the dose rate
     const double both = std::hypot(*width, *width_of_base);
     v.differs = std::abs(*rate - *base) > both;
-    v.known = both < close * *base;
+    v.known = both < 0.05 * *base;
   }
   return found;
 }

@@ -24,8 +24,6 @@ struct Variations {
   std::vector<Variation> runs;  ///< first the case as it is
   bool interrupted = false;
 
-  /// Whether halving the least separation speed changes the dose rate.
-  bool by_least_separation() const;
   /// A table, and what decides the number in a sentence.
   std::string text() const;
 };

@@ -15,10 +15,10 @@ from .judges import (Agreement, Certification, CertifiedEvent, Derivative, Judge
                      audit, certify, check, check_certificate, compare, estimate, prove, sensitivity, shadow)
 from .machines import machines, new, variables
 from .runs import Interrupted, Run, read_run, report, resume, run
-from .studies import Seeds, Study, Variations, optimize, seeds, sweep, what_decides
+from .studies import Study, Variations, optimize, seeds, sweep, what_decides
 from .tables import Records
 from .values import Value
 
 __all__ = ["Agreement", "Case", "Certification", "CertifiedEvent", "ContactLaw", "Deck", "Derivative", "EditError", "Impact", "InputError", "Interrupted", "Judgement",
-           "Proof", "ProvenEvent", "Records", "Run", "Running", "Seeds", "Sensitivities", "Shadow", "Study", "UndecidedError", "Value", "Variations", "__version__", "audit", "certify", "check",
+           "Proof", "ProvenEvent", "Records", "Run", "Running", "Sensitivities", "Shadow", "Study", "UndecidedError", "Value", "Variations", "__version__", "audit", "certify", "check",
            "check_certificate", "compare", "estimate", "export", "import_dump", "limit", "machines", "new", "optimize", "prove", "read_run", "report", "resume", "run", "seeds", "sensitivity", "shadow", "sweep", "variables", "what_decides"]

@@ -21,8 +21,9 @@ from .values import Value
 class Study:
     """The tables of a study: `points` has a row for each point with means and intervals, `tables` all of them."""
 
-    def __init__(self, folder: pathlib.Path, name: str, failed: bool):
+    def __init__(self, folder: pathlib.Path, name: str, failed: bool, text: str = ""):
         self.folder, self.failed = folder, failed  #: whether any run failed
+        self.text = text  #: what several seeds say together: their dose rate, or each steady state with the number of its runs
         self.tables = Tables(folder)
         self.points: Records = self.tables[name]
         self.page = folder / f"{name}.html"  #: shows the points with their intervals
@@ -37,7 +38,7 @@ class Study:
         return f'<iframe srcdoc="{page}" style="width:100%;height:80vh;border:0"></iframe>'
 
     def __repr__(self) -> str:
-        return f"<edmill.Study in {self.folder}: {len(self.points)} points>"
+        return self.text or f"<edmill.Study in {self.folder}: {len(self.points)} points>"
 
 
 def _study(work, name: str, source: Any, folder: Any, jobs: int) -> Study:
@@ -88,26 +89,16 @@ def optimize(source: Mapping | str | os.PathLike, folder: str | os.PathLike, job
     return _study(_edmill.optimize, "optimize", source, folder, jobs)
 
 
-class Seeds(Study):
-    """Runs that differ by their seeds. `points` has one row, whose `states` says in how many steady states they settle."""
-
-    def __init__(self, folder: pathlib.Path, failed: bool, text: str):
-        super().__init__(folder, "seeds", failed)
-        self.text = text  #: what the seeds say together; where there are several states, each with the number of its runs
-
-    def __repr__(self) -> str:
-        return self.text
-
-
-def seeds(case: Case, count: int, folder: str | os.PathLike, precision: str | None = None, jobs: int = 0) -> Seeds:
-    """As `edmill run --seeds`: so many runs, with the seed of the case and the next ones."""
+def seeds(case: Case, count: int, folder: str | os.PathLike, precision: str | None = None, jobs: int = 0) -> Study:
+    """As `edmill run --seeds`: so many runs, with the seed of the case and the next ones. `points` has one row, whose `states` says
+    in how many steady states they settle."""
     case, count = case_of(case), whole("count", count, 2, 100000)
     with tempfile.NamedTemporaryFile("w", suffix=".toml", dir=".", encoding="utf-8") as file:
         file.write(case.text)
         file.flush()
         failed, text = _edmill.seeds(file.name, list(case.settings), precision or "", count, str(place("folder", folder)),
                                      whole("jobs", jobs, 0, 4096))
-    return Seeds(pathlib.Path(folder), failed, text)
+    return Study(pathlib.Path(folder), "seeds", failed, text)
 
 
 class Variations(dict):
