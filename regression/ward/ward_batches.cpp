@@ -68,12 +68,11 @@ void write(const io::Summary<double>& s, double length, const std::vector<Batche
   json.add("touched_impacts", s.touched_impacts);
   json.add("impacts_since_start", s.total_impacts);
   json.add("cpu_seconds", s.cpu_seconds);
-  json.group("batches", [&] {
-    json.add("milling_dose", list(totals, [](const auto& t) { return to_text<double>(t.milling_dose); }));
-    for (int k = 0; k < s.partners.count(); ++k)
-      json.add(s.partners[k].key,
-               list(totals, [k](const auto& t) { return std::to_string(t.collisions[k]); }));
-  });
+  json.begin("batches");
+  json.add("milling_dose", list(totals, [](const auto& t) { return to_text<double>(t.milling_dose); }));
+  for (int k = 0; k < s.partners.count(); ++k)
+    json.add(s.partners[k].key, list(totals, [k](const auto& t) { return std::to_string(t.collisions[k]); }));
+  json.end();
   std::cout << json.finish();
 }
 
