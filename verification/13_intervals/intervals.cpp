@@ -160,7 +160,7 @@ double cover(const Charge& charge, int periods, int runs) {
     auto settings = charge.settings;
     settings.push_back("run.seed=" + std::to_string(seed));
     settings.push_back(fmt::format("run.start_time={} s", charge.start));
-    settings.push_back(fmt::format("run.end_time={} s", charge.start + periods * charge.period));
+    settings.push_back(fmt::format("run.end_time={} s", charge.start + (periods + 1e-6) * charge.period));
     auto spec = casefile::read_case(EDMILL_SOURCE_DIR "/" + charge.file, settings);
     spec.outputs.clear();
     const auto s = simulated(spec, casefile::build_case<double>(spec));

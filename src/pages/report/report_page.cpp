@@ -67,10 +67,11 @@ void add_headline(pugi::xml_node main, const RunFolder& run) {
   }
   add_note(
       section,
-      any ? fmt::format("\u00b1: 95 % interval of this run, Student\u2019s t over {} batches of {} s, whole "
-                        "drive periods. It covers longer runs of the same mill; other seeds may settle at "
-                        "another mean (edmill sweep).",
-                        brief(f.number("intervals/batches")), readable(f.number("intervals/batch_length")))
+      any ? fmt::format(
+                "\u00b1: 95 % interval of this run, from {} batches of {} s, whole drive periods. It covers "
+                "longer runs of the same mill; other seeds may settle at another mean (edmill run --seeds "
+                "8).",
+                brief(f.number("intervals/batches")), readable(f.number("intervals/batch_length")))
           : "Too short for intervals: fewer than 5 drive periods.");
   if (const auto dose = f.find("target/dose"))
     add_note(section, f.find("target/milling_time")

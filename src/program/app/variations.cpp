@@ -106,8 +106,8 @@ std::string Variations::text() const {
     unknown.erase(number);
   }
   if (low <= high)
-    out += fmt::format("  restitution and friction are known to {:g}: {:.3g} to {:.3g} W\n", uncertainty, low,
-                       high);
+    out += fmt::format("  restitution and friction are known to {:g}: {:#.3g} to {:#.3g} W\n", uncertainty,
+                       low, high);
   const auto add = [&](const char* what, const std::set<std::string>& names) {
     if (!names.empty()) out += fmt::format("  {}: {}\n", what, fmt::join(names, ", "));
   };
