@@ -150,7 +150,7 @@ MISTAKES = {
         "restitution of walls alone": (lambda deck: re.subn(r"(?m)^(fix m3 .* 2 \S+) .*", r"\1 0.5 0.5 0.56", deck), E, None),
         "restitution of pairs alone": (lambda deck: re.subn(r"(?m)^(fix m3 .* 2) \S+", r"\1 0.65", deck), E_PAIRS, None),
         "speed of walls along y 5 % too small": (scaled(r"q3 equal \(([\d.]+)\)", 0.95), ("mill.amplitude.y", VELOCITY), 0.01045),
-        "walls that do not move": (scaled(r"q[135] equal \((-?[\d.]+)\)", 0), ("factor of mill.amplitude", VELOCITY), 0),
+        "walls that do not move": (scaled(r"q[135] equal \((-?[\d.]+)\)", 0), ("factor of mill.amplitude", "mill.amplitude.y", VELOCITY), 0),
         "no gravity": (replaced("fix weight all gravity 9.8 vector 0 -1 0\n", ""), GRAVITY, 0),
         "gravity along z": (replaced("vector 0 -1 0", "vector 0 0 -1"), GRAVITY, 0),
         "density 7800": (replaced("density 8000", "density 7800"), DENSITY, 0.975),
