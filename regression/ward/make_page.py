@@ -17,7 +17,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = pathlib.Path(__file__).resolve().parent / "page.md"  # the text, with {places} for tables and figures
 DETAILED = ("5g_5_9_52mm", "5g_2_5_4_76mm", "5g_2_5_3_16mm", "5g_2_5_2_36mm")
 OF_ALL = "t_c_5e-4", "lossless_5e-4"  # methods of the second program that all cases have
-VARIANTS = ROOT / "regression/ward/fixtures/variants.csv"  # by variants.py
+VARIANTS = ROOT / "regression/ward/variants.csv"  # by variants.py
 RULES = (  # method or variant, words
     (None, "edmill"), ("t_c_5e-4", "second program, t_c 0.5 ms in place of v_s"),
     ("lossless_5e-4", "second program, impacts within 0.5 ms of the last lose nothing"),
