@@ -120,7 +120,7 @@ class RunStatistics : public engine::Observer<Real> {
     if (balls_ <= few)
       found.several_states = "one or two balls often settle in one of several orbits";
     else if (repeats(found.dose_rate, static_cast<double>(batches.periods())))
-      found.several_states = "its impacts repeat";
+      found.several_states = "its dose is nearly the same in every period";
     else if (stay_apart(batches, place))
       found.several_states = "its balls do not change places: balls that are alike have different dose rates";
     return found;

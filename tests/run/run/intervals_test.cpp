@@ -1,6 +1,8 @@
 // Intervals of the rates of one run, the end of a run by its precision, and the milling time.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -112,6 +114,30 @@ TEST(Intervals, NothingThatCountsGivesNoMillingTime) {
   const auto s = summary_of(case_with("", "target_dose = \"1 J/kg\"\ncounts_above = \"1 kJ\"\n"));
   EXPECT_FALSE(s.milling_time().has_value());
   EXPECT_NE(io::summary_json(s).find("\"milling_time\": null"), std::string::npos);
+}
+
+/// The evidence of several states in 24 periods after the first 10. @param vessel  diameter and height [mm]
+std::string states_of(const std::string& mill, double period, std::array<double, 2> vessel, int balls,
+                      double diameter, int seed) {
+  const auto text = fmt::format(
+      "[run]\nstart_time = \"{} s\"\nend_time = \"{} s\"\ngravity = \"9.81 m/s2\"\nseed = {}\n[mill]\n{}\n"
+      "[vessel]\ndiameter = \"{} mm\"\nheight = \"{} mm\"\n[contact]\nrestitution = 0.8\nfriction = 0.4\n"
+      "[[balls]]\ncount = {}\ndiameter = \"{} mm\"\n",
+      10 * period, 34 * period, seed, mill, vessel[0], vessel[1], balls, diameter);
+  return summary_of(casefile::parse_case(text, "test.toml")).intervals.several_states;
+}
+
+TEST(Intervals, ChargesThatDoNotMixAreOfSeveralStates) {
+  const auto in_spex = [](int balls, int seed) {
+    return states_of("type = \"spex8000\"\nspeed = \"1054 rpm\"", 60.0 / 1054, {38, 57}, balls, 6, seed);
+  };
+  for (const int seed : {1, 2, 3}) {
+    for (const int balls : {3, 7, 28}) EXPECT_EQ(in_spex(balls, seed), "") << balls << " " << seed;
+    EXPECT_NE(in_spex(1, seed).find("one or two balls"), std::string::npos) << seed;
+    // Large balls in a slow drum lie side by side, each in its place.
+    const auto in_drum = states_of("type = \"drum\"\nspeed = \"100 rpm\"", 0.6, {100, 60}, 14, 12.7, seed);
+    EXPECT_NE(in_drum, "") << seed;
+  }
 }
 
 TEST(Intervals, StandInTheSummaryWithTheWarnings) {

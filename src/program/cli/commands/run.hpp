@@ -163,7 +163,8 @@ class RunCommand {
   }
 };
 
-/// Tells of a study. @return an exit code; `ok` for an interrupted one too, whose signal the caller knows
+/// Prints the outcome of a study. @return an exit code; `ok` after an interrupt too, whose signal the caller
+/// knows
 inline int end_of_study(const std::optional<app::StudyResult>& result, bool quiet) {
   if (!result) return ok;
   if (!result->estimate.empty()) {

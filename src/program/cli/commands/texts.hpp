@@ -173,7 +173,7 @@ inline std::string reference(const CLI::App& app) {
          "## Keys of summary.json\n\nThe result of a run; docs/files.md says how to read it.\n\n" +
          io::summary_reference() +
          "\n## Keys of documents\n\nWhat `--json FILE` writes, SI; values that do not exist are null, and "
-         "`*` stands for a name or a number.\n\n" +
+         "`*` is any name or number.\n\n" +
          app::document_keys();
 }
 
