@@ -469,8 +469,8 @@ ContactAudit audit_contacts(const casefile::CaseSpec& spec, const std::string& f
     if (meets && at_walls.size() < enough) at_walls.push_back(c);
   }
   drop_pairs(at_walls);
-  audit.dose_rate = rate.mean();
-  audit.dose_rate_half_width = rate.half_width();
+  audit.dose_rate = *rate.estimate().mean;
+  audit.dose_rate_half_width = *rate.estimate().half_width;
   judge_laws(walls, Judged::Of::walls, audit);
   judge_laws(balls, Judged::Of::balls, audit);
   judge_wall_velocity(walls, audit);

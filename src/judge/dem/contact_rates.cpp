@@ -51,8 +51,9 @@ ContactRates rates_of(const std::string& log, const char* what, double first, do
   if (!window.compared && durations.size() < 20)
     throw InputError(
         fmt::format("{}: found {} single {} with walls, expected at least 20", log, durations.size(), what));
-  r.dose_rate = rate.mean();
-  r.half_width = rate.half_width();
+  const auto estimate = rate.estimate();
+  r.dose_rate = *estimate.mean;
+  r.half_width = *estimate.half_width;
   r.contact_time = numerics::median_of(std::move(durations)).value;
   r.single_rate = static_cast<double>(singles) / (r.last - r.first);
   r.grouped = all > 0 ? grouped / all : 0;

@@ -2,17 +2,16 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "base/statistics.hpp"
 
 namespace edmill::dem {
 
-/// From batches of equal duration.
+/// From batches of equal duration, of which neighbours may be correlated.
 class DoseRate {
  public:
-  static constexpr std::size_t batches = 24;
+  static constexpr std::size_t batches = 64;
 
   /// @param first, last  of the record [s]
   DoseRate(double first, double last) : first_(first), length_((last - first) / batches), rates_(batches) {}
@@ -22,9 +21,7 @@ class DoseRate {
     if (place >= 0) rates_[static_cast<std::size_t>(std::min(place, batches - 1.0))] += dose / length_;
   }
   /// [W]
-  double mean() const { return *numerics::estimate(rates_).mean; }
-  /// Half of the width of the 95 % interval [W].
-  double half_width() const { return *numerics::estimate(rates_).half_width; }
+  numerics::Estimate estimate() const { return numerics::series_estimate(rates_); }
 
  private:
   double first_, length_;

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 
 #include "base/clean_text.hpp"
 #include "base/errors.hpp"
@@ -86,7 +86,8 @@ std::optional<double> half_width_of(const Variation& v) { return v.record.facts.
 
 std::string Variations::text() const {
   std::string out = "  dose rate of other runs\n";
-  std::set<std::string> deciding, others, unknown;
+  enum Shown { without_effect, unknown, deciding };
+  std::map<std::string, Shown> shown;  // by number that a run varies
   double low = INFINITY, high = -INFINITY;
   for (const auto& v : runs) {
     const auto rate = rate_of(v);
@@ -94,26 +95,26 @@ std::string Variations::text() const {
                        rate ? with_interval(*rate, half_width_of(v)) + " W" : "no result",
                        v.differs ? "differs" : "");
     if (!rate) continue;
-    if (!v.number.empty()) (v.differs ? deciding : v.known ? others : unknown).insert(v.number);
+    if (!v.number.empty())
+      shown[v.number] = std::max(shown[v.number], v.differs ? deciding : v.known ? without_effect : unknown);
     if (v.number.empty() || v.number == restitution || v.number == friction) {
       low = std::min(low, *rate);
       high = std::max(high, *rate);
     }
   }
-  for (const auto& number : unknown) others.erase(number);
-  for (const auto& number : deciding) {
-    others.erase(number);
-    unknown.erase(number);
-  }
   if (low <= high)
     out += fmt::format("  restitution and friction are known to {:g}: {:#.3g} to {:#.3g} W\n", uncertainty,
                        low, high);
-  const auto add = [&](const char* what, const std::set<std::string>& names) {
-    if (!names.empty()) out += fmt::format("  {}: {}\n", what, fmt::join(names, ", "));
-  };
-  add("it depends on", deciding);
-  add("it does not depend on, within the intervals", others);
-  add("the runs are too short to show whether it depends on", unknown);
+  constexpr std::pair<Shown, const char*> sentences[] = {
+      {deciding, "it depends on"},
+      {without_effect, "it does not depend on, within the intervals"},
+      {unknown, "the runs are too short to show whether it depends on"}};
+  for (const auto& [which, text] : sentences) {
+    std::vector<std::string> names;
+    for (const auto& [number, what] : shown)
+      if (what == which) names.push_back(number);
+    if (!names.empty()) out += fmt::format("  {}: {}\n", text, fmt::join(names, ", "));
+  }
   return out;
 }
 
