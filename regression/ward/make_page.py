@@ -8,6 +8,7 @@ import json
 import pathlib
 import sys
 
+import chapter_4
 import fixture_log
 import fixture_statistics as fixtures
 import svg
@@ -15,25 +16,18 @@ import tables
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = pathlib.Path(__file__).resolve().parent / "page.md"  # the text, with {places} for tables and figures
-DETAILED = ("5g_5_9_52mm", "5g_2_5_4_76mm", "5g_2_5_3_16mm", "5g_2_5_2_36mm")
-OF_ALL = "t_c_5e-4", "lossless_5e-4"  # methods of the second program that all cases have
 VARIANTS = ROOT / "regression/ward/variants.csv"  # by variants.py
+REVERSED = "always_reversed"
 RULES = (  # method or variant, words
-    (None, "edmill"), ("t_c_5e-4", "second program, t_c 0.5 ms in place of v_s"),
+    (None, "edmill, the printed friction law"), (REVERSED, "edmill, e_t = -1 in all impacts"),
+    ("inverted_ratio", "edmill, the ratio in (2.24) inverted"),
+    ("t_c_5e-4", "second program, t_c 0.5 ms"),
     ("lossless_5e-4", "second program, impacts within 0.5 ms of the last lose nothing"),
     ("arm_9_cm", "edmill, arm 9 cm for 10 cm"), ("swings_13.5_deg", "edmill, both swings 13.5 deg for 15 deg"),
     ("friction_0.2", "edmill, friction 0.2 for 0.4"), ("friction_0.8", "edmill, friction 0.8"),
     ("no_friction", "edmill, no friction"),
 )
-METHODS = (
-    (None, "edmill, v_s 1 cm/s"), ("control", "second program, exact search, v_s 1 cm/s (control)"),
-    ("t_c_1e-4", "t_c 0.1 ms in place of v_s"), ("t_c_3e-4", "t_c 0.3 ms"), ("t_c_5e-4", "t_c 0.5 ms"),
-    ("t_c_1e-3", "t_c 1 ms"), ("t_c_2e-3", "t_c 2 ms"),
-    ("lossless_5e-4", "impacts within 0.5 ms of the last lose nothing"),
-    ("lossless_1e-3", "impacts within 1 ms of the last lose nothing"),
-    ("passed_through", "walls ignored for 0.5 ms after an impact"),
-    ("stepped", "stepped search"), ("stepped_put_back", "stepped search, ball put back on the wall"),
-)
+LAWS = ("thesis", "thesis"), ("as_it_is", "printed law"), (REVERSED, "e_t = -1"), ("inverted_ratio", "ratio inverted")
 
 
 def read(name):
@@ -48,6 +42,7 @@ class Data:
         self.replicas = [row for row in read(fixtures.REPLICAS) if row["case"] == fixtures.SINGLE_BALL]
         self.emulation = {(row["case"], row["method"]): row for row in read(fixtures.EMULATION)}
         self.emulation |= {(row["case"], row["variant"]): row for row in read(VARIANTS)}
+        self.chapter_4 = {(row["law"], row["wall"]): row for row in read("regression/ward/chapter_4.csv")}
 
     def inverse(self, case, method=None):
         """@return mean and half width [s/J]"""
@@ -73,12 +68,12 @@ def inverse_table(data):
         mean, half = data.inverse(case)
         row = [case.powder, case.charge_ratio, case.diameter, case.count, case.restitution]
         if case.count == 1:
-            rows.append(row + ["see below", "", case.thesis_inverse, "", "", ""])
+            rows.append(row + ["see below", "", case.thesis_inverse, "", ""])
             continue
         rows.append(row + [f"{mean:.4f}", f"{100 * half / mean:.2f} %", case.thesis_inverse, f"{case.thesis_inverse / mean:.3f}",
-                           *(f"{case.thesis_inverse / data.inverse(case, method)[0]:.3f}" for method in OF_ALL)])
+                           f"{case.thesis_inverse / data.inverse(case, REVERSED)[0]:.3f}"])
     return table(["powder [g]", "charge ratio", "diameter [mm]", "balls", "e", "edmill [s/J]", "± 95 %", "thesis [s/J]",
-                  "thesis / edmill", "thesis / second program, t_c 0.5 ms", "thesis / second program, no loss within 0.5 ms"], rows)
+                  "thesis / edmill", "thesis / edmill with e_t = -1"], rows)
 
 
 def rate_table(data):
@@ -93,17 +88,18 @@ def rate_table(data):
                   "thesis / second program"], rows)
 
 
-def method_table(data):
-    cases = [case for name in DETAILED for case in data.cases if case.name == name]
-    rows = [["**thesis, table 5.5**", *(f"**{case.thesis_inverse}**" for case in cases), f"**{cases[1].thesis_rate}**"]]
-    for method, words in METHODS:
-        cells = ["{:.4f} ± {:.4f}".format(*data.inverse(case, method)) if not method or (case.name, method) in data.emulation
-                 else "not run"
-                 for case in cases]
-        rows.append([words, *cells,
-                     f"{data.rate(cases[1], method):.0f}"])
-    return table(["inverse dose rate [s/J]", *(f"{case.count} x {case.diameter} mm" for case in cases),
-                  "collisions/s of 28 balls"], rows)
+def log_table(data):
+    return table(["time [s]", "dose [J]", "work of the wall [J]", "largest by the printed law [J]"],
+                 [[f"{time:.4f}", f"{dose:.3e}", f"{work:.4f}", f"{chapter_4.largest_work(time, dose):.4f}"] for time, work, dose in chapter_4.LOG])
+
+
+def chapter_4_table(data):
+    rows = []
+    for wall in chapter_4.WALLS:
+        for law, words in LAWS:
+            row = data.chapter_4[law, wall]
+            rows.append([wall, words, *(row[f"from_{k}_m_s"] for k in chapter_4.SPEEDS[1:]), f"({row['dose']})"])
+    return table(["wall", "law", *(f"{k} to {k + 1} m/s" for k in chapter_4.SPEEDS[1:]), "dose"], rows)
 
 
 def single_table(data):
@@ -118,18 +114,14 @@ def span(values, form):
     return f"{min(values):{form}} to {max(values):{form}}"
 
 
-def diameter_table(data):
-    rows = []
-    for diameter in reversed(tables.DIAMETERS):
-        cases = [case for case in data.many() if case.diameter == diameter]
-        rates = [case.thesis_rate / data.rate(case, "t_c_5e-4") for case in cases if case.thesis_rate]
-        rows.append([f"{diameter} mm", ratios(data, cases), ratios(data, cases, "t_c_5e-4"), span(rates, ".2f")])
-    return table(["", "inverse dose rate, thesis / edmill", "thesis / second program, t_c 0.5 ms",
-                  "collision rate, thesis / second program"], rows)
-
-
 def ratios(data, cases, method=None):
     return span((case.thesis_inverse / data.inverse(case, method)[0] for case in cases), ".2f")
+
+
+def percents(data, chosen):
+    """How much the thesis's inverse dose rates exceed those with e_t = -1."""
+    excess = [100 * (case.thesis_inverse / data.inverse(case, REVERSED)[0] - 1) for case in data.many() if chosen(case)]
+    return span(excess, ".1f") + " %"
 
 
 def rule_table(data):
@@ -149,11 +141,15 @@ def words(data):
     source = next(entry for entry in reversed(entries) if "statistics" in entry)
     cpu = source["statistics"]["cpu_seconds"]
     return {
-        "inverse_table": inverse_table(data), "rate_table": rate_table(data), "method_table": method_table(data),
+        "inverse_table": inverse_table(data), "rate_table": rate_table(data), "log_table": log_table(data),
+        "chapter_4_table": chapter_4_table(data), "deviation": data.chapter_4[REVERSED, "cap 0"]["dose_deviation"],
+        "seeds": len(chapter_4.SEEDS), "seconds": chapter_4.END - chapter_4.START,
+        "reversed_9_52": percents(data, lambda case: case.diameter == "9.52"), "reversed_others": percents(data, lambda case: case.diameter != "9.52"),
+        "reversed_single": f"{chapter_4.SECONDS / sum(float(data.chapter_4[REVERSED, wall]['dose']) for wall in chapter_4.WALLS):.3f} s/J",
         "single_table": single_table(data), "ratios": ratios(data, data.many()),
         "worst_interval": f"{max(100 * h / m for m, h in map(data.inverse, data.many())):.2f}",
         "closure": max((data.statistics[case.name]["largest_energy_closure"] for case in data.many()), key=float),
-        "diameter_table": diameter_table(data), "rule_table": rule_table(data),
+        "rule_table": rule_table(data),
         "least_alike": f"{min(float(data.statistics[c.name]['replicas_alike_p']) for c in data.many()):.3f}",
         "date": source["date"], "commit": source["statistics"]["commit"], "compiler": source["statistics"]["compiler"],
         "cpu": f"{cpu} s",
@@ -204,9 +200,9 @@ def specific_figure(data):
 
 
 def ratio_figure(data):
-    """Thesis over edmill, and over the second program with a collapse time of 0.5 ms, by restitution."""
+    """Thesis over edmill with the printed friction law and with e_t = -1, by restitution."""
     panels = []
-    for method, title in ((None, "edmill"), ("t_c_5e-4", "second program, t_c 0.5 ms")):
+    for method, title in ((None, "edmill"), (REVERSED, "edmill, e_t = -1")):
         panel = svg.Panel(title, "normal restitution", "inverse dose rate, thesis / computed",
                           (0.45, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85), (0.9, 1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6))
         for k, diameter in enumerate(tables.DIAMETERS):

@@ -172,7 +172,8 @@ double cover(const Charge& charge, int periods, int runs) {
       rates[key].rates.push_back(*value);
       rates[key].half_widths.push_back(*width);
     };
-    for (const auto* key : {"milling_dose_rate", "inverse_milling_dose_rate", "wall_work_rate"})
+    for (const auto* key :
+         {"milling_dose_rate", "inverse_milling_dose_rate", "wall_work_rate", "fast_impact_rate"})
       add(key, key);
     for (const auto& partner : facts.keys_of("impact_rate"))
       add("impacts, " + partner, "impact_rate/" + partner);

@@ -32,7 +32,6 @@ struct Mill {
   double ball_radius = 0, density = 8000, inertia = 0.4, restitution = 0, friction = 0.4;
   double collapse_time = 1e-4;   // an impact within this time of the last one of either body has e = 1
   double least_separation = 0;   // least speed at which bodies separate [m/s]
-  double hop_friction = 1;       // share of mu in impacts that separate at the least separation speed
   std::string search = "exact";  // or "stepped"
   double step = 1e-2, tolerance = 1e-5, factor = 2, refinements = 12;  // of the stepped search
   double put_back = 0;     // stepped search: 1 to put a ball back on the wall's surface at an impact
@@ -282,8 +281,7 @@ class SteppedMill {
     const bool smooth = within(m_.smooth_time, a, b);
     const double e = smooth || within(m_.collapse_time, a, b) ? 1 : m_.restitution;
     const double leave = std::max(e * approach, m_.least_separation), impulse = approach + leave;
-    const double mu = m_.friction * (leave > e * approach ? m_.hop_friction : 1);
-    const double et = smooth ? 1 : slip > 0 ? std::max(-1.0, 1 - mu * impulse * c / slip) : -1;
+    const double et = smooth ? 1 : slip > 0 ? std::max(-1.0, 1 - m_.friction * impulse * c / slip) : -1;
     const Vec change = (n * impulse - gt * ((1 - et) / c)) * share;
     const Vec turn = cross(n, gt) * (share * (1 - et) / (c * R * J));
     const double depth = b || m_.put_back == 0 ? 0 : gaps(m_, {ra, va, now_}, 0)[next.partner].value;
@@ -314,7 +312,6 @@ int main(int argc, char** argv) try {
                                                   {"--batch", &batch},
                                                   {"--collapse-time", &mill.collapse_time},
                                                   {"--least-separation", &mill.least_separation},
-                                                  {"--hop-friction", &mill.hop_friction},
                                                   {"--ignore", &mill.ignore},
                                                   {"--step", &mill.step},
                                                   {"--tolerance", &mill.tolerance},

@@ -58,6 +58,8 @@ struct FieldList {
               by_partner("1/s", [&](std::size_t k) { return per_second(Real(number(s.impacts[k]))); });
               v("total", "1/s", "of all", per_second(Real(number(s.impacts_counted()))));
             });
+    v("fast_impact_rate", "1/s", "of impacts that approach at more than 1 m/s",
+      per_second(Real(number(s.fast_impacts))));
     v("milling_dose", "J", "energy dissipated by all impacts", s.milling_dose);
     v("milling_dose_rate", "W", "", per_second(s.milling_dose));
     v("inverse_milling_dose_rate", "s/J", "null without a dose",
@@ -117,6 +119,7 @@ struct FieldList {
             by_partner("1/s", [&](std::size_t k) { return i.impact_rates[k].half_width; });
             v("total", "1/s", "of all", i.impact_rate.half_width);
           });
+          v("fast_impact_rate", "1/s", "", i.fast_impact_rate.half_width);
           v.group("milling_dose_rate_by_partner", "", [&] {
             by_partner("W", [&](std::size_t k) { return i.dose_rates[k].half_width; });
             v("total", "W", "of all", i.dose_rate.half_width);

@@ -30,6 +30,7 @@ struct Provenance {
 /// separation speed does not decide: contacts at rest come in bursts whose rate a run does not know.
 struct Intervals {
   static constexpr std::size_t fewest = 5;
+  static constexpr int fast = 1;  ///< approach speed beyond which impacts are counted by themselves [m/s]
 
   /// A rate in each batch, and the half-width of its mean.
   struct Rate {
@@ -41,7 +42,7 @@ struct Intervals {
   std::size_t batches = 0;
   double batch_length = 0;                     ///< [s]
   std::vector<Rate> impact_rates, dose_rates;  ///< with each partner
-  Rate impact_rate, dose_rate, wall_work_rate, counted_dose_rate;
+  Rate impact_rate, fast_impact_rate, dose_rate, wall_work_rate, counted_dose_rate;
   std::string several_states;  ///< why the charge may settle in another state with another seed; mostly empty
 
   bool any() const { return batches >= fewest; }
@@ -71,6 +72,7 @@ struct Summary {
   model::Partners partners;
   std::vector<std::uint64_t> collisions;  ///< with each partner
   std::vector<std::uint64_t> impacts;     ///< of these, not at rest
+  std::uint64_t fast_impacts = 0;         ///< above `Intervals::fast`
   std::vector<Real> dose_by_partner;      ///< [J]
   Real milling_dose{0}, wall_work{0};     ///< [J]
   model::Energy<Real> energy_at_start, energy_at_end;

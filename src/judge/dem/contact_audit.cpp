@@ -10,7 +10,7 @@
 #include "base/errors.hpp"
 #include "base/statistics.hpp"
 #include "decks/soft_contact.hpp"
-#include "dem/dose_rate.hpp"
+#include "dem/contact_rates.hpp"
 #include "identify/assumed.hpp"
 
 namespace edmill::dem {

@@ -10,7 +10,6 @@
 #include "base/errors.hpp"
 #include "compare/junit.hpp"
 #include "dem/contacts.hpp"
-#include "dem/dose_rate.hpp"
 #include "io/fields.hpp"
 #include "logs/event_log.hpp"
 #include "plot/chart.hpp"

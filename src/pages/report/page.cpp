@@ -130,7 +130,7 @@ std::vector<MainRate> main_rates(const io::Facts& f) {
           {"specific milling dose rate", "W/kg", rate_in(f, "specific_milling_dose_rate")},
           {"milling time", "h", time},
           {"power from the walls", "W", rate_in(f, "wall_work_rate")},
-          {"impacts", "1/s", rate_in(f, "impact_rate/total")}};
+          {"impacts above 1 m/s", "1/s", rate_in(f, "fast_impact_rate")}};
 }
 
 std::string capitalised(std::string text) {

@@ -43,7 +43,8 @@ std::string rate_rows(const Facts& f) {
        {std::tuple{"milling dose rate", "milling_dose_rate", "W"},
         std::tuple{"inverse milling dose rate", "inverse_milling_dose_rate", "s/J"},
         std::tuple{"wall work rate", "wall_work_rate", "W"},
-        std::tuple{"specific milling dose rate", "specific_milling_dose_rate", "W/kg"}})
+        std::tuple{"specific milling dose rate", "specific_milling_dose_rate", "W/kg"},
+        std::tuple{"impacts above 1 m/s", "fast_impact_rate", "1/s"}})
     if (const auto rate = f.find(key))
       out += row_text(name, with_interval(*rate, f.find(std::string("intervals/") + key)) + " " + unit);
   return out;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +10,7 @@
 
 #include "base/clean_text.hpp"
 #include "base/errors.hpp"
-#include "casefile/memory_for.hpp"
 #include "run/any_run.hpp"
-#include "study/executor.hpp"
 #include "study/study.hpp"
 
 namespace edmill::app {
@@ -125,32 +124,16 @@ Variations vary(const casefile::CaseSpec& spec, const std::string& precision, co
   cases.add_half_least_separation();
   for (const double by : {-uncertainty, uncertainty}) cases.add_shifted(restitution, by, 1);
   for (const double by : {-uncertainty, uncertainty}) cases.add_shifted(friction, by, INFINITY);
-  std::vector<study::Job> jobs;
-  for (std::size_t k = 0; k < cases.specs.size(); ++k)
-    jobs.push_back({.case_file = spec.file, .overrides = {}, .digest = std::to_string(k)});
-  study::Ranks ranks;
-  std::atomic<bool> never = false;  // runs end by themselves when they are interrupted
-  study::Executor executor(
-      ranks, 0,
-      [&](const study::Job& job) {
-        const auto& varied = cases.specs[std::stoul(job.digest)];
-        auto record = casefile::with_memory_for(varied, [&] {
-          const auto run = run::make_run(precision, varied, {.interrupt = interrupt});
-          run->finish();
-          return study::record_of(run->facts());
-        });
-        record.digest = job.digest;
-        return record;
-      },
-      never);
   Variations found{.uncertainty = uncertainty, .runs = {{"the case as it is", "", own}}};
   found.runs.insert(found.runs.end(), cases.runs.begin(), cases.runs.end());
-  executor.run(
-      jobs,
-      [&](const study::RunRecord& record) {
-        if (!record.digest.empty()) found.runs[1 + std::stoul(record.digest)].record = record;
-      },
-      [] {});
+  tbb::parallel_for(std::size_t{0}, cases.specs.size(), [&](std::size_t k) {
+    try {
+      const auto run = run::make_run(precision, cases.specs[k], {.interrupt = interrupt});
+      run->finish();
+      found.runs[1 + k].record = study::record_of(run->facts());
+    } catch (const std::exception&) {  // it has no result
+    }
+  });
   found.interrupted = interrupt && *interrupt;
   const auto base = rate_of(found.runs[0]), width_of_base = half_width_of(found.runs[0]);
   for (auto& v : found.runs) {

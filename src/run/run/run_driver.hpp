@@ -258,6 +258,7 @@ io::Summary<Real> summary_of(const casefile::CaseSpec& spec, const casefile::Ini
   }
   summary.milling_dose = statistics.milling_dose();
   summary.wall_work = statistics.wall_work();
+  summary.fast_impacts = statistics.count(&Totals::fast);
   summary.touched_impacts = statistics.count(&Totals::touched);
   summary.touched_dose = statistics.sum(&Totals::touched_dose);
   summary.supplied_energy = statistics.supplied_energy();

@@ -24,10 +24,12 @@ class RunStatistics : public engine::Observer<Real> {
     std::uint64_t collisions = 0;
     std::uint64_t touched = 0;   ///< by the least separation speed
     std::uint64_t in_stall = 0;  ///< friction rested
+    std::uint64_t fast = 0;      ///< above io::Intervals::fast
     numerics::CompensatedSum<Real> milling_dose, touched_dose, stall_dose, supplied_energy, wall_work;
 
     void archive(Archive& a) {
-      a(collisions, touched, in_stall, milling_dose, touched_dose, stall_dose, supplied_energy, wall_work);
+      a(collisions, touched, in_stall, fast, milling_dose, touched_dose, stall_dose, supplied_energy,
+        wall_work);
     }
   };
 
@@ -49,6 +51,7 @@ class RunStatistics : public engine::Observer<Real> {
     Totals& t = impact.with_wall ? totals_[impact.partner] : totals_.back();
     const auto& outcome = impact.outcome;
     ++t.collisions;
+    if (outcome.approach_speed > io::Intervals::fast) ++t.fast;
     t.milling_dose += outcome.milling_dose;
     if (!counts_.all()) counted_dose_ += counts_.of(outcome);
     if (impact.with_wall) t.wall_work += outcome.wall_work;
@@ -113,6 +116,7 @@ class RunStatistics : public engine::Observer<Real> {
       found.dose_rates.push_back(next());
     }
     found.impact_rate = next();
+    found.fast_impact_rate = next();
     found.dose_rate = next();
     found.wall_work_rate = next();
     found.counted_dose_rate = next();
@@ -173,8 +177,8 @@ class RunStatistics : public engine::Observer<Real> {
       dose += now.back();
       work += static_cast<double>(t.wall_work.value());
     }
-    now.insert(now.end(),
-               {impacts, dose, work, counts_.all() ? dose : static_cast<double>(counted_dose_.value())});
+    now.insert(now.end(), {impacts, static_cast<double>(count(&Totals::fast)), dose, work,
+                           counts_.all() ? dose : static_cast<double>(counted_dose_.value())});
     now.insert(now.end(), doses_.begin(), doses_.end());
     return now;
   }

@@ -29,13 +29,14 @@ Summary<Real> whole_summary() {
   s.escalations = {{"float128", 1, 2, 3}, {"rule", 0, 0, 1}};
   s.powder_mass = Real(1) / 250, s.ball_mass = Real(1) / 50;
   s.simultaneous_contacts = 2, s.deepest_overlap = Real(1) / 3000000, s.cpu_seconds = 0.5,
-  s.total_impacts = 8;
+  s.total_impacts = 8, s.fast_impacts = 4;
   s.notes = {{"fastest", Real(2) / 3}};
   s.intervals = {5,
                  0.4,
                  {{{1, 2}, 0.1}, {{}, 0.2}, {{}, 0.3}},
                  {{{}, 0.4}, {{}, 0.5}, {{}, 0.6}},
                  {{}, 0.7},
+                 {{}, 0.75},
                  {{1, 2, 3, 4, 5}, 0.8},
                  {{}, 0.9},
                  {{}, 1},
