@@ -85,6 +85,7 @@ std::vector<Quantity> quantities(int walls) {
       {"inverse_milling_dose_rate", "inverse_milling_dose_rate", "intervals/inverse_milling_dose_rate"}};
   list.insert(list.end(), shown.begin(), shown.end());
   list.push_back({"wall_work_rate", "wall_work_rate", "intervals/wall_work_rate"});
+  list.push_back({"fast_impact_rate", "fast_impact_rate", "intervals/fast_impact_rate"});
   const auto add = [&](const std::string& partner) {
     list.push_back({"collision_rate_" + partner, "collision_rate/" + partner});
     list.push_back({"impact_rate_" + partner, "impact_rate/" + partner, "intervals/impact_rate/" + partner});

@@ -52,14 +52,15 @@ def test_program_page_python_and_sweep_have_the_same_numbers(case, tmp_path, pro
     sweep = edmill.sweep({"sweep": {"case": str(file)}}, tmp_path / "sweep").points[0]
     assert sweep["done"] == 1 and sweep["states"] == 1
     for key, value in (("milling_dose_rate", run.dose_rate), ("specific_milling_dose_rate", run.specific_dose_rate),
-                       ("wall_work_rate", run.wall_power), ("milling_time", run.milling_time), ("impact_rate_total", run.impact_rates["total"])):
+                       ("wall_work_rate", run.wall_power), ("milling_time", run.milling_time),
+                       ("fast_impact_rate", run.fast_impact_rate), ("impact_rate_total", run.impact_rates["total"])):
         path = {"impact_rate_total": "impact_rate/total"}.get(key, key).split("/")
         if key != "milling_time":
             number, width = summary, summary["intervals"]
             for name in path:
                 number, width = number[name], width[name]
             assert (number, width) == (value, value.half_width), key
-            assert f"{number!r}" in page or f"{number:.17g}" in page or key == "wall_work_rate", key
+            assert f"{number!r}" in page or f"{number:.17g}" in page or key in ("wall_work_rate", "impact_rate_total"), key
         assert sweep[key] == pytest.approx(value, rel=1e-14) and sweep[key + "_ci95"] == pytest.approx(value.half_width, rel=1e-12), key
         if key != "milling_time":
             assert repr(value) in table, key
@@ -72,6 +73,24 @@ def test_program_page_python_and_sweep_have_the_same_numbers(case, tmp_path, pro
     assert answer.splitlines()[0] == seeds.text.splitlines()[0]
     value = edmill.Value(row["milling_dose_rate"], row["milling_dose_rate_ci95"])
     assert repr(value) in answer and repr(value) in seeds.page.read_text()
+
+
+def test_fast_impacts_are_those_of_a_table_of_speeds(case, tmp_path):
+    summary = edmill.run(case).summary
+    table = f'''[[output]]
+type = "frequency"
+variable = "relative_normal_speed_before"
+low = "1 m/s"
+high = "100 m/s"
+intervals = 1
+start_time = "{summary['start_time']} s"
+'''
+    file = tmp_path / "a.toml"
+    file.write_text(case.text + table)
+    edmill.run(edmill.Case(file), folder=tmp_path / "run")
+    number = (tmp_path / "run/frequency.csv").read_text().splitlines()[-1].split(",")[-1]
+    assert int(number) > 100
+    assert summary["fast_impact_rate"] == pytest.approx(int(number) / summary["duration"], rel=1e-14)
 
 
 def test_what_decides_names_every_run(case):

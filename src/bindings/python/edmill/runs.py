@@ -90,6 +90,11 @@ class Run:
         """Work of the walls per time [W]."""
         return self._value("wall_work_rate")
 
+    @property
+    def fast_impact_rate(self) -> Value | None:
+        """Impacts per second that approach at more than 1 m/s."""
+        return self._value("fast_impact_rate")
+
     def _rates(self, kind: str) -> dict[str, Value]:
         widths = self.summary["intervals"].get(kind, {})
         return {name: Value(rate, widths.get(name)) for name, rate in self.summary[kind].items() if rate is not None}
