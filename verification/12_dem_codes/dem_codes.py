@@ -157,7 +157,9 @@ MISTAKES = {
         "density 7800": (replaced("density 8000", "density 7800"), DENSITY, 0.975),
         "friction 0.3": (replaced("peratomtypepair 2 0.4 0.4 0.4 0.4", "peratomtypepair 2 0.3 0.3 0.3 0.3"), MU, 0.3),
         "no friction": (replaced("tangential history", "tangential no_history"), ("stopping friction at walls", MU), None),
-        "speed 1 % too large": (replaced("376.99111843077515", "380.761"), "mill.speed", 380.761),
+        # Walls move by their rates, which have the speed as a factor, too.
+        "speed 1 % too large": (both(scaled(r"q[135] equal \((-?[\d.]+)\)", 380.761 / 376.99111843077515),
+                                     replaced("376.99111843077515", "380.761")), "mill.speed", 380.761),
         "diameter 7.9 mm": (replaced("diameter 0.008", "diameter 0.0079"), SIZE, 0.9875),
     },
     "yade": {
@@ -177,8 +179,8 @@ MISTAKES = {
 SLIGHT = ("lammps", 300, "tangential damping left on")
 #: The time that each code simulates [s], by contact time [us]: short contacts need short steps, and YADE is slow.
 RUNS = {"lammps": {20: 1, 50: 2, 100: 2, 200: 2, 300: 2},
-        "liggghts": {20: 1, 50: 2, 100: 2, 200: 2, 300: 2},
-        "yade": {20: 0.5, 50: 1, 100: 1, 200: 1, 300: 2}}
+        "liggghts": {20: 0.5, 50: 0.5, 100: 1, 200: 1, 300: 2},
+        "yade": {20: 0.25, 50: 0.5, 100: 0.5, 200: 1, 300: 1}}
 SEEDS = 1, 2, 3
 
 

@@ -239,8 +239,10 @@ py::list machines_in_python() {
 
 std::string new_case(const std::string& machine, const std::vector<std::string>& balls,
                      const std::string& powder, const std::string& speed, const std::string& restitution,
-                     const std::string& friction, const std::string& target_dose, const std::string& time) {
-  return machines::new_case({machine, balls, powder, speed, restitution, friction, target_dose, time});
+                     const std::string& friction, const std::string& target_dose, const std::string& time,
+                     const std::string& jar, const std::string& fill, const std::string& ratio) {
+  return machines::new_case(
+      {machine, balls, powder, speed, restitution, friction, target_dose, time, jar, fill, ratio});
 }
 
 /// @return whether a run failed, and what the seeds say together

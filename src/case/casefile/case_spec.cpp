@@ -217,6 +217,11 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
   Document document(name);
   document.sizes = sizes;
   toml::table root = parse_toml(text, "a case file", document, overrides);
+  for (const std::string study : {"sweep", "optimize"})
+    if (root.contains(study))
+      throw InputError(
+          fmt::format("{}: found a section [{}], expected a case file; for this one there is edmill {}", name,
+                      study, study));
 
   CaseSpec spec;
   spec.file = name;

@@ -67,7 +67,7 @@ const std::vector<Unit>& units() {
       {D::angular_speed, {"rad/s"}, 1},
       {D::angular_speed, {"deg/s"}, pi_by(180)},
       {D::angular_speed, {"Hz", "hertz"}, Quantity(2) * pi_by(1)},
-      {D::angular_speed, {"rpm", "cpm", "r/min", "rev/min", "cycles/min"}, pi_by(30)},
+      {D::angular_speed, {"rpm", "cpm", "r/min", "rev/min", "cycles/min", "1/min", "min-1"}, pi_by(30)},
       {D::acceleration, {"m/s2", "m/s/s"}, 1},
       {D::acceleration, {"cm/s2", "cm/s/s"}, Quantity(1, 100)},
       {D::acceleration, {"in/s2", "in/s/s"}, Quantity(254, 10000)},
@@ -261,6 +261,10 @@ std::optional<std::pair<double, std::string>> split_number(const std::string& te
   return std::pair{number->to<double>(), text.substr(end)};
 }
 
+namespace {
+char lower_case(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+}  // namespace
+
 QuantityResult parse_quantity(std::string_view text, Dimension dimension, SizeLimit limit, Plain plain) {
   const auto problem = [&](const std::string& what) {
     return QuantityProblem{fmt::format("\"{}\" ({})", text, what)};
@@ -275,8 +279,14 @@ QuantityResult parse_quantity(std::string_view text, Dimension dimension, SizeLi
   const std::string unit = plain_unit(given);
   const Unit* known = find_unit(unit, dimension);
   if (!known && !unit.empty()) {
+    const auto is_it = [&](std::string_view spelling) {
+      return std::ranges::equal(spelling, unit, {}, lower_case, lower_case);
+    };
     for (const auto& other : units())
       if (other.has(unit)) return problem(name(other.dimension));
+    for (const auto& other : units())
+      if (const auto meant = std::ranges::find_if(other.spellings, is_it); meant != other.spellings.end())
+        return problem(fmt::format("unknown unit '{}': '{}' is known", given, *meant));
     return problem(fmt::format("unknown unit '{}'", given));
   }
   if (!known && plain == Plain::refused && dimension != Dimension::none) return problem("no unit");

@@ -39,6 +39,9 @@ std::string hint_of(const Document& document, std::size_t line) {
   const auto value = text.find_first_not_of(" \t", text.find('=') + 1);
   const bool comma =
       text.find('=') != std::string::npos && value != std::string::npos && has_comma(text.substr(value));
+  for (const auto* quote : {"\u201c", "\u201d", "\u2018", "\u2019"})
+    if (text.find(quote) != std::string::npos)
+      return " and a typographic quotation mark, where \" is expected";
   return comma ? " and a comma in a number, where a decimal point is expected" : "";
 }
 

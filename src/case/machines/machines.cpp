@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <numbers>
 
 #define TOML_ENABLE_FORMATTERS 0
 #include <toml++/toml.h>
 
+#include "base/clean_text.hpp"
 #include "base/errors.hpp"
+#include "casefile/nearest.hpp"
 #include "casefile/rational.hpp"
 
 namespace edmill::machines {
@@ -19,6 +23,13 @@ namespace {
 
 std::string text_of(const toml::table& table, std::string_view key) {
   return table[key].value_or(std::string());
+}
+
+std::vector<std::string> texts_of(const toml::table& table, std::string_view key) {
+  std::vector<std::string> texts;
+  if (const auto* list = table[key].as_array())
+    for (const auto& text : *list) texts.push_back(text.value_or(std::string()));
+  return texts;
 }
 
 /// Entries of an array of tables.
@@ -34,18 +45,31 @@ Catalogue read() {
   };
   Catalogue all;
   each(root, "machine", [&](const toml::table& m) {
-    Machine machine{text_of(m, "key"),
-                    text_of(m, "name"),
-                    m["speeds"][0].value_or(std::string()),
-                    m["speeds"][1].value_or(std::string()),
-                    {}};
+    const auto speeds = texts_of(m, "speeds");
+    Machine machine{.key = text_of(m, "key"),
+                    .name = text_of(m, "name"),
+                    .also = texts_of(m, "also"),
+                    .slowest = speeds[0],
+                    .fastest = speeds[1],
+                    .usual = text_of(m, "usual"),
+                    .jars = {},
+                    .settings = {}};
+    if (const auto* jars = m["jars"].as_array())
+      for (const auto& jar : *jars) {
+        const auto& sizes = *jar.as_array();
+        const auto size = [&](std::size_t k) { return sizes[k].value_or(std::string()); };
+        machine.jars.push_back({size(0), size(1), size(2)});
+      }
     each(m, "setting", [&](const toml::table& s) {
       machine.settings.push_back({text_of(s, "key"), text_of(s, "value"), source_of(s), text_of(s, "note")});
     });
     all.machines.push_back(std::move(machine));
   });
   each(root, "material", [&](const toml::table& m) {
-    all.materials.push_back({text_of(m, "key"), text_of(m, "density"), source_of(m)});
+    all.materials.push_back({text_of(m, "key"), text_of(m, "density"), source_of(m), texts_of(m, "also")});
+  });
+  each(root, "elsewhere", [&](const toml::table& e) {
+    all.elsewhere.push_back({texts_of(e, "names"), text_of(e, "what")});
   });
   each(root, "contact", [&](const toml::table& c) {
     all.contacts.push_back({text_of(c, "key"), text_of(c, "what"), text_of(c, "model"),
@@ -60,9 +84,30 @@ Catalogue read() {
 /// "mill.type = "spex8000"" as a cell.
 std::string code(const std::string& text) { return "`" + text + "`"; }
 
-/// One batch: "10x12.7mm:zirconia".
+/// A name without what people write differently: "pm100" of "Retsch PM 100".
+std::string plain(const std::string& name) {
+  std::string text;
+  for (const char c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)))
+      text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const std::string word : {"retsch", "fritsch", "sampleprep", "planetary", "mixermill", "ballmill",
+                                 "micromill", "monomill", "classicline", "premiumline"})
+    if (const auto at = text.find(word); at != std::string::npos) text.erase(at, word.size());
+  return text;
+}
+
+/// The entry of this name, by its key or another name; the list's end where there is none.
+auto named(const auto& list, const std::string& name) {
+  const auto word = plain(name);
+  return std::ranges::find_if(list, [&](const auto& one) {
+    return plain(one.key) == word ||
+           std::ranges::any_of(one.also, [&](const auto& other) { return plain(other) == word; });
+  });
+}
+
+/// One batch: "10x12.7mm:zirconia", or "12.7mm" where the number is to be found.
 struct Batch {
-  std::uint64_t count;
+  std::uint64_t count;   ///< 0: to be found
   std::string diameter;  ///< with its unit
   double size;           ///< [m]
   const Material* material;
@@ -95,51 +140,163 @@ Batch batch_of(const std::string& text) {
   const auto fail = [&](const std::string& expected) -> InputError {
     return InputError(fmt::format("--balls: found \"{}\", expected {}", text, expected));
   };
-  const auto times = text.find_first_of("x*");
-  const auto count = casefile::parse_decimal(text.substr(0, times));
-  if (times == std::string::npos || !count || *count < 1 || *count > 1000000 ||
-      denominator(casefile::rational(*count)) != 1)
-    throw fail(
-        "a number of balls and their diameter, \"10x12.7mm\", and a material if not steel, "
-        "\"10x12.7mm:zirconia\"");
-  std::string diameter = text.substr(times + 1), material = "steel";
+  std::string diameter = text, material = "steel";
   if (const auto colon = diameter.find(':'); colon != std::string::npos) {
     material = diameter.substr(colon + 1);
     diameter.resize(colon);
   }
+  const auto times = diameter.find_first_of("x*");
+  const auto count = casefile::parse_decimal(times == std::string::npos ? "1" : diameter.substr(0, times));
+  if (!count || *count < 1 || *count > 1000000 || denominator(casefile::rational(*count)) != 1)
+    throw fail(
+        "a number of balls and their diameter, \"10x12.7mm\", and a material if not steel, "
+        "\"10x12.7mm:zirconia\"");
+  if (times != std::string::npos) diameter.erase(0, times + 1);
   const auto& materials = catalogue().materials;
-  const auto found = std::ranges::find(materials, material, &Material::key);
+  const auto found = named(materials, material);
   if (found == materials.end()) throw fail("a material among " + keys_of(materials));
-  return {static_cast<std::uint64_t>(count->to<double>()), diameter,
+  return {times == std::string::npos ? 0 : static_cast<std::uint64_t>(count->to<double>()), diameter,
           value_of("--balls", diameter, Dimension::length), &*found};
 }
+
+/// The inside of a vessel.
+struct Inside {
+  bool round_ends = false;
+  double diameter = 0, height = 0;  ///< [m]; over all
+  std::string note = {};            ///< of a jar that was asked for
+
+  double volume() const {
+    const double r = diameter / 2;
+    return std::numbers::pi * r * r * (height - (round_ends ? 2 * r / 3 : 0));
+  }
+};
+
+Inside inside_of(const Machine& machine, const std::string& wanted) {
+  const std::string jar(trimmed(wanted));
+  Inside inside;
+  for (const auto& s : machine.settings) {
+    const auto size = [&] {
+      return value_of(s.key, s.value.substr(1, s.value.size() - 2), Dimension::length);
+    };
+    if (s.key == "vessel.type") inside.round_ends = s.value == "\"capsule\"";
+    if (s.key == "vessel.diameter") inside.diameter = size();
+    if (s.key == "vessel.height") inside.height = size();
+  }
+  if (jar.empty()) return inside;
+  inside.note = "the jar that was asked for";
+  if (const auto times = jar.find('x'); times != std::string::npos) {
+    auto first = jar.substr(0, times);
+    const auto second = jar.substr(times + 1);
+    const auto unit = std::min(second.find_first_not_of("0123456789. "), second.size());
+    if (casefile::parse_decimal(trimmed(first))) first += second.substr(unit);
+    inside.diameter = value_of("--jar", first, Dimension::length);
+    inside.height = value_of("--jar", second, Dimension::length);
+    return inside;
+  }
+  const auto end = jar.find_first_not_of("0123456789.");
+  const auto number = casefile::parse_decimal(jar.substr(0, end));
+  static const std::map<std::string, double> units{{"ml", 1e-6}, {"cm3", 1e-6}, {"l", 1e-3}};
+  const auto unit = end == std::string::npos ? units.end() : units.find(plain(jar.substr(end)));
+  if (!number || !number->positive() || unit == units.end())
+    throw InputError(
+        fmt::format("--jar: found \"{}\", expected a volume, \"250ml\", or the inner diameter and "
+                    "height, \"75x57mm\"",
+                    jar));
+  const double volume = number->to<double>() * unit->second;
+  for (const auto& sold : machine.jars)
+    if (plain(sold.volume) == plain(jar)) {
+      inside.diameter = value_of("jar", sold.diameter, Dimension::length);
+      inside.height = value_of("jar", sold.height, Dimension::length);
+      inside.note = "a jar of " + sold.volume + ", assumed: measure its inside";
+      return inside;
+    }
+  const double scale = std::cbrt(volume / inside.volume());
+  inside.diameter *= scale;
+  inside.height *= scale;
+  inside.note = jar + " in the shape of another jar, assumed: measure its inside";
+  return inside;
+}
+
+/// A positive number: "30%", "0.3". @throws InputError
+double number_of(const std::string& option, std::string text, const char* expected) {
+  const auto given = text;
+  double unit = 1;
+  if (text.ends_with('%')) {
+    unit = 0.01;
+    text.pop_back();
+  }
+  const auto number = casefile::parse_decimal(trimmed(text));
+  if (!number || !number->positive())
+    throw InputError(fmt::format("{}: found \"{}\", expected {}", option, given, expected));
+  return unit * number->to<double>();
+}
+
+constexpr double packing = 0.6;  ///< share of a heap of balls that is not gaps
 
 /// What fills the vessel, and what follows from it.
 struct Charge {
   std::vector<Batch> batches;
-  double mass = 0, smallest = 1e9, largest = 0;  ///< [kg], [m], [m]
+  double mass = 0, volume = 0, smallest = 1e9, largest = 0;  ///< [kg], [m^3], [m], [m]
+  double powder = 0;                                         ///< [kg]
 
-  explicit Charge(const std::vector<std::string>& texts) {
-    for (const auto& text : texts) {
+  Charge(const Wanted& wanted, const Inside& inside) {
+    if (!wanted.powder.empty()) powder = value_of("--powder", wanted.powder, Dimension::mass);
+    const auto colon = std::min(wanted.ratio.find(':'), wanted.ratio.size());
+    const double fill = wanted.fill.empty() ? 0
+                                            : number_of("--fill", wanted.fill, "a share of the jar, \"30%\""),
+                 ratio = wanted.ratio.empty() ? 0
+                                              : number_of("--bpr", wanted.ratio.substr(0, colon),
+                                                          "mass of the balls over that of the powder, 10");
+    if (fill > 1) throw InputError("--fill: found more than the jar, expected a share of it, \"30%\"");
+    const bool finds_number = fill > 0 || (ratio > 0 && powder > 0);
+    Batch* open = nullptr;
+    for (const auto& text :
+         wanted.balls.empty() ? std::vector<std::string>{finds_number ? "10mm" : "10x10mm"} : wanted.balls)
       batches.push_back(batch_of(text));
-      const auto& b = batches.back();
-      const double density = value_of("density", b.material->density, Dimension::density);
-      mass += static_cast<double>(b.count) * density * std::numbers::pi / 6 * b.size * b.size * b.size;
-      smallest = std::min(smallest, b.size);
-      largest = std::max(largest, b.size);
+    for (auto& b : batches) {
+      if (b.count == 0 && (open || !finds_number))
+        throw InputError("--balls: found \"" + b.diameter + "\" without a number of balls, expected \"10x" +
+                         b.diameter + "\", or how many there are by --fill, or by --powder and --bpr");
+      if (b.count == 0) open = &b;
+      add(b);
     }
+    if (finds_number && !open)
+      throw InputError(
+          fmt::format("{}: found the number of balls as well, expected --balls with a diameter alone",
+                      fill > 0 ? "--fill" : "--bpr"));
+    if (fill > 0 && ratio > 0 && powder > 0)
+      throw InputError("--bpr: found --fill and --powder as well, expected two of the three");
+    if (open) {
+      const double wanted_now = fill > 0 ? (fill * packing * inside.volume() - volume) / volume_of(*open)
+                                         : (ratio * powder - mass) / mass_of(*open);
+      open->count = static_cast<std::uint64_t>(std::clamp(std::round(wanted_now), 1.0, 1e6));
+      add(*open);
+    }
+    if (ratio > 0 && powder <= 0) powder = mass / ratio;
+  }
+
+ private:
+  static double volume_of(const Batch& b) { return std::numbers::pi / 6 * b.size * b.size * b.size; }
+  static double mass_of(const Batch& b) {
+    return value_of("density", b.material->density, Dimension::density) * volume_of(b);
+  }
+  void add(const Batch& b) {
+    mass += static_cast<double>(b.count) * mass_of(b);
+    volume += static_cast<double>(b.count) * volume_of(b);
+    smallest = std::min(smallest, b.size);
+    largest = std::max(largest, b.size);
   }
 };
 
-const Contact& contact_of(const Charge& charge, double powder_mass) {
-  const auto named = [](std::string_view key) -> const Contact& {
+const Contact& contact_of(const Charge& charge) {
+  const auto by_key = [](std::string_view key) -> const Contact& {
     return *std::ranges::find(catalogue().contacts, key, &Contact::key);
   };
-  if (powder_mass <= 0) return named("bare");
-  const double ratio = charge.mass / powder_mass;
+  if (charge.powder <= 0) return by_key("bare");
+  const double ratio = charge.mass / charge.powder;
   const bool measured =
       ratio >= 2.5 && ratio <= 10 && charge.smallest >= 2.36e-3 && charge.largest <= 9.52e-3;
-  return named(measured ? "coated" : "powder");
+  return by_key(measured ? "coated" : "powder");
 }
 
 class Writer {
@@ -161,8 +318,9 @@ std::string brief(const std::string& source) { return source.substr(0, source.fi
 
 std::string quoted(const std::string& text) { return "\"" + text + "\""; }
 
-void put_machine(Writer& out, const Machine& machine, const Wanted& wanted) {
+void put_machine(Writer& out, const Machine& machine, const Wanted& wanted, const Inside& inside) {
   std::string section, source;
+  const auto& speed = wanted.speed.empty() ? machine.usual : wanted.speed;
   for (const auto& s : machine.settings) {
     const auto dot = s.key.find('.');
     if (s.key.substr(0, dot) != section) {
@@ -170,10 +328,20 @@ void put_machine(Writer& out, const Machine& machine, const Wanted& wanted) {
       out.section(section);
       source.clear();
     }
-    const bool given = s.key == "mill.speed" && !wanted.speed.empty();
-    std::string comment = given ? "as given" : s.source == source ? "" : brief(s.source);
-    if (!given && !s.note.empty()) comment = s.note + (comment.empty() ? "" : "; " + comment);
-    out.key(s.key.substr(dot + 1), given ? quoted(wanted.speed) : s.value, comment);
+    auto value = s.value;
+    const bool is_jar = !inside.note.empty() && (s.key == "vessel.diameter" || s.key == "vessel.height"),
+               given = s.key == "mill.speed" && !wanted.speed.empty();
+    if (is_jar)
+      value = quoted(
+          fmt::format("{:.4g} mm", 1000 * (s.key == "vessel.diameter" ? inside.diameter : inside.height)));
+    if (given) value = quoted(speed);
+    if (const auto at = value.find("{speed}"); at != std::string::npos) value.replace(at, 7, speed);
+    std::string comment = is_jar               ? inside.note
+                          : given              ? "as given"
+                          : s.source == source ? ""
+                                               : brief(s.source);
+    if (!given && !is_jar && !s.note.empty()) comment = s.note + (comment.empty() ? "" : "; " + comment);
+    out.key(s.key.substr(dot + 1), value, comment);
     if (!given) source = s.source;
   }
 }
@@ -243,17 +411,28 @@ std::string markdown() {
 }
 
 std::string new_case(const Wanted& wanted) {
-  const auto& machines = catalogue().machines;
-  const auto machine = std::ranges::find(machines, wanted.machine, &Machine::key);
-  if (machine == machines.end())
+  const auto& all = catalogue();
+  const auto machine = named(all.machines, wanted.machine);
+  if (machine == all.machines.end()) {
+    for (const auto& other : all.elsewhere)
+      if (std::ranges::any_of(other.names,
+                              [&](const auto& name) { return plain(name) == plain(wanted.machine); }))
+        throw InputError(
+            fmt::format("--mill: found \"{}\", which edmill does not know: {}", wanted.machine, other.what));
+    std::vector<std::string> keys;
+    for (const auto& one : all.machines) keys.push_back(one.key);
     throw InputError(
-        fmt::format("--mill: found \"{}\", expected one of {}", wanted.machine, keys_of(machines)));
-  const Charge charge(wanted.balls.empty() ? std::vector<std::string>{"10x10mm"} : wanted.balls);
-  const double powder = wanted.powder.empty() ? 0 : value_of("--powder", wanted.powder, Dimension::mass);
+        fmt::format("--mill: found \"{}\", expected {}; other mills are described by joints, "
+                    "[[mill.joint]]",
+                    wanted.machine, casefile::nearest_of(wanted.machine, keys)));
+  }
+  const auto inside = inside_of(*machine, wanted.jar);
+  const Charge charge(wanted, inside);
   if (!wanted.speed.empty()) value_of("--speed", wanted.speed, Dimension::angular_speed);
   if (!wanted.target_dose.empty()) {
     value_of("--target-dose", wanted.target_dose, Dimension::specific_energy);
-    if (powder <= 0) throw InputError("--target-dose: found no --powder, expected the mass of the powder");
+    if (charge.powder <= 0)
+      throw InputError("--target-dose: found no --powder, expected the mass of the powder");
   }
   if (!wanted.restitution.empty()) require_number("--restitution", wanted.restitution, 1);
   if (!wanted.friction.empty()) require_number("--friction", wanted.friction, 1e6);
@@ -268,14 +447,18 @@ std::string new_case(const Wanted& wanted) {
   out.key("end_time", quoted(wanted.time),
           "or until the dose rate is known: edmill run --until-precision 1%");
   out.key("gravity", quoted("9.81 m/s2"), "downward, along -Y");
-  put_machine(out, *machine, wanted);
-  if (powder > 0) {
+  put_machine(out, *machine, wanted, inside);
+  out.comment(fmt::format("The balls fill {} of the jar, with the gaps between them; makers advise a third.",
+                          percent(charge.volume / packing / inside.volume())));
+  if (charge.powder > 0) {
     out.section("powder");
-    out.key("mass", quoted(wanted.powder), fmt::format("charge ratio {:.3g}", charge.mass / powder));
+    out.key("mass",
+            quoted(wanted.powder.empty() ? fmt::format("{:.4g} g", 1000 * charge.powder) : wanted.powder),
+            fmt::format("charge ratio {:.3g}", charge.mass / charge.powder));
     if (!wanted.target_dose.empty())
-      out.key("target_dose", quoted(wanted.target_dose), "the run tells the milling time");
+      out.key("target_dose", quoted(wanted.target_dose), "the run gives the milling time");
   }
-  put_contact(out, wanted, contact_of(charge, powder));
+  put_contact(out, wanted, contact_of(charge));
   for (const auto& b : charge.batches) {
     out.section("[balls]");
     out.key("count", std::to_string(b.count), "");

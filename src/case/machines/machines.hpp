@@ -13,15 +13,29 @@ struct Setting {
   std::string note;        ///< may be empty
 };
 
+/// A jar that is sold, with its inner size.
+struct Jar {
+  std::string volume, diameter, height;
+};
+
 struct Machine {
   std::string key, name;
-  std::string slowest, fastest;  ///< speeds of its drive
+  std::vector<std::string> also;        ///< other names
+  std::string slowest, fastest, usual;  ///< speeds of its drive
+  std::vector<Jar> jars;
   std::vector<Setting> settings;
 };
 
 /// What balls are made of.
 struct Material {
   std::string key, density, source;
+  std::vector<std::string> also;
+};
+
+/// Machines that are not in the list, and what to do.
+struct Elsewhere {
+  std::vector<std::string> names;
+  std::string what;
 };
 
 /// How bodies bounce when a case does not say it.
@@ -31,6 +45,7 @@ struct Contact {
 
 struct Catalogue {
   std::vector<Machine> machines;
+  std::vector<Elsewhere> elsewhere;
   std::vector<Material> materials;
   std::vector<Contact> contacts;
   std::string friction, friction_source;
@@ -45,10 +60,13 @@ std::string markdown();
 
 /// What a new case is asked to have; empty texts leave what the machine has.
 struct Wanted {
-  std::string machine = "spex8000";
-  std::vector<std::string> balls;  ///< "10x12.7mm", "4x6.35mm:zirconia"; one batch each
+  std::string machine = "spex8000";  ///< "pm100", "Retsch PM 100"
+  std::vector<std::string> balls;    ///< "10x12.7mm", "4x6.35mm:zirconia"; one batch each
   std::string powder, speed, restitution, friction, target_dose;
   std::string time = "10 s";
+  std::string jar;    ///< "250ml", or its inner size, "75x57mm"
+  std::string fill;   ///< "30%": of the jar, by the balls with the gaps between them
+  std::string ratio;  ///< mass of the balls over that of the powder
 };
 
 /// A case file with comments that tell the sources.

@@ -131,8 +131,7 @@ struct FieldList {
         });
     v.group("warnings",
             "by kind, why numbers are not to be trusted: `too_few_collisions`, `too_short`, `transient`, "
-            "`several_states`, `wide_interval`, `precision`, `supplied_energy`, "
-            "`by_rule`, `stall_share`, "
+            "`several_states`, `wide_interval`, `precision`, `supplied_energy`, `by_rule`, `stall_share`, "
             "`energy`, `end_reason`",
             [&] {
               for (const auto& warning : s.warnings) v(warning.kind, "", "", warning.text);

@@ -31,8 +31,7 @@ struct TimeStepping {
   std::optional<double> step;           ///< all times are multiples of it [s]
   std::optional<double> step_by_depth;  ///< from the overlaps: a contact is seen up to a step late [s]
   std::optional<SoftContacts> soft;
-  std::optional<double>
-      first_order_step;          ///< of an integrator of first order, from flights under gravity [s]
+  std::optional<double> first_order_step;  ///< of an integrator, from flights under gravity [s]
   std::optional<double> jitter;  ///< root mean square of the errors of single times, early and late [s]
   bool second_order = false;     ///< flights under gravity show no error of first order
 

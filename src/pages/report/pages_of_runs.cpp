@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <ranges>
+#include <set>
 
 #include "base/statistics.hpp"
 #include "base/version.hpp"
@@ -171,38 +172,85 @@ std::string page_of_runs(const std::vector<RunFolder>& runs) {
                   version(), commit(), document});
 }
 
-std::string name_of_point(const Point& point, std::size_t index) {
-  std::string name = point.name;
-  for (const auto& [key, value] : point.settings)
-    if (point.name.empty()) name += fmt::format("{}{} = {}", name.empty() ? "" : ", ", key, value);
+std::string value_of(const Point& point, const std::string& key) {
+  const auto found = std::ranges::find(point.settings, key, &casefile::Setting::first);
+  return found == point.settings.end() ? "" : found->second;
+}
+
+/// Keys whose values differ between the points, in their order.
+std::vector<std::string> varied_keys(const std::vector<Point>& points) {
+  std::vector<std::string> keys;
+  for (const auto& setting : points | std::views::transform(&Point::settings) | std::views::join) {
+    const auto& key = setting.first;
+    const auto differs = [&](const Point& p) { return value_of(p, key) != value_of(points[0], key); };
+    if (std::ranges::find(keys, key) == keys.end() && std::ranges::any_of(points, differs))
+      keys.push_back(key);
+  }
+  return keys;
+}
+
+/// Without the keys that all points have in common.
+std::string name_of_point(const std::vector<Point>& points, std::size_t index) {
+  std::string name = points[index].name;
+  if (name.empty())
+    for (const auto& key : varied_keys(points))
+      name += fmt::format("{}{} = {}", name.empty() ? "" : ", ", key, value_of(points[index], key));
   return name.empty() ? fmt::format("point {}", index + 1) : name;
 }
 
-/// The axis of the points: the value of the only key that varies, where it is a number, or their numbers.
+/// The axis of the points: the values of a key that varies, where they are numbers of one unit, or their
+/// numbers. Where a second key varies there is a curve for each of its values.
 struct Places {
   std::string title = "point";
   std::vector<double> x;
+  std::vector<std::string> curves{""};  ///< their names
+  std::vector<std::size_t> curve;       ///< of each point
+  bool over_a_key = false;
 
-  explicit Places(const std::vector<Point>& points) {
+  explicit Places(const std::vector<Point>& points) : curve(points.size()) {
     for (std::size_t k = 0; k < points.size(); ++k) x.push_back(static_cast<double>(k) + 1);
+    auto keys = varied_keys(points);
+    if (keys.size() == 2 && number_of_values(points, keys[1]) > number_of_values(points, keys[0]))
+      std::swap(keys[0], keys[1]);
+    if (keys.empty() || keys.size() > 2 || !take(points, keys[0])) return;
+    over_a_key = true;
+    if (keys.size() == 1) return;
+    curves.clear();
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const auto name = keys[1] + " = " + value_of(points[k], keys[1]);
+      curve[k] = static_cast<std::size_t>(std::ranges::find(curves, name) - curves.begin());
+      if (curve[k] == curves.size()) curves.push_back(name);
+    }
+  }
+
+ private:
+  static std::size_t number_of_values(const std::vector<Point>& points, const std::string& key) {
+    std::set<std::string> values;
+    for (const auto& point : points)
+      if (casefile::split_number(value_of(point, key))) values.insert(value_of(point, key));
+    return values.size();
+  }
+  /// @return whether all values of this key are numbers of one unit
+  bool take(const std::vector<Point>& points, const std::string& key) {
     std::vector<double> values;
     std::string unit;
     for (const auto& point : points) {
-      if (point.settings.size() != 1 || point.settings[0].first != points[0].settings[0].first) return;
-      const auto value = casefile::split_number(point.settings[0].second);
-      if (!value || (!values.empty() && value->second != unit)) return;
+      const auto value = casefile::split_number(value_of(point, key));
+      if (!value || (!values.empty() && value->second != unit)) return false;
       unit = value->second;
       values.push_back(value->first);
     }
-    title = points[0].settings[0].first + (unit.empty() ? "" : " [" + unit.substr(unit[0] == ' ') + "]");
+    title = key + (unit.empty() ? "" : " [" + unit.substr(unit[0] == ' ') + "]");
     x = values;
+    return true;
   }
 };
 
 void draw_points(pugi::xml_node grid, const std::vector<Point>& points, const Places& places,
                  const study::Quantity& what) {
   const auto [low, high] = std::ranges::minmax(places.x);
-  const double room = high > low ? 0.08 * (high - low) : 0.6;
+  const double room = high > low ? 0.08 * (high - low) : 0.6,
+               width = places.over_a_key ? 0.25 * room : 0.5 * room;
   plot::Chart chart{
       what.name,
       capitalised(what.title),
@@ -211,14 +259,24 @@ void draw_points(pugi::xml_node grid, const std::vector<Point>& points, const Pl
           what.title),
       {places.title, low - room, high + room},
       {fmt::format("{} [{}]", what.title, what.unit)}};
+  std::vector<plot::Curve> curves;
+  for (std::size_t c = 0; c < places.curves.size(); ++c)
+    curves.push_back({places.curves[c], run_colour(c), {}});
   for (std::size_t k = 0; k < points.size(); ++k) {
+    auto& curve = curves[places.curve[k]];
     const auto found = points[k].estimate(what);
     const auto level = [&](double mean, const std::optional<double>& half_width) {
-      add_level(chart, places.x[k] - 0.5 * room, places.x[k] + 0.5 * room,
-                RateOf{mean, half_width}.in_units_of(what.size), "", "c0");
+      add_level(chart, places.x[k] - width, places.x[k] + width,
+                RateOf{mean, half_width}.in_units_of(what.size), "", curve.colour);
     };
     for (const auto& state : found.states) level(state.mean, state.half_width);
-    if (found.states.empty() && found.mean) level(*found.mean, found.half_width);
+    if (!found.states.empty() || !found.mean) continue;
+    level(*found.mean, found.half_width);
+    curve.points.emplace_back(places.x[k], *found.mean / what.size);
+  }
+  for (auto& curve : curves) {
+    std::ranges::sort(curve.points);
+    if (places.over_a_key && curve.points.size() > 1) chart.curves.push_back(std::move(curve));
   }
   if (chart.curves.empty()) return;
   draw_fitted(grid, chart);
@@ -245,7 +303,7 @@ void add_runs(pugi::xml_node main, const std::vector<Point>& points) {
   add_note(section, "The record of each run, and the command that makes it again with a report of its own.");
   for (std::size_t k = 0; k < points.size(); ++k) {
     auto details = add(section, "details", {{"class", "runs"}});
-    add(details, "summary", {}, fmt::format("{}: {}", k + 1, name_of_point(points[k], k)));
+    add(details, "summary", {}, fmt::format("{}: {}", k + 1, name_of_point(points, k)));
     auto list = add(details, "ul");
     for (const auto& run : points[k].runs) {
       auto item = add(list, "li");
@@ -290,7 +348,7 @@ std::string study_page(const study::Study& study, const std::string& kind, const
     const auto& point = points[k];
     const auto failed = point.failed();
     std::vector<std::string> row{
-        std::to_string(k + 1), name_of_point(point, k),
+        std::to_string(k + 1), name_of_point(points, k),
         std::to_string(point.done()) + (failed > 0 ? fmt::format(", {} failed", failed) : "")};
     for (const auto& what : study::main_quantities())
       row.push_back(study::text_of(point.estimate(what), what));
@@ -299,8 +357,7 @@ std::string study_page(const study::Study& study, const std::string& kind, const
   add_table(section, "rates-of-points", "Rates", headings, rows);
   add_note(section,
            "\u00b1: 95 % interval, from the intervals of the runs and their scatter; where seeds settle in "
-           "several "
-           "steady states, each with the number of its runs. All numbers:");
+           "several steady states, each with the number of its runs. All numbers:");
   auto files = add(section, "ul");
   add(add(files, "li"), "a", {{"href", study.name() + ".csv"}}, study.name() + ".csv: a row for each point");
   add(add(files, "li"), "a", {{"href", "runs.csv"}}, "runs.csv: a row for each run");

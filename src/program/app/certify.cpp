@@ -82,8 +82,7 @@ void write_reference(std::ostream& out, const casefile::CaseSpec& spec, const Ce
                      const Certification& found) {
   out << fmt::format(
       "# edmill certified events 1\n# case {}, digest {}\n# edmill {} ({}), {}\n# {} events, each value "
-      "correct "
-      "to {} digits of the quantity's largest size\n",
+      "correct to {} digits of the quantity's largest size\n",
       one_line(std::filesystem::path(spec.file).filename().string()), spec.digest, version(), commit(),
       compiler(), found.events.size(), options.digits);
   for (const auto& pair : found.evidence) out << "# " << pair.text() << '\n';

@@ -12,8 +12,8 @@ namespace edmill::app {
 
 struct CheckedCase {
   std::string file;
-  std::vector<std::pair<std::string, std::string>>
-      facts;  ///< name and value; no name: more of the one before
+  /// Name and value; no name: more of the one before.
+  std::vector<std::pair<std::string, std::string>> facts;
 
   std::string text() const;
 };

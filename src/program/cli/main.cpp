@@ -109,9 +109,7 @@ int run_command_line(int argc, char** argv) {
   CLI::App app{"edmill: event-driven simulation of ball mills, a validated reference solver"};
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
-  std::string codes = "Exit codes:";
-  for (const auto& row : cli::exit_codes) codes += fmt::format("\n  {:<9} {}", row.code, row.meaning);
-  app.footer(codes);
+  app.footer("Exit codes: edmill --help");  // of commands
   Commands commands;
   std::vector<std::pair<CLI::App*, std::function<int()>>> added;
   const auto add = [&](auto& command) {
@@ -119,6 +117,9 @@ int run_command_line(int argc, char** argv) {
     command.add_options(*added.back().first);
   };
   std::apply([&](auto&... command) { (add(command), ...); }, commands);
+  std::string codes = "Exit codes:";
+  for (const auto& row : cli::exit_codes) codes += fmt::format("\n  {:<9} {}", row.code, row.meaning);
+  app.footer(codes);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -421,8 +421,7 @@ std::vector<Meeting> candidates(const casefile::CaseSpec& spec, const ProofOptio
     if (event.by_rule)
       throw Impossible{
           fmt::format("event {}, {} at {} s, has another contact of its ball at the same time: the equations "
-                      "do not say what "
-                      "comes next",
+                      "do not say what comes next",
                       list.size(), name_of(event), event.time.str(17))};
     Enclosure time;
     arf_set_mpfr(arb_midref(time.arb()), event.time.data());

@@ -188,8 +188,7 @@ class RunStatistics : public engine::Observer<Real> {
   numerics::CompensatedSum<Real> counted_dose_;
   numerics::Batches<Real> batches_;
   std::size_t balls_;
-  std::vector<double>
-      doses_;  ///< of the first balls, those that are alike; each has half of a dose with another [J]
+  std::vector<double> doses_;  ///< of the first balls that are alike; half of a dose with another [J]
 };
 
 /// What of a run is not to be trusted, and why.

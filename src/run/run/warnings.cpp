@@ -40,8 +40,7 @@ void check_dose_rate(const io::Facts& f, const std::optional<double>& wanted, co
   if (io::has_dose(f) && (numerics::drifts(*means) ||
                           numerics::stands_apart(means->front(), {means->begin() + 1, means->end()}, 0.01)))
     warn("transient",
-         "The dose rate drifts within the statistics: begin them later (run.start_time), when it "
-         "is steady.");
+         "The dose rate drifts within the statistics: begin them later (run.start_time), when it is steady.");
   if (f.has("intervals/several_states"))
     warn("several_states",
          fmt::format("Other seeds may settle at another dose rate: {}. Run several: edmill run --seeds 8.",

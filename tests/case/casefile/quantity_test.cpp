@@ -128,7 +128,9 @@ TEST(Quantity, UsualSpellingsAreOneUnit) {
       {D::length, {"2 ft", "2 foot", "2 feet"}},
       {D::mass, {"2 lb", "2 lbs", "2 pounds", "2 pound"}},
       {D::time, {"2 h", "2 hr", "2 hours", "120 min", "120 minutes", "7200 s", "7200 seconds"}},
-      {D::angular_speed, {"60 rpm", "60 cpm", "60 r/min", "60 rev/min", "60 cycles/min", "1 Hz", "1 hertz"}},
+      {D::angular_speed,
+       {"60 rpm", "60 cpm", "60 r/min", "60 rev/min", "60 cycles/min", "60 1/min", "60 min^-1", "1 Hz",
+        "1 hertz"}},
   };
   for (const auto& [dimension, texts] : families)
     for (const auto& text : texts)
@@ -175,7 +177,7 @@ TEST(Quantity, WhatIsNoQuantityIsNamed) {
   EXPECT_EQ(problem("4.76 mn", D::length), "\"4.76 mn\" (unknown unit 'mn')");
   EXPECT_EQ(problem("4.76", D::length), "\"4.76\" (no unit)");
   EXPECT_EQ(problem("4.76 kg", D::length), "\"4.76 kg\" (a mass)");
-  EXPECT_EQ(problem("4.76 MM", D::length), "\"4.76 MM\" (unknown unit 'MM')");
+  EXPECT_EQ(problem("4.76 MM", D::length), "\"4.76 MM\" (unknown unit 'MM': 'mm' is known)");
   EXPECT_EQ(problem("0.5 m", D::none), "\"0.5 m\" (a length)");
   for (const auto* text : {"", " ", "mm", "nan mm", "inf m", "-inf m", "NaN", ". m", "+ m", "e5 m", "- 5 mm",
                            "--5 mm", "1e99999999 m"})

@@ -7,6 +7,7 @@ usage: PYTHONPATH=tests/support python3 charges_test.py EDMILL
 import math
 import pathlib
 import random
+import re
 import sys
 import tempfile
 import unittest
@@ -30,10 +31,11 @@ class Charges(unittest.TestCase):
 
     def test_every_mill_runs_and_tells_the_milling_time(self):
         keys = [line.split()[0] for line in said("machines").splitlines() if line[0] != " "]
-        self.assertEqual(len(keys), 6)
+        self.assertEqual(len(keys), 13)
         self.assertIn("spex8000m", keys)
         for mill in keys:
-            case = self.new("case.toml", "--mill", mill, "--balls", "8x8mm", "--powder", "3g", "--target-dose", "10 kJ/g", "--time", "1.5 s")
+            case = self.new("case.toml", "--mill", mill, "--balls", "8x8mm", "--powder", "3g", "--target-dose", "10 kJ/g", "--time",
+                            "8 s" if mill == "drum" else "1.5 s")  # a turn of the drum takes a second
             s = self.summary(case)
             expected = 1e7 * 3e-3 / s["milling_dose_rate"]
             self.assertAlmostEqual(s["target"]["milling_time"] / expected, 1, 12)
@@ -46,6 +48,49 @@ class Charges(unittest.TestCase):
                             (["--balls", "400x12.7mm"], "at most 0.741"), (["--powder", "5"], "--powder"), (["--speed", "fast"], "--speed"),
                             (["--target-dose", "1 kJ/g"], "--powder"), (["--powder", "5g", "--target-dose", "1 J"], "--target-dose"),
                             (["--restitution", "1.2"], "--restitution"), (["--friction", "-1"], "--friction"), (["--time", "0 s"], "--time")):
+            error = said("new", *words, code=2)
+            self.assertIn(part, error)
+            self.assertEqual(error.count("edmill: "), 1, error)
+
+    def test_mills_have_the_names_that_people_write(self):
+        for key, names in {"Retsch PM 100 planetary ball mill": ("PM100", "pm 100", "Retsch PM 100", "pm-100"),
+                           "SPEX 8000M Mixer/Mill": ("8000M", "spex 8000m", "SPEX SamplePrep 8000M"),
+                           "Fritsch PULVERISETTE 5 planetary mill": ("P5", "Pulverisette 5 classic line", "Fritsch P-5"),
+                           "Fritsch PULVERISETTE 7 planetary micro mill": ("p7", "PULVERISETTE 7 premium line"),
+                           "Retsch MM 400 mixer mill": ("MM400", "Retsch mixer mill MM 400")}.items():
+            for name in names:
+                self.assertEqual(said("new", "--mill", name, "--balls", "1x5mm").split(",")[0], f"# {key}", name)
+        for name, part in (("emax", "joints"), ("Simoloyer", "stirs"), ("MM 200", "mm400"), ("pm10", "'pm100'"), ("hammer", "[[mill.joint]]")):
+            self.assertIn(part, said("new", "--mill", name, code=2), name)
+        self.assertEqual(said("new", "--balls", "2x5mm:WC"), said("new", "--balls", "2x5mm:tungsten-carbide"))
+
+    def test_a_jar_and_its_filling(self):
+        def value(case, key):
+            return re.search(rf"(?m)^{key} = \"?([\d.]+)", case)[1]
+
+        pm = ["new", "--mill", "pm100"]
+        half = said(*pm, "--jar", "250ml", "--fill", "50%", "--balls", "15mm")
+        volume = math.pi / 4 * 7.5**2 * 5.7
+        self.assertEqual(value(half, "count"), str(round(0.5 * 0.6 * volume / (math.pi / 6 * 1.5**3))))
+        self.assertRegex(half, r"fill 5\d %|fill 50 %")
+        for size in ("75x57mm", "75 mm x 57 mm", "7.5x5.7cm"):
+            other = said(*pm, "--jar", size, "--fill", "0.5", "--balls", "15mm")
+            self.assertEqual((value(other, "diameter"), value(other, "height"), value(other, "count")), ("75", "57", value(half, "count")), size)
+        for mill in ("pm100", "mm400", "drum"):  # a volume that is not in the list: the shape of the usual jar
+            case = self.new("case.toml", "--mill", mill, "--jar", "0.08 l", "--balls", "1x5mm")
+            free = re.search(r"packing fraction +([\d.e-]+)", said("check", case))[1]
+            self.assertAlmostEqual(math.pi / 6 * 0.5**3 / float(free) / 80, 1, 2, mill)
+        case = said("new", "--balls", "10mm", "--powder", "5g", "--bpr", "10:1")
+        self.assertEqual(value(case, "count"), str(round(50 / (8 * math.pi / 6))))
+        case = said("new", "--balls", "10x10mm", "--bpr", "10")
+        self.assertAlmostEqual(float(value(case, "mass")), 8 * math.pi / 6, 3)
+        mixed = said("new", "--balls", "2x12.7mm", "--balls", "6mm", "--fill", "20%")
+        self.assertEqual(mixed.count("[[balls]]"), 2)
+        for words, part in ((["--jar", "250"], "--jar"), (["--jar", "75x57"], "--jar"), (["--jar", "0ml"], "--jar"),
+                            (["--fill", "130%"], "--fill"), (["--fill", "half"], "--fill"), (["--fill", "10%", "--balls", "3x5mm"], "alone"),
+                            (["--bpr", "-1"], "--bpr"), (["--balls", "5mm"], "how many"), (["--balls", "5mm", "--balls", "6mm", "--fill", "9%"], "how many"),
+                            (["--balls", "5mm", "--bpr", "10"], "how many"), (["--fill", "9%", "--bpr", "9", "--powder", "1g"], "two of the three"),
+                            (["--balls", "3x5mm", "--bpr", "9", "--powder", "1g"], "alone"), (["--fill", "100%"], "find room")):
             error = said("new", *words, code=2)
             self.assertIn(part, error)
             self.assertEqual(error.count("edmill: "), 1, error)
@@ -100,6 +145,21 @@ balls = [{ mass = "20 g", diameter = "12.7 mm", density = "8 g/cm3" }, { count =
         page = (self.folder / "out/sweep.html").read_text()
         for name in ("large", "mixed", "by mass"):
             self.assertTrue(name in page, name)
+
+    def test_points_are_drawn_over_what_varies(self):
+        self.new("base.toml", "--balls", "3x9mm", "--time", "1 s", "--restitution", "0.5")
+        for grid, title, curves in (('"mill.speed" = ["900 rpm", "1000 rpm", "1100 rpm"]', "mill.speed [rpm]", 1),
+                                    ('"mill.speed" = ["900 rpm", "1000 rpm", "1100 rpm"]\n"contact.restitution" = [0.5, 0.7]', "mill.speed [rpm]", 2),
+                                    ('"contact.model" = ["walton-braun", "constant"]\n"contact.restitution_tangential" = [0.5]', "point", 0)):
+            (self.folder / "s.sweep.toml").write_text(f'[sweep]\ncase = "base.toml"\n[sweep.grid]\n{grid}\n"run.end_time" = ["0.8 s"]\n')
+            out = self.folder / f"points of {curves} curves"
+            said("sweep", self.folder / "s.sweep.toml", "--quiet", "--out", out)
+            page = (out / "sweep.html").read_text()
+            self.assertIn(f">{title}<", page)
+            for e in (0.5, 0.7) if curves == 2 else ():
+                self.assertIn(f">contact.restitution = {e:g}<", page)
+                self.assertIn(f"mill.speed = 900 rpm, contact.restitution = {e:g}<", page)
+            self.assertNotIn("run.end_time = 0.8 s", page)  # all points have it
 
     def test_no_balls_at_all_are_refused(self):
         case = self.new("case.toml", "--balls", "3x5mm")

@@ -33,14 +33,24 @@ struct New {
   static constexpr const char* what = "write a case with comments: a mill, balls, powder";
 
   void add_options(CLI::App& command) {
-    command.add_option("--mill", wanted_.machine, "one of edmill machines (default: spex8000)");
+    command.add_option("--mill", wanted_.machine,
+                       "one of edmill machines, \"pm100\" or \"Retsch PM 100\" (default: spex8000)");
+    command.add_option(
+        "--jar", wanted_.jar,
+        "volume of the jar, \"250ml\", or its inner diameter and height, \"75x57mm\" (default: "
+        "the mill's usual one)");
     command
         .add_option("--balls", wanted_.balls,
-                    "number and diameter, \"10x12.7mm\", and a material, \"10x12.7mm:zirconia\"; can be "
-                    "repeated (default: 10 of 10 mm of steel)")
+                    "number and diameter, \"10x12.7mm\", and a material, \"10x12.7mm:zirconia\"; a diameter "
+                    "alone with --fill or --bpr; can be repeated (default: 10 of 10 mm of steel)")
         ->take_all()
         ->expected(1);
+    command.add_option("--fill", wanted_.fill,
+                       "as many balls as fill this share of the jar with the gaps between them, \"30%\"");
     command.add_option("--powder", wanted_.powder, "mass of the powder, \"5g\" (default: none)");
+    command.add_option(
+        "--bpr", wanted_.ratio,
+        "mass of the balls over that of the powder, 10: finds the number of balls, or the powder");
     command.add_option("--target-dose", wanted_.target_dose, "target dose of the powder, \"10 kJ/g\"");
     command.add_option("--speed", wanted_.speed, "speed of the drive (default: the mill's usual one)");
     command.add_option("--restitution", wanted_.restitution,
