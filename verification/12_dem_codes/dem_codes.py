@@ -178,8 +178,8 @@ MISTAKES = {
 #: It changes the dose rate by 2.5 +- 2.1 % (60 s of each deck, contacts of 300 us) and no restitution: an audit may not see it in a short log.
 SLIGHT = ("lammps", 300, "tangential damping left on")
 #: The time that each code simulates [s], by contact time [us]: short contacts need short steps, and YADE is slow.
-RUNS = {"lammps": {20: 1, 50: 2, 100: 2, 200: 2, 300: 2},
-        "liggghts": {20: 0.5, 50: 0.5, 100: 1, 200: 1, 300: 2},
+RUNS = {"lammps": {20: 0.5, 50: 1, 100: 1, 200: 2, 300: 2},
+        "liggghts": {20: 0.5, 50: 1, 100: 1, 200: 1, 300: 2},
         "yade": {20: 0.25, 50: 0.5, 100: 0.5, 200: 1, 300: 1}}
 SEEDS = 1, 2, 3
 
