@@ -262,7 +262,9 @@ std::optional<std::pair<double, std::string>> split_number(const std::string& te
 }
 
 namespace {
-char lower_case(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+bool is_same_letter(char a, char b) {
+  return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+}
 }  // namespace
 
 QuantityResult parse_quantity(std::string_view text, Dimension dimension, SizeLimit limit, Plain plain) {
@@ -279,14 +281,12 @@ QuantityResult parse_quantity(std::string_view text, Dimension dimension, SizeLi
   const std::string unit = plain_unit(given);
   const Unit* known = find_unit(unit, dimension);
   if (!known && !unit.empty()) {
-    const auto is_it = [&](std::string_view spelling) {
-      return std::ranges::equal(spelling, unit, {}, lower_case, lower_case);
-    };
     for (const auto& other : units())
       if (other.has(unit)) return problem(name(other.dimension));
     for (const auto& other : units())
-      if (const auto meant = std::ranges::find_if(other.spellings, is_it); meant != other.spellings.end())
-        return problem(fmt::format("unknown unit '{}': '{}' is known", given, *meant));
+      for (const auto& spelling : other.spellings)
+        if (std::equal(spelling.begin(), spelling.end(), unit.begin(), unit.end(), is_same_letter))
+          return problem(fmt::format("unknown unit '{}': '{}' is known", given, spelling));
     return problem(fmt::format("unknown unit '{}'", given));
   }
   if (!known && plain == Plain::refused && dimension != Dimension::none) return problem("no unit");
