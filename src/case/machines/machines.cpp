@@ -1,6 +1,7 @@
 #include "machines/machines.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -395,6 +396,9 @@ std::string markdown() {
       out += fmt::format("| {} | {}{} | {} |\n", code(s.key), code(s.value),
                          s.note.empty() ? "" : ", " + s.note, s.source);
   }
+  out += "\n## Other machines\n\n| machine | what to do, or why it cannot be simulated |\n|---|---|\n";
+  for (const auto& other : all.elsewhere)
+    out += fmt::format("| {} | {} |\n", fmt::join(other.names, ", "), other.what);
   out +=
       "\n## Balls\n\n`--balls 10x12.7mm:zirconia`; steel unless a material is given.\n\n| material | density "
       "| source |\n|---|---|---|\n";

@@ -13,6 +13,13 @@ def case():
     return edmill.new("spex8000", ["6x9mm"], powder="3g", target_dose="10 kJ/g", time="2 s", restitution=0.5)
 
 
+def test_a_new_case_has_the_jar_and_the_filling_that_are_asked_for():
+    text = edmill.new("Retsch PM 100", ["15mm"], jar="250ml", fill="50%", bpr=10).text
+    assert 'diameter = "75 mm"' in text and "count = 43" in text and 'mass = "60.79 g"' in text
+    with pytest.raises(edmill.InputError, match="--fill"):
+        edmill.new(fill="half")
+
+
 def test_rates_are_those_of_the_summary(case):
     run = edmill.run(case)
     assert run.dose_rate == run.summary["milling_dose_rate"]
