@@ -28,15 +28,14 @@ def charge(random_):
         "vibrated": ("vibrated_box", (4, 6, 8), ("50 Hz", "60 Hz"), 1, 9),
         "planetary": ("planetary", (5, 8, 10), ("200 rpm", "300 rpm", "500 rpm"), 2, 10),
         "mixer": ("mixer", (5, 7, 10, 12, 15), ("20 Hz", "25 Hz", "30 Hz"), 2, 10),
-        "drum": ("planetary", (5, 8, 10), ("60 rpm", "80 rpm", "100 rpm"), 2, 12)}[mill]
+        "drum": ("drum", (5, 8, 10), ("60 rpm", "80 rpm", "100 rpm"), 2, 12)}[mill]
     diameter, speed = random_.choice(diameters), random_.choice(speeds)
-    room = {"spex": 12, "vibrated": 12, "planetary": 16, "mixer": 8, "drum": 16}[mill]  # balls of 10 mm that find a place
+    room = {"spex": 12, "vibrated": 12, "planetary": 16, "mixer": 8, "drum": 100}[mill]  # balls of 10 mm that find a place
     count = max(1, min(count, int(room * (10 / diameter) ** 3)))
-    settings = [f"balls.0.count={count}", f"balls.0.diameter={diameter} mm", f"mill.speed={speed}", f"contact.restitution={e}",
+    speed_key = "mill.joint.1.speed" if mill == "drum" else "mill.speed"
+    settings = [f"balls.0.count={count}", f"balls.0.diameter={diameter} mm", f"{speed_key}={speed}", f"contact.restitution={e}",
                 f"contact.friction={mu}", f"run.start_time={start} s", f"run.end_time={end} s"]
-    if mill == "drum":
-        settings += ["mill.radius=0 mm", "mill.ratio=0"]
-    return EXAMPLES / f"{file}.toml", settings, f"{mill}, {count} of {diameter} mm, {speed}, e {e}, friction {mu}"
+    return file, settings, f"{mill}, {count} of {diameter} mm, {speed}, e {e}, friction {mu}"
 
 
 def run(edmill, file, settings, seed, folder):
@@ -55,9 +54,12 @@ def run(edmill, file, settings, seed, folder):
 
 def main(edmill, charges=100, seed=1):
     random_ = random.Random(seed)
+    drum = pathlib.Path(tempfile.mkdtemp()) / "drum.toml"
+    subprocess.run([edmill, "new", "--mill", "drum", "--out", drum], check=True)
     pairs = apart = silent = left_out = 0
     for _ in range(charges):
         file, settings, name = charge(random_)
+        file = drum if file == "drum" else EXAMPLES / f"{file}.toml"
         with tempfile.TemporaryDirectory() as folder:
             runs = [run(edmill, file, settings, s, f"{folder}/{s}") for s in range(1, SEEDS + 1)]
         failed = [one for one in runs if isinstance(one, str)]
