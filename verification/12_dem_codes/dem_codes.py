@@ -163,7 +163,8 @@ MISTAKES = {
         "diameter 7.9 mm": (replaced("diameter 0.008", "diameter 0.0079"), SIZE, 0.9875),
     },
     "yade": {
-        "damping 0.2, the default": (replaced("damping=0,", "damping=0.2,"), GRAVITY, None),
+        # It damps contacts, too: where few balls fly for long, the restitution alone shows it.
+        "damping 0.2, the default": (replaced("damping=0,", "damping=0.2,"), (GRAVITY, E), None),
         "restitution of walls alone": (lambda deck: re.subn(r"(en=table\(\S+), \S+?\)", r"\1, 0.5)", deck), E, 0.5),
         "no en, elastic contacts": (lambda deck: re.subn(r"en=table\(.*?\)", "en=1.0", deck), E, None),
         "friction of the walls 0.2": (replaced("WALL_FRICTION = 0, 0.4, 0.4", "WALL_FRICTION = 0, 0.4, 0.2"), MU, 0.2),
@@ -175,8 +176,9 @@ MISTAKES = {
         "amplitude 5 % too small": (replaced("0.011*sin", "0.01045*sin"), ("mill.amplitude.y", VELOCITY), 0.01045),
     },
 }
-#: It changes the dose rate by 2.5 +- 2.1 % (60 s of each deck, contacts of 300 us) and no restitution: an audit may not see it in a short log.
-SLIGHT = ("lammps", 300, "tangential damping left on")
+#: It changes the dose rate by 2.5 +- 2.1 % in LAMMPS and by -3.1 +- 2.5 % in LIGGGHTS (60 s and 40 s of each deck, contacts of 300 us),
+#: and no restitution: short logs may not show it.
+SLIGHT = "tangential damping left on"
 #: The time that each code simulates [s], by contact time [us]: short contacts need short steps, and YADE is slow.
 RUNS = {"lammps": {20: 0.5, 50: 1, 100: 1, 200: 2, 300: 2},
         "liggghts": {20: 0.5, 50: 1, 100: 1, 200: 1, 300: 2},
@@ -207,7 +209,7 @@ def mistakes(codes):
                 value = value.get("value", value.get("found", math.nan))
                 allowed = 0.01 if "friction" in str(named) else max(0.01 * abs(truth or 0), 0.003)
                 close = truth is None or named == VELOCITY or abs(value - truth) <= allowed
-                is_slight = (code, time, mistake) == SLIGHT and exit_code == 0
+                is_slight = mistake == SLIGHT and exit_code == 0
                 check(is_slight or exit_code == 6 and named and close,
                       f"{where}: {mistake}: exit code {exit_code}, {named} {value:.4g}; {', '.join(differing(found)[:3])}")
 
