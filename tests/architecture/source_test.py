@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What the sources of src/ have in common: no header includes itself by way of others; a room has its own namespace, and adds to
 others only what it declares of them; rooms of the page in the browser keep to the library that it is built with; judges do without
-the engine. Files of more than 400 lines, functions of more than 60 and six equal lines in two places are listed for a reader to
+the engine. Prose of the manual, of READMEs and of the changelog has lines of at most 100 columns. Files of more than 400 lines, functions of more than 60 and six equal lines in two places are listed for a reader to
 judge, and fail nothing.
 
 usage: source_test.py SOURCE"""
@@ -59,6 +59,21 @@ def find_ranges(name, text):
         problems.append(f"{name}: std::ranges, which the page cannot have")
 
 
+# Pages that programs write.
+GENERATED = {"reference.md", "variables.md", "machines.md", "dem_study.md", "test-times.md"}
+
+
+def find_wide_prose():
+    pages = [page for folder in ("docs", "verification", "regression") for page in (source.parent / folder).rglob("*.md")]
+    for page in pages + list(source.parent.glob("*.md")):
+        is_code = False
+        for k, line in enumerate(page.read_text(encoding="utf-8").splitlines() if page.name not in GENERATED else ()):
+            if line.strip().startswith("```"):
+                is_code = not is_code
+            elif not is_code and len(line) > 100 and not line.startswith(("|", "    ", "<", "#", "![")) and " " in line[:100].strip():
+                problems.append(f"{page.relative_to(source.parent)}:{k + 1}: {len(line)} columns of prose, at most 100 are expected")
+
+
 # The declarations of instances that two sources need, each by itself.
 SHARED = {"namespace edmill {"}
 
@@ -110,5 +125,6 @@ for name, text in files.items():
     find_engine(name, text)
 if len(files) < 100:
     problems.append(f"{len(files)} files found in {source}, expected those of the project")
+find_wide_prose()
 print("\n".join(to_judge + problems + [f"{len(files)} files, {len(problems)} problems, {len(to_judge)} places to judge"]))
 sys.exit(1 if problems else 0)
