@@ -21,6 +21,16 @@ OPTIMIZE = ('[optimize]\ncase = "case.toml"\nobjective = "milling_dose_rate"\nru
             'refinements = 0\n[[optimize.variable]]\nkey = "contact.restitution"\nlow = 0.4\nhigh = 0.6\n')
 
 
+def usage(t):
+    """The synopsis of the manual has every command with all its options, and no others."""
+    page = (EXAMPLES.parent / "usage.md").read_text(encoding="utf-8")
+    entries = re.split(r"\n(?=edmill )", re.search(r"```text\n(.*?)```", page, re.S)[1])
+    for command in re.findall(r"(?m)^  ([a-z]+) {2,}", said("--help").split("Subcommands:")[1]):
+        there = " ".join(entry for entry in entries if command in re.match(r"edmill ([\w| ]*)", entry)[1].split()[::2])
+        options = set(re.findall(r"(?m)^  (?:-\w,)?(--[\w-]+)", said(command, "--help"))) - {"--help"}
+        t.check(there and options == set(re.findall(r"--[\w-]+", there)), f"the synopsis of {command}")
+
+
 def new(t):
     text = said("new", "--balls", "12x6mm", "--powder", "4 g", "--time", "0.3 s")
     t.check("count = 12" in text, "the balls that are wished for")
@@ -162,6 +172,7 @@ with Trials() as t:
     pathlib.Path("long.toml").write_text(case("collisions", "events", "trends", end="2 s"))
     names = re.findall(r"^ +([a-z]+) ", said("--help").split("Subcommands:")[1], re.M)
     t.check(sorted(names) == sorted(command.__name__.rstrip("_") for command in COMMANDS), f"commands are {names}")
+    usage(t)
     for command in COMMANDS:
         command(t)
 print(f"{len(COMMANDS)} commands, {t.checks} checks")
