@@ -127,7 +127,7 @@ MISTAKES = {
     "lammps": {
         "damping tsuji 0.6 as documented": (scaled(MATERIAL, 0.6 / 0.437993257), E, 0.716),
         "contacts that attract": (replaced(" limit_damping", ""), E, None),
-        "tangential damping left on": (replaced("mindlin NULL 0.0", "mindlin NULL 1.0"), MU, None),
+        "tangential damping left on": (replaced("mindlin NULL 0.0", "mindlin NULL 1.0"), (MU, MU_PAIRS), None),
         "damping of walls alone": (in_line(OF_WALLS, scaled(MATERIAL, 1.1)), E, None),
         "damping of pairs alone": (in_line(OF_PAIRS, scaled(MATERIAL, 0.9)), E_PAIRS, None),
         "amplitude 5 % too small": (scaled(r"movey equal (\S+?)\*", 0.95), ("mill.amplitude.y", VELOCITY), 0.01045),
@@ -147,7 +147,7 @@ MISTAKES = {
     "liggghts": {
         "restitution as documented": (lambda deck: re.subn(r"(?m)^(fix m3 .* 2) .*", r"\1 0.6 0.6 0.6 0.6", deck), E, None),
         "contacts that attract": (replaced("limitForce on", "limitForce off"), E, None),
-        "tangential damping left on": (replaced("tangential_damping off", "tangential_damping on"), MU, None),
+        "tangential damping left on": (replaced("tangential_damping off", "tangential_damping on"), (MU, MU_PAIRS), None),
         "restitution of walls alone": (lambda deck: re.subn(r"(?m)^(fix m3 .* 2 \S+) .*", r"\1 0.5 0.5 0.56", deck), E, None),
         "restitution of pairs alone": (lambda deck: re.subn(r"(?m)^(fix m3 .* 2) \S+", r"\1 0.65", deck), E_PAIRS, None),
         "speed of walls along y 5 % too small": (scaled(r"q3 equal \(([\d.]+)\)", 0.95), ("mill.amplitude.y", VELOCITY), 0.01045),

@@ -631,7 +631,7 @@ void require_resolution(const CaseSpec& spec, const InitialCase<Real>& built) {
   Real fastest = 2 * mill.motion.speed_within(reach) + 4 * sqrt(gravity * reach);
   for (const auto& state : built.states) fastest = std::max(fastest, norm<Real>(state.velocity));
   const Real rounding = epsilon<Real>() / 2 * (24 * reach + 16 * fastest * mill.motion.period());
-  const Real least_radius = 8000000 * rounding;  // so that a missed impact is told from rounding
+  const Real least_radius = 8000000 * rounding;  // so that a missed impact differs from rounding
   const auto number = [](const Real& x) { return fmt::format("{:.3g}", static_cast<double>(x)); };
   std::vector<std::string> problems;
   spec.for_each_ball([&](const BallSpec& ball) {

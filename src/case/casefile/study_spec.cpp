@@ -17,7 +17,7 @@ namespace {
 bool asks_for_digits(const std::string& case_file) {
   try {
     return read_case(case_file).digits.has_value();
-  } catch (const InputError&) {  // told for each run
+  } catch (const InputError&) {  // reported for each run
     return false;
   }
 }

@@ -69,7 +69,7 @@ struct Wanted {
   std::string ratio;  ///< mass of the balls over that of the powder
 };
 
-/// A case file with comments that tell the sources.
+/// A case file with the sources in its comments.
 /// @throws InputError that names the wish, what was found and what was expected
 std::string new_case(const Wanted& wanted);
 

@@ -140,7 +140,7 @@ void Archive::one(T& value) {
     if (byte > 1) throw InputError("found neither true nor false in a saved state");
     value = byte == 1;
   } else if constexpr (std::is_same_v<T, long> || std::is_same_v<T, unsigned long>) {
-    // Of a length that depends on the machine, as std::size_t is.
+    // Its length depends on the machine, as that of std::size_t does.
     std::conditional_t<std::is_signed_v<T>, long long, unsigned long long> wide = value;
     (*this)(wide);
     value = static_cast<T>(wide);

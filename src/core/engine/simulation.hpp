@@ -28,7 +28,7 @@ struct EngineCounts {
   std::uint64_t stale_events = 0;
   std::uint64_t cell_crossings = 0;
   std::uint64_t wall_searches = 0;
-  std::uint64_t simultaneous_contacts = 0;  ///< of one ball at times that no scalar could tell apart
+  std::uint64_t simultaneous_contacts = 0;  ///< of one ball at times that no scalar could separate
   Real deepest_overlap{0};                  ///< by rounding, at any impact [m]
 
   void archive(Archive& a) {
@@ -48,7 +48,7 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// Observers are told of every impact, in the order of attachment; they must outlive the run.
+  /// Observers get every impact, in the order of attachment; they must outlive the run.
   void attach(Observer<Real>& observer) { observers_.push_back(&observer); }
 
   /// Processes every event up to `end`, inclusive; returns early when an observer asks for it, on collapse

@@ -166,7 +166,7 @@ class InputFile::Buffer : public std::streambuf {
   }
 
  private:
-  /// Reads on as long as there are fewer bytes than the beginning that tells the format.
+  /// Reads on as long as there are fewer bytes than the beginning that shows the format.
   /// @return false when the system cannot
   bool fill() {
     constexpr std::size_t beginning = 4;

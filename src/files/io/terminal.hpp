@@ -18,7 +18,7 @@ inline void note_error() {
 }
 
 /// Text for standard output. A failure is remembered and does not end the work whose results are on disk:
-/// `output_error` tells of it at the end.
+/// `output_error` reports it at the end.
 inline void print_text(std::string_view text) {
   errno = 0;
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) note_error();

@@ -66,7 +66,7 @@ struct HeatCell {
   double value;
 };
 
-/// Values of cells as colours, with the scale that tells them apart.
+/// Values of cells as colours, with their scale.
 struct HeatMap {
   std::string id, title, description;
   Axis x, y;           ///< of a disc: y from 0 to the outer radius, x unused but for its title

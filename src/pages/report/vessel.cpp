@@ -184,7 +184,7 @@ void add_sizes(pugi::xml_node section, const std::vector<Ball>& balls) {
             {"balls", "mean [W]", "least [W]", "most [W]", "mean per area [W/cm\u00b2]"}, rows);
 }
 
-/// Whether some balls get more than others is seen where they are few enough to be told apart.
+/// Shows whether some balls get more than others, where they are few enough to be distinguished.
 void draw_balls(pugi::xml_node section, const std::vector<Ball>& balls) {
   constexpr std::size_t most = 400;
   if (balls.size() < 2 || balls.size() > most) return;

@@ -204,7 +204,8 @@ prove::Proof prove(const casefile::CaseSpec& spec, const ProveOptions& options);
 std::size_t right_events(const std::string& precision, const casefile::CaseSpec& spec,
                          const prove::Proof& proof);
 
-/// Where the header of a certificate tells of another case, a line each. @throws InputError for what is none
+/// Where the header of a certificate belongs to another case, a line each. @throws InputError for what is
+/// none
 std::vector<std::string> check_certificate(const casefile::CaseSpec& spec, const std::string& certificate);
 
 }  // namespace edmill::app

@@ -19,7 +19,7 @@ struct RunOptions : run::RunSetup {
   std::string folder;   ///< of the outputs
   bool report = false;  ///< write the page report.html, and the tables that it shows
   bool check = false;   ///< find what decides the dose rate; with a report also where that takes seconds
-  /// Of a run that has ended, as text (app/variations.hpp).
+  /// Finds what decides the dose rate of a run that has ended, as text (app/variations.hpp).
   std::function<std::string(const casefile::CaseSpec&, const io::Facts&)> what_decides = {};
   /// Called when the run has results to keep: before that, an interrupted program may end at once.
   std::function<void()> begun = [] {};
@@ -48,7 +48,7 @@ struct RunResult {
 /// @throws InterruptedError when the interrupt comes before the first event
 RunResult run(const std::string& precision, casefile::CaseSpec spec, const RunOptions& options);
 
-/// What the checkpoints of a run tell of it, at its start.
+/// The part of a run's checkpoints that is known at its start.
 /// @throws InputError for a case that cannot be read again
 io::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::string& precision, bool report,
                                 const std::string& interval);

@@ -23,7 +23,7 @@ enum ExitCode : int {
   interrupted = 128,  ///< plus the number of the signal, which the caller adds
 };
 
-/// Of a run that ended so.
+/// The exit code of a run that ended for this reason.
 constexpr ExitCode code_of(model::EndReason reason) {
   return reason == model::EndReason::undecided            ? undecided
          : reason == model::EndReason::stalled            ? stalled

@@ -16,7 +16,7 @@ namespace {
 
 constexpr slong coarse_bits = 64, guard_bits = 64;
 
-/// Of a meeting or an event.
+/// The name of a meeting or an event.
 std::string name_of(const auto& next) {
   return fmt::format("ball {} and {} {}", next.ball, next.with_wall ? "wall" : "ball", next.partner);
 }

@@ -64,7 +64,7 @@ Proof prove(const casefile::CaseSpec& spec, const ProofOptions& options);
 /// docs/certificates.md
 void write_certificate(std::ostream& out, const Proof& proof);
 
-/// Where the header of a certificate tells of another case than this one, a line each: "/balls/0/radius:
+/// Where the header of a certificate belongs to another case than this one, a line each: "/balls/0/radius:
 /// found "1/250", expected "119/25000"". The name of the case, its digest, the bits and the number of events
 /// do not count: what is proven follows from the other numbers.
 /// @param name  of the file, for messages

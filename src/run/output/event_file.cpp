@@ -68,7 +68,7 @@ struct EventFile::Data {
   hsize_t written = 0, waiting = 0;
   Sha256 digest;  ///< of the blocks as they stand in the file
 
-  /// Does what HDF5 does to the file; a failure is told with the file's name.
+  /// Does what HDF5 does to the file; a failure is reported with the file's name.
   template <class Work>
   void with_name(const Work& work) const {
     try {

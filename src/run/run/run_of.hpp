@@ -390,8 +390,8 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
     if (outputs_ && !spec_->outputs.empty()) a(*outputs_);
   }
 
-  /// Nothing is put in place before everything is written. The summary comes last: results that it tells of
-  /// are there.
+  /// Nothing is put in place before everything is written. The summary comes last: results that it
+  /// names exist.
   void write_results() {
     const DriveClock<Real> clock(built_.the_case.mill.motion.period());
     auto files = outputs_->complete(goes_on());

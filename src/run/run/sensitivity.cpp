@@ -26,7 +26,7 @@ struct Perturbation {
   mpfr step{0};                  ///< negative where no larger value is allowed
 };
 
-/// Of a ball and, if it is one, its partner.
+/// States of a ball and, if it is one, its partner.
 using States = std::array<model::BallState<mpfr>, 2>;
 
 /// The same time on the clock of a mill with another drive period.
@@ -320,7 +320,7 @@ class Differentiator : private engine::Observer<mpfr> {
         for (const auto& t : d.states_after)
           for (const auto* v : {&t.position, &t.velocity})
             for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, abs((*v)[axis]));
-    // Of a second derivative, by which an error of the state moves the first one.
+    // The digits of a second derivative, by which an error of the state moves the first one.
     return options_.digits + 25 + 2 * static_cast<double>(log10(largest));
   }
 

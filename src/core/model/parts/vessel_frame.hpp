@@ -1,4 +1,4 @@
-// What motions and vessels tell a search about a ball in the vessel frame.
+// What a search has to know of motions and vessels about a ball in the vessel frame.
 #pragma once
 
 #include <array>

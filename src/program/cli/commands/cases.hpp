@@ -1,4 +1,4 @@
-// The commands that make and check cases, and tell what mills and outputs there are.
+// The commands that make and check cases, and list mills and outputs.
 #pragma once
 
 #include "app/check_case.hpp"

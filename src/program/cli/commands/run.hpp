@@ -25,7 +25,8 @@
 
 namespace edmill::cli {
 
-/// Keeps a folder for a run whose digits are sought first: what refuses it is told before. Leaves none empty.
+/// Keeps a folder for a run whose digits are sought first: errors of the folder come before the search.
+/// Leaves none empty.
 class ReservedFolder {
  public:
   ReservedFolder(const std::string& folder, bool saves, const casefile::CaseSpec& spec) {
@@ -107,7 +108,7 @@ class RunCommand {
     return options;
   }
 
-  /// Does `work` with a progress line on a terminal, and tells of the run.
+  /// Does `work` with a progress line on a terminal, and prints the results.
   int with_progress(app::RunOptions& options, const auto& work) const {
     io::ProgressLine line(quiet_);
     if (line)
