@@ -48,7 +48,7 @@ def largest_work(time, dose):
 
 def run(edmill, case, law, seed, folder):
     settings = {"run.seed": seed, "run.start_time": f"{START} s", "run.end_time": f"{END} s", **variants.settings_of(law, case)}
-    text = (pathlib.Path(variants.ROOT) / f"regression/ward/cases/{case.name}.toml").read_text(encoding="utf-8")
+    text = (variants.ROOT / f"regression/ward/cases/{case.name}.toml").read_text(encoding="utf-8")
     file = folder / "case.toml"
     file.write_text(text + '\n[[output]]\ntype = "frequency"\nvariable = "relative_normal_speed_before"\nlow = "0 m/s"\nhigh = "7 m/s"\nintervals = 7\n'
                     f'wall_details = true\nstart_time = "{START} s"\n', encoding="utf-8")

@@ -231,7 +231,7 @@ class CellGrid {
   }
 
   /// A cell holds up to two balls; those of a crowded one, which is rare, are chained to its first. What
-  /// stands in the place of the second ball gives how many there are: its two highest bits are, as a signed
+  /// is in the place of the second ball gives how many there are: its two highest bits are, as a signed
   /// number, how many more than two.
   struct Cell {
     static constexpr std::uint32_t single = 3u << 30, empty = 2u << 30, crowded = empty | 1u << 29;
