@@ -115,6 +115,7 @@ TEST(Precision, DoesNotBias) { does_not_bias(mills[0], 20, 0.004); }
 
 /// A mill with the times of whole drive periods from a start on.
 struct Charge {
+  const char* test;  ///< its name as a test
   const char* name;
   std::string file;
   std::vector<std::string> settings;
@@ -122,25 +123,34 @@ struct Charge {
   double start;   ///< of statistics, when the transient is over [s]
 };
 constexpr double spex_period = 60.0 / 1054;
-const Charge charges[] = {{"SPEX, 2 balls",
-                           "docs/examples/demo.toml",
-                           {"balls.0.count=2", "balls.0.diameter=9.52 mm"},
-                           spex_period,
-                           3},
-                          {"SPEX, 7 balls",
-                           "docs/examples/demo.toml",
-                           {"balls.0.count=7", "balls.0.diameter=6.35 mm"},
-                           spex_period,
-                           3},
-                          {"SPEX, 14 balls",
-                           "docs/examples/demo.toml",
-                           {"balls.0.count=14", "balls.0.diameter=6.35 mm"},
-                           spex_period,
-                           3},
-                          {"SPEX, 28 balls", "docs/examples/demo.toml", {}, spex_period, 3},
-                          {"vibrated box, 5 balls", "docs/examples/vibrated_box.toml", {}, 1.0 / 60, 1},
-                          {"mixer mill, 1 ball", "docs/examples/mixer.toml", {}, 1.0 / 30, 2},
-                          {"planetary jar, 20 balls", "docs/examples/planetary.toml", {}, 0.2, 4}};
+const Charge charges[] = {
+    {"spex_2",
+     "SPEX, 2 balls",
+     "docs/examples/demo.toml",
+     {"balls.0.count=2", "balls.0.diameter=9.52 mm"},
+     spex_period,
+     3},
+    {"spex_7",
+     "SPEX, 7 balls",
+     "docs/examples/demo.toml",
+     {"balls.0.count=7", "balls.0.diameter=6.35 mm"},
+     spex_period,
+     3},
+    {"spex_14",
+     "SPEX, 14 balls",
+     "docs/examples/demo.toml",
+     {"balls.0.count=14", "balls.0.diameter=6.35 mm"},
+     spex_period,
+     3},
+    {"spex_28", "SPEX, 28 balls", "docs/examples/demo.toml", {}, spex_period, 3},
+    {"box", "vibrated box, 5 balls", "docs/examples/vibrated_box.toml", {}, 1.0 / 60, 1},
+    {"mixer", "mixer mill, 1 ball", "docs/examples/mixer.toml", {}, 1.0 / 30, 2},
+    {"planetary",
+     "planetary jar, 5 balls",
+     "docs/examples/planetary.toml",
+     {"balls.0.count=5", "mill.speed=600 rpm", "contact.least_separation=10 cm/s"},
+     0.1,
+     2}};
 
 /// Whether a run says with its rates that they may not be those of other runs.
 bool is_warned_of(const io::Summary<double>& s) {
@@ -166,17 +176,21 @@ double cover(const Charge& charge, int periods, int runs) {
     const auto s = simulated(spec, casefile::build_case<double>(spec));
     warned += is_warned_of(s);
     const auto facts = io::facts_of(s);
-    const auto add = [&](const std::string& key, const std::string& path) {
-      const auto value = facts.find(path), width = facts.find("intervals/" + path);
+    const auto add = [&](const std::string& key, std::optional<double> value, const std::string& interval) {
+      const auto width = facts.find("intervals/" + interval);
       if (!value || !width) return;
       rates[key].rates.push_back(*value);
       rates[key].half_widths.push_back(*width);
     };
     for (const auto* key :
          {"milling_dose_rate", "inverse_milling_dose_rate", "wall_work_rate", "fast_impact_rate"})
-      add(key, key);
-    for (const auto& partner : facts.keys_of("impact_rate"))
-      add("impacts, " + partner, "impact_rate/" + partner);
+      add(key, facts.find(key), key);
+    for (const auto& partner : facts.keys_of("impact_rate")) {
+      const std::string impacts = "impact_rate/" + partner;
+      add("impacts, " + partner, facts.find(impacts), impacts);
+      const auto dose = facts.find("milling_dose_by_partner/" + partner);
+      if (dose) add("dose rate, " + partner, *dose / s.duration(), "milling_dose_rate_by_partner/" + partner);
+    }
   }
   double least = 1;
   for (const auto& [key, found] : rates) {
@@ -191,19 +205,15 @@ double cover(const Charge& charge, int periods, int runs) {
 }
 
 TEST(Intervals, EveryRateOfAShortRunIsHeld) { EXPECT_GT(cover(charges[3], 50, 100), 0.88); }
-/// EDMILL_RUNS: how many of each charge, in place of 1000. A planetary jar is slow: a tenth, and no longest
-/// record.
-TEST(Intervals, LongEveryRateIsHeldOrWarnedOf) {
+/// EDMILL_RUNS: how many of each charge, in place of 1000.
+class Charges : public testing::TestWithParam<Charge> {};
+TEST_P(Charges, LongEveryRateIsHeldOrWarnedOf) {
   const char* given = std::getenv("EDMILL_RUNS");
   const int runs = given ? std::atoi(given) : 1000;
-  for (const auto& charge : charges) {
-    const bool is_slow = charge.period > 0.1;
-    for (const int periods : {50, 150, 600}) {
-      if (is_slow && periods == 600) continue;
-      EXPECT_GT(cover(charge, periods, is_slow ? runs / 10 : runs), 0.925) << charge.name;
-    }
-  }
+  for (const int periods : {50, 150, 600}) EXPECT_GT(cover(GetParam(), periods, runs), 0.925) << periods;
 }
+INSTANTIATE_TEST_SUITE_P(, Charges, testing::ValuesIn(charges),
+                         [](const auto& info) { return std::string(info.param.test); });
 /// A planetary jar settles in one of several states with dose rates of their own, where each run stays: its
 /// interval holds the rate of the run's further course and not that of other seeds.
 TEST(Intervals, LongAreOfTheStateThatARunIsIn) {

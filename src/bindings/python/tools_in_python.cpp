@@ -13,6 +13,7 @@
 #include "app/variations.hpp"
 #include "base/clean_text.hpp"
 #include "base/errors.hpp"
+#include "casefile/quantity.hpp"
 #include "decks/deck.hpp"
 #include "dem/contact_rates.hpp"
 #include "dem/contacts.hpp"
@@ -37,8 +38,8 @@ namespace {
 
 /// @return how many runs failed
 template <std::optional<app::StudyResult> (*command)(const app::StudyOptions&)>
-std::size_t study(const std::string& file, const std::string& folder, int jobs) {
-  const auto result = with_interrupt(app::StudyOptions{file, folder, jobs, true}, command);
+std::size_t study(const std::string& file, const std::string& folder, int jobs, bool progress) {
+  const auto result = with_interrupt(app::StudyOptions{file, folder, jobs, !progress}, command);
   return result ? result->counts.failed : 0;
 }
 
@@ -282,6 +283,7 @@ py::tuple vary(const Case& the_case, double uncertainty) {
 
 const Binding tools([](Module& m) {
   m.def("with_interval", &with_interval);
+  m.def("in_si", &casefile::in_si);
   m.def("seeds", &seeds);
   m.def("vary", &vary);
   m.def("sweep", &study<app::sweep>);

@@ -54,6 +54,7 @@ const std::vector<Unit>& units() {
       {D::angle, {"grad", "gradient", "gradients", "gon"}, pi_by(200)},
       {D::energy, {"J", "joule", "joules"}, 1},
       {D::energy, {"mJ", "millijoule", "millijoules"}, Quantity(1, 1000)},
+      {D::energy, {"uJ", "microjoule", "microjoules"}, Quantity(1, 1000000)},
       {D::energy, {"kJ", "kilojoule", "kilojoules"}, 1000},
       {D::specific_energy, {"J/kg"}, 1},
       {D::specific_energy, {"kJ/kg", "J/g"}, 1000},
@@ -293,6 +294,18 @@ QuantityResult parse_quantity(std::string_view text, Dimension dimension, SizeLi
   const Quantity quantity = known ? *number * known->factor : *number;
   if (!of_physical_size(quantity, limit)) return problem("its size is beyond 1e-30 to 1e30 in SI units");
   return quantity;
+}
+
+std::optional<std::pair<double, std::string>> in_si(std::string_view text) {
+  std::optional<Dimension> tried;
+  for (const auto& unit : units()) {  // the first unit of a dimension is that of SI
+    if (tried == unit.dimension) continue;
+    tried = unit.dimension;
+    const auto found = parse_quantity(text, unit.dimension);
+    if (const auto* quantity = std::get_if<Quantity>(&found))
+      return std::pair{quantity->to<double>(), std::string(unit.spellings.front())};
+  }
+  return std::nullopt;
 }
 
 }  // namespace edmill::casefile

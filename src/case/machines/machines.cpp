@@ -347,15 +347,21 @@ void put_machine(Writer& out, const Machine& machine, const Wanted& wanted, cons
   }
 }
 
-void put_contact(Writer& out, const Wanted& wanted, const Contact& contact) {
+void put_contact(Writer& out, const Wanted& wanted, const Charge& charge) {
+  const auto& contact = contact_of(charge);
+  const auto other = std::ranges::find_if(
+      charge.batches, [](const Batch& b) { return b.material->key.find("steel") == std::string::npos; });
+  const auto source =
+      brief(contact.source) + (other == charge.batches.end() ? "" : "; assumed for " + other->material->key);
   out.section("contact");
+  if (wanted.restitution.empty() || wanted.friction.empty())
+    out.comment("Known to 0.1 at best; what that changes: edmill run --check");
   if (!wanted.restitution.empty()) {
     out.key("restitution", wanted.restitution, "as given");
   } else if (!contact.model.empty()) {
-    out.key("model", quoted(contact.model),
-            "restitution by charge ratio and diameter; " + brief(contact.source));
+    out.key("model", quoted(contact.model), "restitution by charge ratio and diameter; " + source);
   } else {
-    out.key("restitution", contact.restitution, contact.what + "; " + brief(contact.source));
+    out.key("restitution", contact.restitution, contact.what + "; " + source);
   }
   const auto& all = catalogue();
   out.key("friction", wanted.friction.empty() ? all.friction : wanted.friction,
@@ -462,7 +468,7 @@ std::string new_case(const Wanted& wanted) {
     if (!wanted.target_dose.empty())
       out.key("target_dose", quoted(wanted.target_dose), "the run gives the milling time");
   }
-  put_contact(out, wanted, contact_of(charge));
+  put_contact(out, wanted, charge);
   for (const auto& b : charge.batches) {
     out.section("[balls]");
     out.key("count", std::to_string(b.count), "");

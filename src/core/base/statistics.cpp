@@ -262,4 +262,33 @@ bool stands_apart(double value, const std::vector<double>& sample, double signif
   return std::abs(value - mean_of(sample)) > student_limit(n - 1, significance) * spread;
 }
 
+namespace {
+constexpr int least_octave = -100, bins_per_octave = 32;  // below 1e-30 J: as nothing
+}  // namespace
+
+void WeightedQuantiles::add(double value, double weight) {
+  if (!(weight > 0)) return;
+  int octave = least_octave;
+  const double part = value > 0 && std::isfinite(value) ? std::frexp(value, &octave) : 0.5;
+  const int bin =
+      (octave - least_octave) * bins_per_octave + static_cast<int>((2 * part - 1) * bins_per_octave);
+  const auto place = static_cast<std::size_t>(std::max(bin, 0));
+  if (place >= weights_.size()) weights_.resize(place + 1);
+  weights_[place] += weight;
+}
+
+std::optional<double> WeightedQuantiles::quantile(double share) const {
+  double below = share * std::accumulate(weights_.begin(), weights_.end(), 0.0);
+  if (!(below > 0)) return std::nullopt;
+  const auto edge = [](std::size_t bin) {
+    const int k = static_cast<int>(bin);
+    return std::ldexp(1 + static_cast<double>(k % bins_per_octave) / bins_per_octave,
+                      k / bins_per_octave + least_octave - 1);
+  };
+  std::size_t bin = 0;
+  while (bin + 1 < weights_.size() && below > weights_[bin]) below -= weights_[bin++];
+  const double within = weights_[bin] > 0 ? std::min(below / weights_[bin], 1.0) : 0;
+  return edge(bin) + within * (edge(bin + 1) - edge(bin));
+}
+
 }  // namespace edmill::numerics

@@ -89,6 +89,19 @@ class Line {
   double weights_ = 0, mean_x_ = 0, mean_y_ = 0, xx_ = 0, xy_ = 0;
 };
 
+/// Quantiles by weight of values above 0, from bins of 1/32 of an octave: within 3 %.
+class WeightedQuantiles {
+ public:
+  void add(double value, double weight);
+  /// What `share` of the weight is below; nothing of no weight.
+  std::optional<double> quantile(double share) const;
+
+  void archive(auto& a) { a(weights_); }
+
+ private:
+  std::vector<double> weights_;  ///< up to the last bin that has any
+};
+
 /// Whether the means of two samples differ at `significance` (Welch's test, two-sided). Samples of fewer than
 /// two values never differ.
 bool differ(const std::vector<double>& a, const std::vector<double>& b, double significance);

@@ -26,6 +26,12 @@ struct ImpactOutcome {
   Real supplied_energy{};         ///< that the least separation speed adds to the motion [J]; never negative
   Real wall_work{};               ///< [J], (A.82); zero between balls
 
+  /// M/2 g_n^2, the kinetic energy of the approach along the normal [J]; 0 where the bodies do not approach.
+  Real impact_energy() const {
+    return approach_speed > 0 ? Real(normal_impulse / (approach_speed + separation_speed) *
+                                     (approach_speed * approach_speed) / 2)
+                              : Real(0);
+  }
   /// Effective e_n = separation over approach speed; above 1 where energy is supplied, 1 where the bodies do
   /// not approach each other.
   Real restitution_normal() const {

@@ -60,6 +60,13 @@ struct FieldList {
             });
     v("fast_impact_rate", "1/s", "of impacts that approach at more than 1 m/s",
       per_second(Real(number(s.fast_impacts))));
+    v("mean_impact_speed", "m/s", "of approach, along the normal; not of contacts at rest",
+      s.impacts_counted() > 0 ? std::optional<Real>(s.impact_speeds / number(s.impacts_counted()))
+                              : std::nullopt);
+    v.group("impact_energy_by_dose",
+            "kinetic energy of the approach along the normal, M/2 v^2, before any of it is dissipated",
+            [&] { by_dose(s.impact_energy); });
+    v.group("dissipated_energy_by_dose", "dose of single impacts", [&] { by_dose(s.dissipated_energy); });
     v("milling_dose", "J", "energy dissipated by all impacts", s.milling_dose);
     v("milling_dose_rate", "W", "", per_second(s.milling_dose));
     v("inverse_milling_dose_rate", "s/J", "null without a dose",
@@ -207,6 +214,10 @@ struct FieldList {
     v("impact_share", "1", "of all impacts", ratio(number(count), number(s.total_collisions())));
     v("milling_dose", "J", "of these impacts", dose);
     v("milling_dose_share", "1", "of the whole dose", ratio(dose, s.milling_dose));
+  }
+  void by_dose(const QuantilesByDose& energy) {
+    v("median", "J", "half of the dose comes from impacts below", energy.half);
+    v("90_percent", "J", "90 % of the dose comes from impacts below", energy.ninety);
   }
   void by_partner(const char* unit, const auto& value_of) {
     for (int k = 0; k < s.partners.count(); ++k)

@@ -48,6 +48,11 @@ struct Intervals {
   bool any() const { return batches >= fewest; }
 };
 
+/// Impacts below which half, and 90 %, of the dose is [J].
+struct QuantilesByDose {
+  std::optional<double> half, ninety;
+};
+
 /// Why a number of a run is not to be trusted.
 struct Warning {
   std::string kind;  ///< "transient"
@@ -73,8 +78,10 @@ struct Summary {
   std::vector<std::uint64_t> collisions;  ///< with each partner
   std::vector<std::uint64_t> impacts;     ///< of these, not at rest
   std::uint64_t fast_impacts = 0;         ///< above `Intervals::fast`
-  std::vector<Real> dose_by_partner;      ///< [J]
-  Real milling_dose{0}, wall_work{0};     ///< [J]
+  Real impact_speeds{0};                  ///< approach speeds of all impacts, their sum [m/s]
+  QuantilesByDose impact_energy, dissipated_energy;
+  std::vector<Real> dose_by_partner;   ///< [J]
+  Real milling_dose{0}, wall_work{0};  ///< [J]
   model::Energy<Real> energy_at_start, energy_at_end;
   /// sum WE - sum MD + supplied energy - change of (KE + PE) [J]; zero up to rounding.
   Real energy_closure{0};

@@ -125,12 +125,15 @@ std::vector<MainRate> main_rates(const io::Facts& f) {
   std::optional<RateOf> time;
   if (const auto seconds = f.find("target/milling_time"))
     time = RateOf{*seconds, f.find("target/milling_time_half_width")}.in_units_of(3600);
-  return {{"milling dose rate", "W", rate_in(f, "milling_dose_rate")},
-          {"inverse milling dose rate", "s/J", rate_in(f, "inverse_milling_dose_rate")},
+  std::optional<RateOf> energy;
+  if (const auto joules = f.find("impact_energy_by_dose/median"))
+    energy = RateOf{*joules, std::nullopt}.in_units_of(1e-3);
+  return {{"milling time", "h", time},
+          {"milling dose rate", "W", rate_in(f, "milling_dose_rate")},
           {"specific milling dose rate", "W/kg", rate_in(f, "specific_milling_dose_rate")},
-          {"milling time", "h", time},
-          {"power from the walls", "W", rate_in(f, "wall_work_rate")},
-          {"impacts above 1 m/s", "1/s", rate_in(f, "fast_impact_rate")}};
+          {"impact energy, median by dose", "mJ", energy},
+          {"impacts above 1 m/s", "1/s", rate_in(f, "fast_impact_rate")},
+          {"mean impact speed", "m/s", rate_in(f, "mean_impact_speed")}};
 }
 
 std::string capitalised(std::string text) {

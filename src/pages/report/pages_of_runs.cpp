@@ -58,7 +58,6 @@ void add_rates_of(pugi::xml_node main, const std::vector<RunFolder>& runs) {
   const auto first_run = main_rates(runs.front().facts);
   for (std::size_t k = 0; k < first_run.size(); ++k) {
     const auto& [name, unit, first] = first_run[k];
-    if (name.starts_with("inverse")) continue;
     std::vector<std::string> row{name + " [" + unit + "]"};
     bool any = false;
     for (const auto& run : runs) {
@@ -89,7 +88,7 @@ void draw_dose_rates(pugi::xml_node grid, const std::vector<RunFolder>& runs) {
                     {"run", 0.4, static_cast<double>(runs.size()) + 0.6},
                     {"milling dose rate [W]"}};
   for (std::size_t k = 0; k < runs.size(); ++k) {
-    const auto rate = main_rates(runs[k].facts).front().rate;
+    const auto rate = rate_in(runs[k].facts, "milling_dose_rate");
     if (!rate) continue;
     const double place = static_cast<double>(k) + 1;
     add_level(chart, place - 0.25, place + 0.25, *rate, fmt::format("{}: {}", k + 1, runs[k].name),

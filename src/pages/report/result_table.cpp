@@ -18,6 +18,14 @@ std::string row_text(std::string_view name, std::string_view value) {
   return fmt::format("  {:<28}{}\n", name, value);
 }
 
+/// Three digits, in the unit that leaves the fewest zeros.
+std::string energy_text(double joules) {
+  if (joules == 0 || joules >= 1) return fmt::format("{:.3g} J", joules);
+  if (joules >= 1e-3) return fmt::format("{:.3g} mJ", 1e3 * joules);
+  if (joules >= 1e-9) return fmt::format("{:.3g} \u00b5J", 1e6 * joules);
+  return fmt::format("{:.3g} J", joules);
+}
+
 std::string collision_rows(const Facts& f, const model::Partners& partners) {
   std::string out = fmt::format("  {:<28}{:>12}{:>10}{:>26}{:>14}\n", "collisions", "number", "at rest",
                                 "impacts per second", "dose [J]");
@@ -36,26 +44,33 @@ std::string collision_rows(const Facts& f, const model::Partners& partners) {
   return out;
 }
 
-/// Rates with their intervals; nothing of a run without time.
+/// Rates with their intervals, and the impacts behind them; nothing of a run without time.
 std::string rate_rows(const Facts& f) {
   std::string out;
   for (const auto& [name, key, unit] :
        {std::tuple{"milling dose rate", "milling_dose_rate", "W"},
+        std::tuple{"specific milling dose rate", "specific_milling_dose_rate", "W/kg"},
         std::tuple{"inverse milling dose rate", "inverse_milling_dose_rate", "s/J"},
         std::tuple{"wall work rate", "wall_work_rate", "W"},
-        std::tuple{"specific milling dose rate", "specific_milling_dose_rate", "W/kg"},
         std::tuple{"impacts above 1 m/s", "fast_impact_rate", "1/s"}})
     if (const auto rate = f.find(key))
       out += row_text(name, with_interval(*rate, f.find(std::string("intervals/") + key)) + " " + unit);
+  if (const auto speed = f.find("mean_impact_speed"))
+    out += row_text("mean impact speed", fmt::format("{:.3g} m/s", *speed));
+  for (const auto& [name, key] : {std::pair{"impact energy", "impact_energy_by_dose"},
+                                  std::pair{"dissipated in an impact", "dissipated_energy_by_dose"}})
+    if (const auto half = f.find(std::string(key) + "/median"))
+      out += row_text(name, fmt::format("half of the dose below {}, 90 % below {}", energy_text(*half),
+                                        energy_text(f.number(std::string(key) + "/90_percent"))));
   return out;
 }
 
 std::string target_rows(const Facts& f) {
   const auto time = f.find("target/milling_time");
-  return row_text("target dose",
-                  fmt::format("{:g} kJ/g, {}", f.number("target/dose") / 1e6, f.text("target/counts"))) +
-         row_text("milling time", time ? time_with_interval(*time, f.find("target/milling_time_half_width"))
-                                       : "none: nothing of the dose counts");
+  return row_text("milling time", (time ? time_with_interval(*time, f.find("target/milling_time_half_width"))
+                                        : "none: nothing of the dose counts")) +
+         row_text("target dose",
+                  fmt::format("{:g} kJ/g, {}", f.number("target/dose") / 1e6, f.text("target/counts")));
 }
 
 /// What wider scalars and rules decided.
@@ -80,8 +95,8 @@ std::string result_table(const Facts& f, const model::Partners& partners) {
   const auto row = [&](const std::string& name, const std::string& value) { out += row_text(name, value); };
   const auto share = [&](const char* key) { return percent(f.number(key)); };
   row("statistics", fmt::format("{} s to {} s", f.number("start_time"), f.number("end_time")));
-  out += collision_rows(f, partners) + rate_rows(f);
   if (f.has("target/dose")) out += target_rows(f);
+  out += rate_rows(f) + collision_rows(f, partners);
   const std::string scale = io::energy_scale_of(f);
   if (const auto closure = f.find("energy/closure_relative"))
     row(scale == "dose" ? "energy closure / dose" : "energy closure / kinetic",

@@ -12,8 +12,13 @@
 
 namespace edmill::output {
 
-enum class BinnedBy { energy, speed };
-inline constexpr std::array<std::string_view, 2> choices_of(BinnedBy) { return {"energy", "speed"}; }
+enum class BinnedBy { energy, speed, impact_energy };
+inline constexpr std::array<std::string_view, 3> choices_of(BinnedBy) {
+  return {"energy", "speed", "impact_energy"};
+}
+/// The spectra of each.
+inline const std::array<std::vector<std::string>, 3> spectra_by{
+    {{"normal", "tangential", "total"}, {"approach", "slip"}, {"impact"}}};
 
 struct SpectraKeys {
   BinnedBy by = BinnedBy::energy;
@@ -23,7 +28,10 @@ struct SpectraKeys {
   static void keys(auto& output, auto&& row) {
     using casefile::Parameter;
     auto& k = output.template make_own<SpectraKeys>();
-    row(Parameter{"of", "this or `speed`"}.as("name").usually("`\"energy\"`"), k.by);
+    row(Parameter{"of", "dissipated energy; or `speed`; or `impact_energy`, M/2 v^2 along the normal"}
+            .as("name")
+            .usually("`\"energy\"`"),
+        k.by);
     const bool speed = k.by == BinnedBy::speed;
     const auto dimension = speed ? Dimension::speed : Dimension::energy;
     row(Parameter{"low", dimension, "begin of the first bin", casefile::Range::any,
@@ -72,16 +80,18 @@ class SpectraOutput : public TableOutput<Real> {
  public:
   SpectraOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
       : TableOutput<Real>(spec, run),
-        of_speed_(spec.own_keys<SpectraKeys>().by == BinnedBy::speed),
+        by_(spec.own_keys<SpectraKeys>().by),
         edges_(edges_of<Real>(spec.own_keys<SpectraKeys>())),
-        spectra_(of_speed_ ? 2 : 3, Spectrum(edges_.size() + 1, PartnerTally<Real>(run.partners.count()))) {}
+        spectra_(names().size(), Spectrum(edges_.size() + 1, PartnerTally<Real>(run.partners.count()))) {}
 
  protected:
   void archive_record(Archive& a) override { a(spectra_); }
 
   void record(const ImpactFacts<Real>& f) override {
     const auto& o = f.outcome;
-    if (of_speed_) {
+    if (by_ == BinnedBy::impact_energy) {
+      add(f, 0, o.impact_energy(), o.milling_dose);
+    } else if (by_ == BinnedBy::speed) {
       add(f, 0, o.approach_speed, o.milling_dose);
       add(f, 1, o.slip_speed, o.milling_dose);
     } else {
@@ -93,22 +103,21 @@ class SpectraOutput : public TableOutput<Real> {
   }
 
   void end_of_record(const engine::Simulation<Real>&, const Real& until) override {
-    const std::string unit = of_speed_ ? "m/s" : "J";
-    std::vector<Column> columns{{"spectrum", text, "", "the part of the dose, or the speed, that is binned"},
-                                {"bin", text, "", "number of the bin from 1, or below or above all"},
-                                {"low", number, unit, "lower edge of the bin"},
-                                {"high", number, unit, "upper edge of the bin, not in it"}};
+    const std::string unit = by_ == BinnedBy::speed ? "m/s" : "J";
+    std::vector<Column> columns{
+        {"spectrum", text, "", "the part of the dose, the speed or the energy that is binned"},
+        {"bin", text, "", "number of the bin from 1, or below or above all"},
+        {"low", number, unit, "lower edge of the bin"},
+        {"high", number, unit, "upper edge of the bin, not in it"}};
     add_partner_columns(columns, this->run.partners, {"impacts", integer, "1", "number of impacts"});
     add_partner_columns(
         columns, this->run.partners,
-        {"energy", number, "J", of_speed_ ? "dose of the impacts" : "this part of the dose of the impacts"});
+        {"energy", number, "J",
+         by_ == BinnedBy::energy ? "this part of the dose of the impacts" : "dose of the impacts"});
     this->begin(std::move(columns), {this->window(until)});
-    const std::vector<std::string> names = of_speed_
-                                               ? std::vector<std::string>{"approach", "slip"}
-                                               : std::vector<std::string>{"normal", "tangential", "total"};
     for (std::size_t s = 0; s < spectra_.size(); ++s)
       for (std::size_t bin = 0; bin < spectra_[s].size(); ++bin) {
-        this->put(names[s]);
+        this->put(names()[s]);
         this->put_bin(edges_, bin);
         const auto put = [&](const auto& value) { this->put(value); };
         const auto& tallies = spectra_[s][bin];
@@ -124,7 +133,9 @@ class SpectraOutput : public TableOutput<Real> {
     of_partner(f, spectra_[spectrum][bin_of<Real>(edges_, value)]).add(energy);
   }
 
-  bool of_speed_;
+  const std::vector<std::string>& names() const { return spectra_by[static_cast<std::size_t>(by_)]; }
+
+  BinnedBy by_;
   std::vector<Real> edges_;
   std::vector<Spectrum> spectra_;
 };

@@ -259,6 +259,12 @@ io::Summary<Real> summary_of(const casefile::CaseSpec& spec, const casefile::Ini
   summary.milling_dose = statistics.milling_dose();
   summary.wall_work = statistics.wall_work();
   summary.fast_impacts = statistics.count(&Totals::fast);
+  summary.impact_speeds = statistics.sum(&Totals::impact_speeds);
+  const auto by_dose = [](const numerics::WeightedQuantiles& energies) {
+    return io::QuantilesByDose{energies.quantile(0.5), energies.quantile(0.9)};
+  };
+  summary.impact_energy = by_dose(statistics.impact_energies());
+  summary.dissipated_energy = by_dose(statistics.dissipated_energies());
   summary.touched_impacts = statistics.count(&Totals::touched);
   summary.touched_dose = statistics.sum(&Totals::touched_dose);
   summary.supplied_energy = statistics.supplied_energy();

@@ -26,10 +26,11 @@ class RunStatistics : public engine::Observer<Real> {
     std::uint64_t in_stall = 0;  ///< friction rested
     std::uint64_t fast = 0;      ///< above io::Intervals::fast
     numerics::CompensatedSum<Real> milling_dose, touched_dose, stall_dose, supplied_energy, wall_work;
+    numerics::CompensatedSum<Real> impact_speeds;  ///< of approach, not of contacts at rest
 
     void archive(Archive& a) {
       a(collisions, touched, in_stall, fast, milling_dose, touched_dose, stall_dose, supplied_energy,
-        wall_work);
+        wall_work, impact_speeds);
     }
   };
 
@@ -59,17 +60,24 @@ class RunStatistics : public engine::Observer<Real> {
       ++t.touched;
       t.touched_dose += outcome.milling_dose;
       t.supplied_energy += outcome.supplied_energy;
+    } else {
+      t.impact_speeds += outcome.approach_speed;
     }
     if (outcome.in_stall) {
       ++t.in_stall;
       t.stall_dose += outcome.milling_dose;
     }
-    const double share = static_cast<double>(outcome.milling_dose) / (impact.with_wall ? 1 : 2);
+    const double dose = static_cast<double>(outcome.milling_dose);
+    impact_energies_.add(static_cast<double>(outcome.impact_energy()), dose);
+    dissipated_energies_.add(dose, dose);
+    const double share = dose / (impact.with_wall ? 1 : 2);
     add_to_ball(impact.ball, share);
     if (!impact.with_wall) add_to_ball(impact.partner, share);
   }
 
-  void archive(Archive& a) override { a(totals_, counted_dose_, batches_, doses_); }
+  void archive(Archive& a) override {
+    a(totals_, counted_dose_, batches_, doses_, impact_energies_, dissipated_energies_);
+  }
 
   /// By the partners' places.
   const std::vector<Totals>& by_partner() const { return totals_; }
@@ -89,6 +97,8 @@ class RunStatistics : public engine::Observer<Real> {
   Real milling_dose() const { return sum(&Totals::milling_dose); }
   Real supplied_energy() const { return sum(&Totals::supplied_energy); }
   Real wall_work() const { return sum(&Totals::wall_work); }
+  const numerics::WeightedQuantiles& impact_energies() const { return impact_energies_; }
+  const numerics::WeightedQuantiles& dissipated_energies() const { return dissipated_energies_; }
   /// What of the dose works the powder [J].
   Real counted_dose() const { return counts_.all() ? milling_dose() : counted_dose_.value(); }
 
@@ -188,6 +198,7 @@ class RunStatistics : public engine::Observer<Real> {
   numerics::CompensatedSum<Real> counted_dose_;
   numerics::Batches<Real> batches_;
   std::size_t balls_;
+  numerics::WeightedQuantiles impact_energies_, dissipated_energies_;  ///< by dose [J]
   std::vector<double> doses_;  ///< of the first balls that are alike; half of a dose with another [J]
 };
 

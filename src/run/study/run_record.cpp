@@ -75,6 +75,7 @@ const std::vector<Quantity>& main_quantities() {
       {"milling_dose_rate", "milling_dose_rate", "intervals/milling_dose_rate", "milling dose rate", "W"},
       {"specific_milling_dose_rate", "specific_milling_dose_rate", "intervals/specific_milling_dose_rate",
        "specific milling dose rate", "W/kg"},
+      {"impact_energy", "impact_energy_by_dose/median", "", "impact energy, median by dose", "mJ", 1e-3},
       {"milling_time", "target/milling_time", "target/milling_time_half_width", "milling time", "h", 3600}};
   return list;
 }
@@ -86,6 +87,7 @@ std::vector<Quantity> quantities(int walls) {
   list.insert(list.end(), shown.begin(), shown.end());
   list.push_back({"wall_work_rate", "wall_work_rate", "intervals/wall_work_rate"});
   list.push_back({"fast_impact_rate", "fast_impact_rate", "intervals/fast_impact_rate"});
+  list.push_back({"mean_impact_speed", "mean_impact_speed"});
   const auto add = [&](const std::string& partner) {
     list.push_back({"collision_rate_" + partner, "collision_rate/" + partner});
     list.push_back({"impact_rate_" + partner, "impact_rate/" + partner, "intervals/impact_rate/" + partner});

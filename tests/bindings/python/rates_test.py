@@ -100,6 +100,25 @@ start_time = "{summary['start_time']} s"
     assert summary["fast_impact_rate"] == pytest.approx(int(number) / summary["duration"], rel=1e-14)
 
 
+def test_energies_of_impacts_are_those_of_the_events(case):
+    run = edmill.run(case)
+    events = run.events
+    counted = events["time"] >= run.summary["start_time"]
+    dose = events["milling_dose"][counted]
+    mass = 8000 * np.pi / 6 * 9e-3**3 * np.where(events["with_wall"], 1, 0.5)[counted]
+    speed = np.maximum(events["approach_speed"][counted], 0)
+    assert run.mean_impact_speed == pytest.approx(speed[events["separation_speed"][counted] != 0.01].mean(), rel=1e-12)
+    for key, energy in (("impact_energy_by_dose", mass / 2 * speed**2), ("dissipated_energy_by_dose", dose)):
+        order = np.argsort(energy)
+        below = np.cumsum(dose[order]) / dose.sum()
+        for name, share in (("median", 0.5), ("90_percent", 0.9)):
+            exact = energy[order][np.searchsorted(below, share)]
+            assert run.summary[key][name] == pytest.approx(exact, rel=0.03), (key, name)
+    assert run.impact_energy == run.summary["impact_energy_by_dose"]["median"]
+    table = run.case.with_settings('output=[{type="spectra", of="impact_energy", low="1e-6 J", bins_per_decade=30}]')
+    assert edmill.run(table).summary["impact_energy_by_dose"] == run.summary["impact_energy_by_dose"]
+
+
 def test_what_decides_names_every_run(case):
     found = edmill.what_decides(case, uncertainty=0.2)
     assert next(iter(found.values())) == edmill.run(case).dose_rate
@@ -162,6 +181,30 @@ def test_a_sweep_takes_a_case(case, tmp_path):
     one = edmill.run(edited.edit({"mill.speed": "900 rpm", "run.seed": 2}))
     assert study.runs["milling_dose_rate"][1] == one.dose_rate
     assert study.page.exists() and "iframe" in study._repr_html_()
+
+
+def test_a_sweep_over_keys_is_a_frame_in_si(case, tmp_path):
+    pytest.importorskip("pandas")
+    speeds = ["900 rpm", "1000 rpm"]
+    study = edmill.sweep(case.edit({"run.end_time": "0.7 s"}), over={"mill.speed": speeds, "contact.friction": [0.3, np.float64(0.4)]}, seeds=2)
+    frame = study.to_dataframe()
+    assert list(frame["mill.speed"]) == pytest.approx([30 * np.pi, 30 * np.pi, 100 / 3 * np.pi, 100 / 3 * np.pi], rel=1e-15)
+    assert list(frame["contact.friction"]) == [0.3, 0.4, 0.3, 0.4] and list(frame["done"]) == 4 * [2]
+    units = frame.attrs["units"]
+    assert units["mill.speed"] == "rad/s" and "contact.friction" not in units and units["milling_dose_rate_ci95"] == "W"
+    assert units["impact_energy"] == "J" and (frame["impact_energy"] > 0).all()
+    file = tmp_path / "a.toml"
+    file.write_text(case.text)
+    grid = {"sweep": {"case": str(file), "replicas": 2, "grid": {"run.end_time": ["0.7 s"], "mill.speed": speeds, "contact.friction": [0.3, 0.4]}}}
+    assert np.array_equal(edmill.sweep(grid, tmp_path / "a").points["milling_dose_rate"], frame["milling_dose_rate"])
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    axes = study.plot()
+    assert axes.get_xlabel() == "mill.speed [rad/s]" and len(axes.get_legend().get_texts()) == 2
+    for wrong in ({"over": {}}, {"over": {"mill.speed": "900 rpm"}}, {"seeds": 2}):
+        with pytest.raises(edmill.InputError):
+            edmill.sweep(case, **wrong)
+    assert "28" in case._repr_html_() or "6" in case._repr_html_()
 
 
 def test_machines_and_variables():

@@ -137,6 +137,39 @@ TEST(Pooled, RunsWithoutIntervalsAreJudgedByTheirScatter) {
   EXPECT_FALSE(pooled({}, {}).mean);
 }
 
+TEST(WeightedQuantiles, AreWithinThreePercent) {
+  std::mt19937_64 random(seed);
+  for (int k = 0; k < 200; ++k) {
+    const double scale = std::pow(10.0, std::uniform_real_distribution<>(-25, 5)(random));
+    const double spread = std::uniform_real_distribution<>(0, 5)(random);
+    std::vector<std::pair<double, double>> values;
+    WeightedQuantiles quantiles;
+    double all = 0;
+    const int count = std::uniform_int_distribution<>(1, 300)(random);
+    for (int j = 0; j < count; ++j) {
+      const double value = scale * std::exp(spread * std::normal_distribution<>()(random));
+      const double weight = std::uniform_real_distribution<>(0.1, 1)(random);
+      values.emplace_back(value, weight);
+      quantiles.add(value, weight);
+      all += weight;
+    }
+    std::sort(values.begin(), values.end());
+    for (const double share : {0.1, 0.5, 0.9}) {
+      double below = 0;
+      std::size_t place = 0;
+      while (place + 1 < values.size() && (below += values[place].second) < share * all) ++place;
+      const double found = *quantiles.quantile(share);
+      EXPECT_NEAR(found, values[place].first, 0.035 * values[place].first) << k << ' ' << share;
+    }
+  }
+  WeightedQuantiles none;
+  EXPECT_FALSE(none.quantile(0.5));
+  none.add(1, 0);
+  EXPECT_FALSE(none.quantile(0.5));
+  none.add(0, 1);
+  EXPECT_LT(*none.quantile(0.9), 1e-30);
+}
+
 TEST(MeansDiffer, OfSeriesWithOtherMeansAlone) {
   std::mt19937_64 random(seed);
   int falsely = 0, seen = 0;

@@ -33,6 +33,19 @@ for command in $commands; do
   done
 done
 
+# After an option, what it can be.
+completes() { # words... completion
+  local words=("${@:1:$#-1}")
+  COMP_WORDS=("${words[@]}") COMP_CWORD=$((${#words[@]} - 1))
+  _edmill || true  # bash finds no word of the command's own
+  [[ " ${COMPREPLY[*]} " = *" ${!#} "* ]] || fail "bash completes '${words[*]}' to '${COMPREPLY[*]}', expected ${!#}"
+}
+completes edmill new --mill pm pm100
+completes edmill new --mill "" drum
+completes edmill new --balls 10x10mm : tung tungsten-carbide
+completes edmill new --balls 10x10mm : steel
+completes edmill run case.toml --precision flo float128
+
 "$edmill" reference >reference.md
 diff "$source_folder/docs/reference.md" reference.md || fail "docs/reference.md is not what 'edmill reference' prints"
 

@@ -1,6 +1,7 @@
 """Cases: everything that a run depends on."""
 from __future__ import annotations
 
+import html
 import json
 import math
 import os
@@ -154,6 +155,11 @@ class Case:
     def end_time(self) -> float | None:
         """The time at which a run ends [s]; None where other rules end it."""
         return self._case.end_time
+
+    def _repr_html_(self) -> str:
+        rows = "".join(f"<tr><th style='text-align:left'>{html.escape(name)}</th><td style='text-align:left'>{html.escape(value)}</td></tr>"
+                       for name, value in _edmill.check(self._case))
+        return f"<table>{rows}</table>"
 
     def __repr__(self) -> str:
         return f"<edmill.Case {self._name}: {self.ball_count} balls, digest {self.digest[:12]}>"

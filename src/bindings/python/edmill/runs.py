@@ -95,6 +95,11 @@ class Run:
         """Impacts per second that approach at more than 1 m/s."""
         return self._value("fast_impact_rate")
 
+    @property
+    def impact_energy(self) -> float | None:
+        """Kinetic energy of the approach along the normal, M/2 v^2, below which impacts give half of the dose [J]."""
+        return self.summary["impact_energy_by_dose"]["median"]
+
     def _rates(self, kind: str) -> dict[str, Value]:
         widths = self.summary["intervals"].get(kind, {})
         return {name: Value(rate, widths.get(name)) for name, rate in self.summary[kind].items() if rate is not None}

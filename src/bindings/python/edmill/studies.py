@@ -6,16 +6,19 @@ import html
 import os
 import pathlib
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from . import _edmill
 from .case import Case, _toml, case_of
-from .checks import place, require, whole
+from .checks import flag, place, require, whole
 from .tables import Records, Tables
 from .values import Value
+
+_units = {"milling_dose_rate": "W", "specific_milling_dose_rate": "W/kg", "inverse_milling_dose_rate": "s/J", "wall_work_rate": "W",
+          "milling_time": "s", "fast_impact_rate": "1/s", "mean_impact_speed": "m/s", "impact_energy": "J"}
 
 
 class Study:
@@ -33,6 +36,48 @@ class Study:
         """A row for each run."""
         return self.tables["runs"]
 
+    def to_dataframe(self):
+        """`points` as a `pandas.DataFrame`: values of the keys that vary are numbers in SI where they have units. `attrs["units"]` has
+        the unit of each column."""
+        frame = self.points.to_dataframe()
+        units = {}
+        for name in frame.columns:
+            values = [_edmill.in_si(value) if isinstance(value, str) else None for value in frame[name]]
+            if values and all(values) and len({unit for _, unit in values}) == 1:
+                frame[name] = [number for number, _ in values]
+                units[name] = values[0][1]
+            elif frame[name].dtype == object:
+                with contextlib.suppress(ValueError):
+                    frame[name] = frame[name].astype(float)
+        units.update({name: _units[name.removesuffix("_ci95")] for name in frame.columns if name.removesuffix("_ci95") in _units})
+        units.update({name: "1/s" for name in frame.columns if name.startswith(("collision_rate_", "impact_rate_"))})
+        frame.attrs["units"] = units
+        return frame
+
+    def plot(self, quantity: str = "milling_dose_rate", axes=None):
+        """A quantity with its 95 % intervals over the key that varies, a curve for each value of a second one. Returns matplotlib's axes."""
+        import matplotlib.pyplot
+
+        frame = self.to_dataframe()
+        require("quantity", quantity, quantity in frame.columns, "a column of points")
+        axes = matplotlib.pyplot.gca() if axes is None else axes
+        columns = list(frame.columns)
+        varied = [name for name in columns[2:columns.index("replicas")] if frame[name].nunique() > 1] or ["point"]
+        varied.sort(key=lambda name: -frame[name].nunique())
+        units = frame.attrs["units"]
+        others = frame[varied[1:]].apply(lambda row: ", ".join(f"{name} = {value:.4g}" if isinstance(value, float) else f"{name} = {value}"
+                                                              for name, value in row.items()), axis=1)
+        for label in dict.fromkeys(others):
+            curve = frame[others == label].sort_values(varied[0])
+            axes.errorbar(curve[varied[0]], curve[quantity], curve.get(quantity + "_ci95"), label=label or None, marker="o", capsize=3)
+        def title(name):
+            return f"{name} [{units[name]}]" if name in units else name
+
+        axes.set(xlabel=title(varied[0]), ylabel=title(quantity))
+        if len(varied) > 1:
+            axes.legend()
+        return axes
+
     def _repr_html_(self) -> str:
         page = html.escape(self.page.read_text(encoding="utf-8"))
         return f'<iframe srcdoc="{page}" style="width:100%;height:80vh;border:0"></iframe>'
@@ -41,11 +86,11 @@ class Study:
         return self.text or f"<edmill.Study in {self.folder}: {len(self.points)} points>"
 
 
-def _study(work, name: str, source: Any, folder: Any, jobs: int) -> Study:
-    folder, jobs = place("folder", folder), whole("jobs", jobs, 0, 4096)
+def _study(work, name: str, source: Any, folder: Any, jobs: int, progress: bool) -> Study:
+    folder, jobs, progress = place("folder", folder), whole("jobs", jobs, 0, 4096), flag("progress", progress)
 
     def on(file: str) -> Study:
-        code = work(file, folder, jobs)
+        code = work(file, folder, jobs, progress)
         return Study(pathlib.Path(folder), name, code != 0)
 
     if not isinstance(source, Mapping):
@@ -78,15 +123,29 @@ def _with_settings(section: dict[str, Any], name: str, case: Case) -> dict[str, 
     return {**section, "grid": {**section.get("grid", {}), **kept}}
 
 
-def sweep(source: Mapping | str | os.PathLike, folder: str | os.PathLike, jobs: int = 0) -> Study:
-    """As `edmill sweep`: every combination of a grid. `source` is a file or a dictionary of its sections, in which
-    `case` may be a Case. Runs that the folder has already are not done again. `jobs` threads, all cores for 0."""
-    return _study(_edmill.sweep, "sweep", source, folder, jobs)
+def sweep(source: Case | Mapping | str | os.PathLike, folder: str | os.PathLike | None = None, jobs: int = 0, *,
+          over: Mapping[str, Sequence] | None = None, seeds: int | None = None, progress: bool = False) -> Study:
+    """As `edmill sweep`: every combination of a grid. With `over`, `source` is a case, or its file, and `over` has the values of
+    each key: `edmill.sweep(case, over={"mill.speed": ["200 rpm", "300 rpm"]}, seeds=3).to_dataframe()`, each with `seeds` runs.
+    Without it, `source` is a sweep file or a dictionary of its sections, in which `case` may be a Case.
+
+    Runs that the folder has already are not done again; without a `folder` the tables are in a new one for temporary files.
+    `jobs` threads, all cores for 0. `progress`: a line on standard error, on a terminal."""
+    if over is not None:
+        require("over", over, isinstance(over, Mapping) and len(over) > 0, "values by key, {\"mill.speed\": [\"200 rpm\", \"300 rpm\"]}")
+        for key, values in over.items():
+            require("over", values, isinstance(values, Iterable) and not isinstance(values, (str, bytes)), f"a list of values of {key!r}")
+        grid = {key: [value.item() if isinstance(value, np.generic) else value for value in values] for key, values in over.items()}
+        source = {"sweep": {"case": case_of(source), "replicas": 1 if seeds is None else whole("seeds", seeds, 1, 100000), "grid": grid}}
+    else:
+        require("source", source, not isinstance(source, Case), "a sweep file, or a case together with `over`")
+        require("seeds", seeds, seeds is None, "none: a sweep file has `replicas`")
+    return _study(_edmill.sweep, "sweep", source, tempfile.mkdtemp(prefix="edmill-sweep-") if folder is None else folder, jobs, progress)
 
 
-def optimize(source: Mapping | str | os.PathLike, folder: str | os.PathLike, jobs: int = 0) -> Study:
+def optimize(source: Mapping | str | os.PathLike, folder: str | os.PathLike, jobs: int = 0, *, progress: bool = False) -> Study:
     """As `edmill optimize`."""
-    return _study(_edmill.optimize, "optimize", source, folder, jobs)
+    return _study(_edmill.optimize, "optimize", source, folder, jobs, progress)
 
 
 def seeds(case: Case, count: int, folder: str | os.PathLike, precision: str | None = None, jobs: int = 0) -> Study:

@@ -12,10 +12,12 @@
 #include "base/version.hpp"
 #include "casefile/keys.hpp"
 #include "casefile/output_entry.hpp"
+#include "casefile/precisions.hpp"
 #include "casefile/quantity.hpp"
 #include "cli/exit_codes.hpp"
 #include "io/summary.hpp"
 #include "io/terminal.hpp"
+#include "machines/machines.hpp"
 
 namespace edmill::cli {
 
@@ -53,7 +55,8 @@ inline std::string man_page(const CLI::App& app) {
   return page;
 }
 
-/// For bash: source it, or install it as share/bash-completion/completions/edmill.
+/// For bash: source it, or install it as share/bash-completion/completions/edmill. For zsh after
+/// bashcompinit.
 inline std::string bash_completion(const CLI::App& app) {
   std::string commands, cases;
   for (const auto* command : app.get_subcommands({})) {
@@ -63,19 +66,33 @@ inline std::string bash_completion(const CLI::App& app) {
       for (const auto& name : option->get_lnames()) options += "--" + name + " ";
     cases += fmt::format("    {}) words=\"{}\" ;;\n", command->get_name(), options);
   }
-  return fmt::format(R"(# Completion of edmill for bash; made by `edmill completion`.
+  const auto keys_of = [](const auto& list) {
+    std::string keys;
+    for (const auto& one : list) keys += one.key + " ";
+    return keys;
+  };
+  return fmt::format(
+      R"(# Completion of edmill for bash, and for zsh after "autoload -U +X bashcompinit && bashcompinit"; made by
+# `edmill completion`.
 _edmill() {{
-  local word=${{COMP_WORDS[COMP_CWORD]}} words
+  local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}} words
+  if [ "$word" = : ]; then before=: word=; fi
   case ${{COMP_WORDS[1]}} in
 {}    *) words="{}--help --version" ;;
   esac
   if [ "$COMP_CWORD" = 1 ]; then words="{}--help --version"; fi
   COMPREPLY=($(compgen -W "$words" -- "$word"))
   if [ "$COMP_CWORD" -gt 1 ] && [[ $word != -* ]]; then COMPREPLY=($(compgen -f -- "$word")); fi
+  case $before in
+    --mill) COMPREPLY=($(compgen -W "{}" -- "$word")) ;;
+    :) COMPREPLY=($(compgen -W "{}" -- "$word")) ;;
+    --precision | --shadow) COMPREPLY=($(compgen -W "{}" -- "$word")) ;;
+  esac
 }}
 complete -o filenames -F _edmill edmill
 )",
-                     cases, commands, commands);
+      cases, commands, commands, keys_of(machines::catalogue().machines),
+      keys_of(machines::catalogue().materials), fmt::join(casefile::precisions(), " "));
 }
 
 namespace detail {
