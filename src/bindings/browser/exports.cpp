@@ -9,6 +9,7 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -26,6 +27,7 @@
 #include "identify/identify.hpp"
 #include "io/input_file.hpp"
 #include "io/json_text.hpp"
+#include "machines/machines.hpp"
 #include "model/mill.hpp"
 #include "model/parts/surface.hpp"
 #include "output/scene.hpp"
@@ -116,6 +118,11 @@ class Session : private Observer<double> {
     std::vector<std::string> names;
     for (int k = 0; k < partners.count(); ++k) names.push_back(partners[k].label);
     json.add("partners", names, "middle", mill_.motion.middle());
+    json.begin("values");
+    for (const auto* key : {"balls.0.count", "balls.0.diameter", "contact.restitution", "contact.friction",
+                            "mill.speed", "run.max_collisions"})
+      if (const auto value = written(key)) json.add(key, *value);
+    json.end();
     json.begin("walls");
     int wall = 0;
     for (const auto& surface : mill_.vessel.surfaces()) {
@@ -154,9 +161,10 @@ class Session : private Observer<double> {
                      "approach_speed", last_.approach_speed, "separation_speed", last_.separation_speed,
                      "milling_dose", last_.milling_dose);
     if (now > summary.start_time) {
-      json.add("dose", summary.milling_dose, "dose_rate", summary.milling_dose_rate());
-      json.add("dose_rate_text",
-               with_interval(summary.milling_dose_rate(), summary.milling_dose_rate_half_width));
+      json.add("dose", summary.milling_dose);
+      json.begin("results");
+      results(json, nlohmann::json::parse(summary.json));
+      json.end();
       json.add("collisions", summary.collisions, "dose_by_partner", summary.dose_by_partner);
     }
     json.add("speeds", by_speed_);
@@ -175,6 +183,35 @@ class Session : private Observer<double> {
 
  private:
   static constexpr const char* folder = "/run";
+
+  /// The value that the run has for a key, with its unit; nothing where it is no number.
+  std::optional<std::string> written(const std::string& key) const try {
+    const auto value = casefile::value_of_key(spec_, key);
+    return value.number + (value.unit.empty() ? "" : " " + value.unit);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+
+  /// What a reader is shown of summary.json, milling time first.
+  static void results(JsonText& json, const nlohmann::json& summary) {
+    const auto number = [&](const char* path) -> std::optional<double> {
+      const nlohmann::json::json_pointer place(path);
+      if (!summary.contains(place) || !summary[place].is_number()) return std::nullopt;
+      return summary[place].get<double>();
+    };
+    if (const auto time = number("/target/milling_time"))
+      json.add("milling time", time_with_interval(*time, number("/target/milling_time_half_width")));
+    for (const auto& [name, key, unit] :
+         {std::array{"milling dose rate", "milling_dose_rate", " W"},
+          std::array{"impacts above 1 m/s", "fast_impact_rate", " per second"}})
+      if (const auto rate = number((std::string("/") + key).c_str()))
+        json.add(name, with_interval(*rate, number((std::string("/intervals/") + key).c_str())) + unit);
+    if (const auto half = number("/impact_energy_by_dose/median"))
+      json.add("impact energy", "half of the dose below " + energy_text(*half) + ", 90 % below " +
+                                    energy_text(*number("/impact_energy_by_dose/90_percent")));
+    if (const auto speed = number("/mean_impact_speed"))
+      json.add("mean impact speed", fmt::format("{:.3g} m/s", *speed));
+  }
 
   static casefile::CaseSpec read(const std::string& text, const std::vector<std::string>& settings,
                                  bool log) {
@@ -289,6 +326,28 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_advance(double time) {
     else
       running().advance_to(time);
     session->frame(json);
+  });
+}
+
+/// The mills that `edmill new` knows, by their keys.
+EMSCRIPTEN_KEEPALIVE const char* edmill_machines() {
+  return answer([&](JsonText& json) {
+    for (const auto& machine : machines::catalogue().machines) json.add(machine.key, machine.name);
+  });
+}
+
+/// A case of a mill. The lines of /wanted are mill, jar, balls, fill, powder, target dose and speed, as for
+/// `edmill new`.
+EMSCRIPTEN_KEEPALIVE const char* edmill_new() {
+  return answer([&](JsonText& json) {
+    machines::Wanted wanted;
+    std::string balls;
+    std::istringstream in(content_of("/wanted"));
+    for (auto* text : {&wanted.machine, &wanted.jar, &balls, &wanted.fill, &wanted.powder,
+                       &wanted.target_dose, &wanted.speed})
+      std::getline(in, *text);
+    if (!balls.empty()) wanted.balls = {balls};
+    json.add("case", machines::new_case(wanted));
   });
 }
 

@@ -6,7 +6,8 @@ const value_of = id => Number($(id).value);
 function show_flight() {
   const place = t => [20 + 3.6 * t, 30 + 0.012 * (t - 25) ** 2 * 1.6];
   const all = Array.from({length: 101}, (_, t) => place(t)), [x, y] = place(value_of('flight-time'));
-  $('flight').innerHTML = path(all, 'axis') + path(all.slice(0, value_of('flight-time') + 1), 'curve') + `<circle class="bar" cx="${x}" cy="${y}" r="8"/>`;
+  $('flight').innerHTML = path(all, 'axis') + path(all.slice(0, value_of('flight-time') + 1), 'curve') + `<circle class="bar" cx="${x}" cy="${y}" r="8"/>` +
+    path([[12, 10], [12, 160], [390, 160]], 'axis') + '<text x="18" y="18">height</text><text x="388" y="154" text-anchor="end">distance</text>';
 }
 
 // A ball that falls on a table: gap(t), its rate, and a bound on its bend, which is gravity and the table's acceleration.
@@ -45,7 +46,7 @@ function show_gap() {
   const curve = Array.from({length: 201}, (_, k) => place(k / 200, gap(k / 200)));
   const strip = ([from, to], cls) => `<rect class="${cls}" x="${place(from, 0)[0]}" y="20" width="${Math.max(340 * (to - from), 1.5)}" height="150" fill-opacity="0.25"/>`;
   $('gap').innerHTML = search.done.map(s => strip(s, 'skipped')).join('') + (search.bracket ? strip(search.bracket, 'bracket') : '') +
-    path([place(0, 0), place(1, 0)], 'axis') + path(curve, 'curve') + '<text x="30" y="186">time</text><text x="30" y="14">gap</text>';
+    path([place(0, 0), place(1, 0)], 'axis') + path(curve, 'curve') + '<text x="30" y="186">time [s], from 0 to 1</text><text x="30" y="14">gap</text>';
   const width = search.bracket ? search.bracket[1] - search.bracket[0] : 0;
   $('gap-said').textContent = search.bracket
     ? `Step ${search.steps}: the contact is between ${search.bracket[0].toFixed(9)} and ${search.bracket[1].toFixed(9)} s, a bracket of ${width.toExponential(1)} s.`
@@ -57,7 +58,8 @@ function show_law() {
   const [e, mu, normal, slip] = [value_of('law-e') / 100, value_of('law-mu') / 100, value_of('law-n') / 100, value_of('law-t') / 100];
   const et = slip > 0 ? Math.max(-1, 1 - mu * 3.5 * normal * (1 + e) / slip) : 0;
   const arrow = (x, y, u, v, cls) => path([[x, y], [x + u, y + v]], cls) + `<circle class="bar" cx="${x + u}" cy="${y + v}" r="3"/>`;
-  $('impact').innerHTML = path([[20, 140], [380, 140]], 'axis') + '<circle class="axis" cx="200" cy="100" r="40"/>' +
+  $('impact').innerHTML = path([[20, 140], [380, 140]], 'axis') + '<text x="380" y="156" text-anchor="end">slip, along the wall</text>' +
+    '<text x="20" y="20">approach, across it</text>' + '<circle class="axis" cx="200" cy="100" r="40"/>' +
     arrow(200 - 40 * slip, 140 - 40 * normal, 40 * slip, 40 * normal, 'axis') + arrow(200, 140, 40 * et * slip, -40 * e * normal, 'curve');
   $('law-said').textContent = `Before: ${number(normal, 3)} m/s towards each other, ${number(slip, 3)} m/s of slip. After: ${number(e * normal, 3)} m/s apart, slip times e_t = ${number(et, 3)}` +
     ` (${et > -1 ? 'it slides to the end' : 'it sticks and springs back'}).`;
@@ -79,6 +81,7 @@ async function diverge() {
     if (off > 0) points.push([k + 1, Math.log10(off)]);
   }
   line($('divergence'), points, -18, 0, '');
+  $('divergence').innerHTML += '<text x="52" y="18">log10 of the difference [s]</text><text x="388" y="168" text-anchor="end">number of the impact</text>';
   $('divergence-said').textContent = `The same bodies meet ${common} times. The times of the first impacts differ by ${number(10 ** points[0][1], 2)} s, those of the last ones by ${number(10 ** points[points.length - 1][1], 2)} s.`;
 }
 

@@ -15,32 +15,48 @@ const fields = {
   count: 'balls.0.count', diameter: 'balls.0.diameter', restitution: 'contact.restitution', friction: 'contact.friction', speed: 'mill.speed',
   most: 'run.max_collisions',
 };
-const units = {diameter: ' mm', speed: ' rpm'};
-const kinds = ['mill', 'vessel'];  // sections that are chosen as a whole
+const units = {diameter: ' mm', speed: ' rpm'};  // of a number without one
+const of_machine = ['jar', 'charge', 'fill', 'powder', 'target'];
 let text = '';  // of the case
+
+/// As it is written in the field, with its unit.
+function written(field) {
+  const value = $(field).value.trim();
+  return value === '' || !units[field] || /[a-z]/i.test(value) ? value : value + units[field];
+}
 
 /// What is not chosen stays as the case has it.
 function settings() {
-  const list = kinds.filter(key => $(`${key}-kind`).value).map(key => `${key}=${$(`${key}-kind`).value}`);
+  const list = $('vessel-kind').value ? [`vessel=${$('vessel-kind').value}`] : [];
   for (const [field, key] of Object.entries(fields)) {
-    const value = $(field).value.trim();
-    if (value === '' || $(field).disabled) continue;
-    list.push(units[field] ? `${key}="${value}${units[field]}"` : `${key}=${value}`);
+    const value = written(field);
+    if (value === '' || $(field).disabled || (field === 'speed' && !($('case').value in cases))) continue;
+    list.push(units[field] ? `${key}="${value}"` : `${key}=${value}`);
   }
   return list;
 }
 
 function choose(name) {
-  text = cases[name];
   $('case').value = name;
-  for (const field in fields) $(field).value = '';
-  for (const key of kinds) $(`${key}-kind`).value = '';
+  text = cases[name] ?? '';
+  for (const field of [...Object.keys(fields), 'vessel-kind']) $(field).value = '';
+  for (const field of of_machine) $(field).disabled = name in cases;
   // Laws by materials go before those of all contacts.
   const by_materials = /^\s*\[\[\s*contact\.pair/m.test(text);
-  for (const field of ['restitution', 'friction']) {
-    $(field).disabled = by_materials;
-    $(field).placeholder = by_materials ? 'by material' : 'case';
-  }
+  for (const field of ['restitution', 'friction']) $(field).disabled = by_materials;
+  show_values(by_materials ? {'contact.restitution': 'by material', 'contact.friction': 'by material'} : {});
+}
+
+/// What the run has where nothing is chosen.
+function show_values(values) {
+  for (const [field, key] of Object.entries(fields)) $(field).placeholder = values[key] ?? '';
+}
+
+/// The case of a mill that is sold, as `edmill new` writes it; problems in place of one.
+async function new_case() {
+  const {answer} = await ask({what: 'new', wanted: [$('case').value, ...of_machine.map(written), written('speed')]});
+  if (!answer.problems) text = answer.case;
+  return answer.problems;
 }
 
 // ---- Running
@@ -76,10 +92,14 @@ async function begin() {
   if ($('said').textContent === placing) mill.stop();
   give_up(placing);
   const own = run_number;
+  const wrong = $('case').value in cases ? null : await new_case();
+  if (own !== run_number) return;
+  if (wrong) return give_up('The mill has problems.', wrong);
   const {answer} = await ask({what: 'begin', text, settings: settings(), log: $('keep').checked});
   if (own !== run_number) return;
   if (answer.problems) return give_up('The case has problems.', answer.problems);
   scene = answer;
+  show_values(scene.values);
   scene.size = 0;
   scene.meshes = Object.values(scene.walls);
   view.target = scene.middle;
@@ -192,7 +212,7 @@ function give(input, file) {
 
 // ---- Events
 
-$('case').append(...Object.keys(cases).map(name => new Option(name, name)));
+$('examples').append(...Object.keys(cases).map(name => new Option(name, name)));
 $('case').addEventListener('change', () => choose($('case').value));
 $('choices').addEventListener('submit', event => {
   event.preventDefault();
@@ -227,7 +247,7 @@ $('open').addEventListener('change', async () => {
   $('open').value = '';  // so that it can be opened again, when it has changed
   try {
     const content = await case_of(file);
-    if (!(file.name in cases)) $('case').append(new Option(file.name, file.name));
+    if (!(file.name in cases)) $('examples').append(new Option(file.name, file.name));
     cases[file.name] = content;
     choose(file.name);
     begin();
@@ -253,6 +273,10 @@ $('compare').addEventListener('click', () => judge('compare'));
 $('judge-stop').addEventListener('click', () => judging.stop());
 
 choose(Object.keys(cases)[0]);
-mill.start().then(
-  () => { say('Choose and press Run.'); $('run').disabled = false; },
-  error => { say(''); problems([error.message]); });
+mill.start().then(async () => {
+  $('run').disabled = false;
+  const {answer} = await ask({what: 'machines'});
+  $('machines').append(...Object.entries(answer).map(([key, name]) => new Option(name, key)));
+  if (matchMedia('(prefers-reduced-motion: reduce)').matches) say('Choose and press Run.');
+  else begin();
+}, error => { say(''); problems([error.message]); });

@@ -53,8 +53,8 @@ function bars(svg, counts) {
 
 function show_facts(more = {}) {
   const facts = {'time': `${number(frame.time, 6)} s`, 'impacts': frame.impacts};
-  if ('dose_rate' in frame) {
-    facts['milling dose rate'] = `${frame.dose_rate_text} W`;
+  if (frame.results) {
+    Object.assign(facts, frame.results);
     const all = frame.collisions.reduce((a, b) => a + b, 0);
     facts['collisions'] = `${number(all / (frame.time - scene.start))} per second`;
     scene.partners.forEach((name, k) => { facts[name] = `${frame.collisions[k]}, ${number(frame.dose_by_partner[k], 3)} J`; });

@@ -100,9 +100,9 @@ std::string plain(const std::string& name) {
 /// The entry of this name, by its key or another name; the list's end where there is none.
 auto named(const auto& list, const std::string& name) {
   const auto word = plain(name);
-  return std::ranges::find_if(list, [&](const auto& one) {
-    return plain(one.key) == word ||
-           std::ranges::any_of(one.also, [&](const auto& other) { return plain(other) == word; });
+  const auto is_it = [&](const auto& other) { return plain(other) == word; };
+  return std::find_if(list.begin(), list.end(), [&](const auto& one) {
+    return is_it(one.key) || std::any_of(one.also.begin(), one.also.end(), is_it);
   });
 }
 
@@ -291,7 +291,8 @@ struct Charge {
 
 const Contact& contact_of(const Charge& charge) {
   const auto by_key = [](std::string_view key) -> const Contact& {
-    return *std::ranges::find(catalogue().contacts, key, &Contact::key);
+    const auto& all = catalogue().contacts;
+    return *std::find_if(all.begin(), all.end(), [&](const Contact& one) { return one.key == key; });
   };
   if (charge.powder <= 0) return by_key("bare");
   const double ratio = charge.mass / charge.powder;
@@ -349,8 +350,9 @@ void put_machine(Writer& out, const Machine& machine, const Wanted& wanted, cons
 
 void put_contact(Writer& out, const Wanted& wanted, const Charge& charge) {
   const auto& contact = contact_of(charge);
-  const auto other = std::ranges::find_if(
-      charge.batches, [](const Batch& b) { return b.material->key.find("steel") == std::string::npos; });
+  const auto other = std::find_if(charge.batches.begin(), charge.batches.end(), [](const Batch& b) {
+    return b.material->key.find("steel") == std::string::npos;
+  });
   const auto source =
       brief(contact.source) + (other == charge.batches.end() ? "" : "; assumed for " + other->material->key);
   out.section("contact");
@@ -425,8 +427,8 @@ std::string new_case(const Wanted& wanted) {
   const auto machine = named(all.machines, wanted.machine);
   if (machine == all.machines.end()) {
     for (const auto& other : all.elsewhere)
-      if (std::ranges::any_of(other.names,
-                              [&](const auto& name) { return plain(name) == plain(wanted.machine); }))
+      if (std::any_of(other.names.begin(), other.names.end(),
+                      [&](const auto& name) { return plain(name) == plain(wanted.machine); }))
         throw InputError(
             fmt::format("--mill: found \"{}\", which edmill does not know: {}", wanted.machine, other.what));
     std::vector<std::string> keys;

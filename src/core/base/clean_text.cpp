@@ -89,4 +89,11 @@ std::string time_with_interval(double seconds, std::optional<double> half_width)
          unit;
 }
 
+std::string energy_text(double joules) {
+  const auto [size, unit] = joules >= 1 || joules < 1e-9 ? std::pair{1.0, "J"}
+                            : joules >= 1e-3             ? std::pair{1e-3, "mJ"}
+                                                         : std::pair{1e-6, "\u00b5J"};
+  return fmt::format("{:.3g} {}", joules / size, unit);
+}
+
 }  // namespace edmill

@@ -28,5 +28,7 @@ std::string counted(std::uint64_t number, std::string_view noun);
 std::string with_interval(double value, std::optional<double> half_width);
 /// A time with its unit, as a person says it: "20.98 ± 0.29 min", "3.8 ± 0.2 days".
 std::string time_with_interval(double seconds, std::optional<double> half_width);
+/// An energy to three digits, with the unit that leaves the fewest zeros: "1.44 mJ".
+std::string energy_text(double joules);
 
 }  // namespace edmill

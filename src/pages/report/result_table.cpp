@@ -18,14 +18,6 @@ std::string row_text(std::string_view name, std::string_view value) {
   return fmt::format("  {:<28}{}\n", name, value);
 }
 
-/// Three digits, in the unit that leaves the fewest zeros.
-std::string energy_text(double joules) {
-  if (joules == 0 || joules >= 1) return fmt::format("{:.3g} J", joules);
-  if (joules >= 1e-3) return fmt::format("{:.3g} mJ", 1e3 * joules);
-  if (joules >= 1e-9) return fmt::format("{:.3g} \u00b5J", 1e6 * joules);
-  return fmt::format("{:.3g} J", joules);
-}
-
 std::string collision_rows(const Facts& f, const model::Partners& partners) {
   std::string out = fmt::format("  {:<28}{:>12}{:>10}{:>26}{:>14}\n", "collisions", "number", "at rest",
                                 "impacts per second", "dose [J]");

@@ -200,9 +200,9 @@ std::string line_of(const OptimizeSpec& spec, const Study& study, std::size_t in
   const auto& point = study.points()[index];
   std::string line = fmt::format("  point {}:", index + 1);
   for (const auto& [key, value] : point.settings) line += fmt::format(" {} = {},", key, value);
-  const auto quantity = quantity_named(spec.objective());
-  return line +
-         fmt::format(" {} ({})\n", text_of(point.estimate(quantity), quantity), counted(point.done(), "run"));
+  const auto quantity = quantity_named(spec.objective()), energy = quantity_named("impact_energy");
+  return line + fmt::format(" {}, {} {} ({})\n", text_of(point.estimate(quantity), quantity), energy.title,
+                            text_of(point.estimate(energy), energy), counted(point.done(), "run"));
 }
 
 /// Says so where the best value of a variable is the end of its range.

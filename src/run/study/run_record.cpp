@@ -75,7 +75,7 @@ const std::vector<Quantity>& main_quantities() {
       {"milling_dose_rate", "milling_dose_rate", "intervals/milling_dose_rate", "milling dose rate", "W"},
       {"specific_milling_dose_rate", "specific_milling_dose_rate", "intervals/specific_milling_dose_rate",
        "specific milling dose rate", "W/kg"},
-      {"impact_energy", "impact_energy_by_dose/median", "", "impact energy, median by dose", "mJ", 1e-3},
+      {"impact_energy", "impact_energy_by_dose/median", "", "median impact energy", "mJ", 1e-3},
       {"milling_time", "target/milling_time", "target/milling_time_half_width", "milling time", "h", 3600}};
   return list;
 }

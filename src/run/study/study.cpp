@@ -183,6 +183,7 @@ Study::Study(casefile::StudySpec spec, std::filesystem::path folder, std::string
       folder_(std::move(folder)),
       name_(std::move(name)),
       executor_(executor),
+      shows_(show),
       line_(!show) {}
 
 std::size_t Study::add_point(Point point) {
@@ -247,10 +248,15 @@ void Study::tick() {
   // Large tables take time to write: at most a twentieth of the total.
   const auto after = std::chrono::steady_clock::now();
   next_write_ = after + std::max<std::chrono::nanoseconds>(std::chrono::seconds(1), 20 * (after - now));
-  if (!line_) return;
+  if (!shows_) return;
+  constexpr auto a_while = std::chrono::minutes(1);  // between lines where no terminal shows one that changes
+  if (!line_ && after < std::max(began_, told_) + a_while) return;
   const auto c = counts();
-  line_.show(fmt::format("{} of {} runs, {} failed{}", c.kept + c.ran, c.total, c.failed,
-                         time_left(std::chrono::duration<double>(after - began_).count())));
+  const auto text = fmt::format("{} of {} runs, {} failed{}", c.kept + c.ran, c.total, c.failed,
+                                time_left(std::chrono::duration<double>(after - began_).count()));
+  if (line_) return line_.show(text);
+  io::tell("{}\n", text);
+  told_ = after;
 }
 
 std::string Study::time_left(double spent) const {

@@ -58,7 +58,7 @@ struct StudyCounts {
 class Study {
  public:
   /// @param name  of the files: `name`.csv, `name`.h5, `name`_log.csv
-  /// @param show  whether a progress line is wanted
+  /// @param show  whether progress is wanted: a line on a terminal, elsewhere one every minute
   Study(casefile::StudySpec spec, std::filesystem::path folder, std::string name, Executor& executor,
         bool show);
 
@@ -109,6 +109,7 @@ class Study {
   std::optional<io::FolderLock> lock_;
   std::string name_;
   Executor& executor_;
+  bool shows_;
   io::ProgressLine line_;
   std::vector<Point> points_;
   std::multimap<std::string, Run*> waiting_;  ///< by digest: points can share a case
@@ -116,7 +117,7 @@ class Study {
   std::size_t kept_ = 0, ran_ = 0;
   std::uint64_t most_runs_ = 0;
   Forecast forecast_;
-  std::chrono::steady_clock::time_point next_write_{}, began_{};
+  std::chrono::steady_clock::time_point next_write_{}, began_{}, told_{};
 };
 
 }  // namespace edmill::study

@@ -22,10 +22,10 @@ function page_with(cost) {
   const context = vm.createContext({
     $: id => elements[id], read: () => ({demo: ''}), scene: null, frame: null, rates: [], last_dose: [0, 0], console,
     document: {createElement: () => new Element(), addEventListener() {}}, Option: Element, draw() {}, show_facts() {}, view: {listen() {}},
-    take(answer) { context.frame = answer; }, mill: {start: async () => {}, stop() {}}, judging: {stop() {}},
+    take(answer) { context.frame = answer; }, mill: {start: async () => {}, stop() {}}, judging: {stop() {}}, matchMedia: () => ({matches: true}),
     requestAnimationFrame: picture => setImmediate(() => picture(now += 16)),
     ask: async message => {
-      if (message.what === 'begin') return {answer: {walls: {}, version: ''}};
+      if (message.what === 'begin') return {answer: {walls: {}, values: {}, version: ''}};
       if (message.what !== 'advance') return {answer: {}};
       const step = message.time < 0 ? 1e-4 : message.time - time;
       steps.push(step);
