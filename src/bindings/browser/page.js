@@ -91,6 +91,7 @@ function give_up(what, list = []) {
 async function begin() {
   if ($('said').textContent === placing) mill.stop();
   give_up(placing);
+  $('facts').replaceChildren();
   const own = run_number;
   const wrong = $('case').value in cases ? null : await new_case();
   if (own !== run_number) return;

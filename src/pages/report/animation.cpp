@@ -221,7 +221,12 @@ void add_player(pugi::xml_node section, const Animation& animation, double speed
        {"value", "0"},
        {"aria-label", "Time from the beginning of the animation"}});
   add(controls, "span", {{"id", "clock"}, {"aria-hidden", "true"}}, "0.0 ms");
-  add_note(player, pace(speed) + ". Drag to rotate, scroll to zoom; by keyboard the arrows, + and -.");
+  auto ride = add(player, "label");
+  add(ride, "input", {{"type", "checkbox"}, {"id", "ride"}, {"autocomplete", "off"}});
+  add(ride, "span", {}, " ride with the jar");
+  add_note(player, pace(speed) +
+                       ". The mark on the jar shows how it turns, the dashed line the way of its middle. "
+                       "Drag to rotate, scroll to zoom; by keyboard the arrows, + and -.");
 }
 
 }  // namespace

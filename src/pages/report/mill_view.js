@@ -63,8 +63,8 @@ class MillView {
     }
     return this.sprites[colour] = canvas;
   }
-  /** @param walls  [{points, flat}] @param balls  [{place, radius, colour}] */
-  draw(walls, balls, { colour, opacity, edge }) {
+  /** @param walls  [{points, flat}] @param balls  [{place, radius, colour}] @param path  of the vessel's centre; may be empty */
+  draw(walls, balls, { colour, opacity, edge }, path = []) {
     const context = this.canvas.getContext("2d");
     context.clearRect(0, 0, this.canvas.width, this.canvas.height);
     const shapes = walls.map(({ points, flat }) => ({ flat, corners: points.map((p) => this.seen(p)) }));
@@ -90,5 +90,26 @@ class MillView {
       trace(corners);
       context.stroke();
     }
+    this.mark(shapes[0], edge);
+    context.beginPath();
+    context.setLineDash([4, 4]);
+    for (const place of path) context.lineTo(...this.seen(place).slice(0, 2));
+    context.stroke();
+    context.setLineDash([]);
+  }
+  /** A mark on the vessel's first wall, by which its turning is seen. */
+  mark(wall, colour) {
+    if (!wall) return;
+    const { flat, corners } = wall, end = corners[flat ? 0 : corners.length >> 1];
+    const middle = [0, 1].map((k) => corners.reduce((sum, corner) => sum + corner[k], 0) / corners.length);
+    const context = this.canvas.getContext("2d");
+    context.strokeStyle = context.fillStyle = colour;
+    context.beginPath();
+    if (flat) context.moveTo(...middle);
+    else context.arc(end[0], end[1], 3, 0, 2 * Math.PI);
+    context.lineTo(end[0], end[1]);
+    context.lineWidth = 3;
+    context.stroke();
+    context.lineWidth = 1;
   }
 }

@@ -1,8 +1,8 @@
 // Plays the mill: the frames of the page's JSON, on demand. Lengths in millimetres, times in milliseconds.
 "use strict";
 
-/** What the mill shows at a fraction of its playback, between two of its frames. */
-function stateAt({ vessel, spheres }, fraction) {
+/** What the mill shows at a fraction of its playback, between two of its frames; with the jar at rest for one who `rides` with it. */
+function stateAt({ vessel, spheres }, fraction, rides) {
   const steps = vessel.poses.length / 7 - 1, frame = Math.min(Math.floor(fraction * steps), steps - 1), share = fraction * steps - frame;
   const between = (list, size, first, count) =>
     Array.from({ length: count }, (_, k) => (1 - share) * list[size * frame + first + k] + share * list[size * (frame + 1) + first + k]);
@@ -11,17 +11,19 @@ function stateAt({ vessel, spheres }, fraction) {
   const sign = turns[0].reduce((sum, part, k) => sum + part * turns[1][k], 0) < 0 ? -1 : 1;
   const mixed = turns[0].map((part, k) => (1 - share) * part + sign * share * turns[1][k]), length = Math.hypot(...mixed);
   const [x, y, z, w] = mixed.map((part) => part / length), origin = between(vessel.poses, 7, 0, 3);
-  const outside = (p) => {
+  const turned = (p, w) => {
     const t = [2 * (y * p[2] - z * p[1]), 2 * (z * p[0] - x * p[2]), 2 * (x * p[1] - y * p[0])];
-    const turned = [y * t[2] - z * t[1], z * t[0] - x * t[2], x * t[1] - y * t[0]];
-    return p.map((c, k) => origin[k] + c + w * t[k] + turned[k]);
+    const twice = [y * t[2] - z * t[1], z * t[0] - x * t[2], x * t[1] - y * t[0]];
+    return p.map((c, k) => c + w * t[k] + twice[k]);
   };
+  const outside = (p) => rides ? p : turned(p, w).map((c, k) => origin[k] + c);
+  const inside = (p) => rides ? turned(p.map((c, k) => c - origin[k]), -w) : p;
   const walls = vessel.walls.map(({ points, flat, shifts }) => {
     const shift = shifts ? between(shifts, 3, 0, 3) : [0, 0, 0];
     return { flat, points: points.map((p) => outside(p.map((c, k) => c + shift[k]))) };
   });
   const places = between(spheres.places, 3 * spheres.radii.length, 0, 3 * spheres.radii.length);
-  return { walls, balls: spheres.radii.map((radius, k) => ({ radius, colour: spheres.colours[k], place: places.slice(3 * k, 3 * k + 3) })) };
+  return { walls, balls: spheres.radii.map((radius, k) => ({ radius, colour: spheres.colours[k], place: inside(places.slice(3 * k, 3 * k + 3)) })) };
 }
 
 function play() {
@@ -29,7 +31,8 @@ function play() {
   const stage = document.querySelector(".stage"), canvas = document.createElement("canvas"), button = document.getElementById("play"), slider = document.getElementById("time");
   const clock = document.getElementById("clock"), end = Number(slider.max);
   const decimals = Math.max(0, 3 - Math.floor(Math.log10(end))); // thousandths of the whole, or finer
-  const view = new MillView(canvas, mill.target, mill.eye[2] - mill.target[2]);
+  const ride = document.getElementById("ride"), view = new MillView(canvas, mill.target, mill.eye[2] - mill.target[2]);
+  const path = Array.from({ length: mill.vessel.poses.length / 7 }, (_, k) => mill.vessel.poses.slice(7 * k, 7 * k + 3));
   const look = { colour: mill.vessel.colour, opacity: mill.vessel.opacity / 2, edge: "#b59a00b0" };
 
   let time = 0, playing = false, last = null, asked = false;
@@ -41,8 +44,8 @@ function play() {
       slider.value = time;
       ask();
     }
-    const { walls, balls } = stateAt(mill, time / end);
-    view.draw(walls, balls, look);
+    const { walls, balls } = stateAt(mill, time / end, ride.checked);
+    view.draw(walls, balls, look, ride.checked ? [] : path);
     clock.textContent = time.toFixed(decimals) + " ms";
     slider.setAttribute("aria-valuetext", clock.textContent);
   };
@@ -58,6 +61,15 @@ function play() {
     ask();
   };
 
+  /** From outside, or riding with the jar, which then fills the picture. */
+  const choose = () => {
+    const points = mill.vessel.walls.flatMap((wall) => wall.points), [low, high] = [Math.min, Math.max].map((f) => [0, 1, 2].map((k) => f(...points.map((p) => p[k]))));
+    view.target = ride.checked ? low.map((c, k) => (c + high[k]) / 2) : mill.target;
+    view.distance = ride.checked ? 1.9 * Math.hypot(...high.map((c, k) => c - low[k])) : mill.eye[2] - mill.target[2];
+    ask();
+  };
+
+  ride.addEventListener("change", choose);
   view.listen(ask);
   canvas.addEventListener("wheel", (event) => {
     event.preventDefault();
