@@ -121,7 +121,7 @@ class Session : private Observer<double> {
     json.begin("values");
     for (const auto* key : {"balls.0.count", "balls.0.diameter", "contact.restitution", "contact.friction",
                             "mill.speed", "run.max_collisions"})
-      if (const auto value = written(key)) json.add(key, *value);
+      if (const auto value = casefile::text_of_key(spec_, key)) json.add(key, *value);
     json.end();
     json.begin("walls");
     int wall = 0;
@@ -183,14 +183,6 @@ class Session : private Observer<double> {
 
  private:
   static constexpr const char* folder = "/run";
-
-  /// The value that the run has for a key, with its unit; nothing where it is no number.
-  std::optional<std::string> written(const std::string& key) const try {
-    const auto value = casefile::value_of_key(spec_, key);
-    return value.number + (value.unit.empty() ? "" : " " + value.unit);
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
 
   /// What a reader is shown of summary.json, milling time first.
   static void results(JsonText& json, const nlohmann::json& summary) {

@@ -388,6 +388,13 @@ WrittenNumber value_of_key(const CaseSpec& spec, const std::string& key) {
   return found;
 }
 
+std::optional<std::string> text_of_key(const CaseSpec& spec, const std::string& key) try {
+  const auto value = value_of_key(spec, key);
+  return value.number + (value.unit.empty() ? "" : " " + value.unit);
+} catch (const InputError&) {
+  return std::nullopt;
+}
+
 CaseSpec with_value(const CaseSpec& spec, const std::string& key, const std::string& value, SizeLimit sizes) {
   auto settings = spec.settings;
   const bool plain = value.find(' ') == std::string::npos;  // a number without a unit

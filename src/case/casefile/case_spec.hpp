@@ -303,6 +303,8 @@ struct WrittenNumber {
 /// @param key  "contact.restitution", "balls.0.diameter"
 /// @throws InputError when the case gives no such number
 WrittenNumber value_of_key(const CaseSpec& spec, const std::string& key);
+/// "12.7 mm", of the same; nothing when the case gives no such number.
+std::optional<std::string> text_of_key(const CaseSpec& spec, const std::string& key);
 
 /// The case with another value of a key, read anew.
 /// @param sizes  of quantities; without limit, 1e-380 too, for a case close to this one, to derive by

@@ -319,10 +319,14 @@ Variant read_part(Section& given, const char* key) {
   return chosen;
 }
 
-std::string described(const auto& part) {
+std::string described(const auto& part, const Written& written) {
   std::string text;
   const auto add = [&](const Parameter& p, const auto& value) {
     if (!p.key) return;
+    if (const auto given = written ? written(p.key) : std::nullopt) {
+      text += fmt::format("{}{} {}", text.empty() ? ": " : ", ", p.key, *given);
+      return;
+    }
     const bool drive = p.range == Range::drive;
     text += fmt::format("{}{}", text.empty() ? ": " : ", ", drive ? "period" : p.key);
     model::for_each_number(value, [&](const Quantity& q) { text += fmt::format(" {:g}", q.to<double>()); });
@@ -443,15 +447,15 @@ std::vector<model::Joint<Quantity>> joints_of(const MotionSpec& motion) {
       motion);
 }
 
-std::string describe(const MotionSpec& motion) {
+std::string describe(const MotionSpec& motion, const Written& written) {
   if (const auto* chain = std::get_if<model::Chain<Quantity>>(&motion))
     return std::string(chain->name) + ": " + equation_of(chain->given);
-  return described(motion);
+  return described(motion, written);
 }
-std::string describe(const VesselSpec& vessel) {
+std::string describe(const VesselSpec& vessel, const Written& written) {
   if (const auto* polyhedron = std::get_if<model::Polyhedron<Quantity>>(&vessel))
     return fmt::format("{} of {} walls", polyhedron->name, polyhedron->faces.size());
-  return described(vessel);
+  return described(vessel, written);
 }
 
 void check(Section mill, const MotionSpec& motion) {

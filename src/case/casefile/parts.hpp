@@ -1,6 +1,8 @@
 // Motions and vessels as a case file says them.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -74,9 +76,11 @@ std::string equation_of(const model::Joints<Quantity>& joints);
 /// " + 0.01 m sin(2 pi 5 t)" for each.
 std::string equation_of(const std::vector<model::Swing<Quantity>>& swings, bool rotate);
 
-/// For readers: "cylinder: diameter 0.038 m, height 0.057 m".
-std::string describe(const MotionSpec& motion);
-std::string describe(const VesselSpec& vessel);
+/// A number of a key as its file has it, "38 mm"; nothing where there is none.
+using Written = std::function<std::optional<std::string>(const std::string& key)>;
+/// For readers: "cylinder: diameter 38 mm, height 57 mm". @param written  without it values are in SI
+std::string describe(const MotionSpec& motion, const Written& written = {});
+std::string describe(const VesselSpec& vessel, const Written& written = {});
 
 class Section;
 /// Type and parameters of [mill] and [vessel]; what is wrong is reported. @param key  of the type

@@ -45,8 +45,12 @@ class Frame {
   }
   std::vector<Tick> x_ticks() const {
     const Axis& axis = chart_.x;
-    return axis.logarithmic ? log_ticks(axis.low, axis.high)
-                            : fitting_ticks(axis.low, axis.high, 6, most_right - least_left);
+    if (axis.logarithmic) return log_ticks(axis.low, axis.high);
+    auto ticks = fitting_ticks(axis.low, axis.high, 6, most_right - least_left);
+    if (!axis.whole) return ticks;
+    std::erase_if(ticks, [](const Tick& tick) { return tick.place != std::round(tick.place); });
+    for (auto& tick : ticks) tick.label = fmt::format("{:.0f}", tick.place);
+    return ticks;
   }
   std::vector<Tick> y_ticks() const {
     const Axis& axis = chart_.y;

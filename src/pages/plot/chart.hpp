@@ -25,6 +25,7 @@ struct Axis {
   std::string title{};  ///< with its unit: "time [s]"
   double low = 0, high = 1;
   bool logarithmic = false;
+  bool whole = false;  ///< of x: labels at whole numbers alone
 };
 
 using Points = std::vector<std::pair<double, double>>;

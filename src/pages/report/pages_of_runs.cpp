@@ -80,19 +80,20 @@ void add_rates_of(pugi::xml_node main, const std::vector<RunFolder>& runs) {
            "mills one is so by chance.");
 }
 
-/// Each dose rate as a point with its interval, at the number of the run.
+/// Each dose rate as a bar with its interval, at the number of the run.
 void draw_dose_rates(pugi::xml_node grid, const std::vector<RunFolder>& runs) {
   plot::Chart chart{"dose-rates",
                     "Milling dose rate",
-                    "For each run a horizontal line at its milling dose rate, within its 95 % interval.",
-                    {"run", 0.4, static_cast<double>(runs.size()) + 0.6},
+                    "For each run a bar as high as its milling dose rate, with its 95 % interval.",
+                    {"number of the run", 0.4, static_cast<double>(runs.size()) + 0.6, false, true},
                     {"milling dose rate [W]"}};
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const auto rate = rate_in(runs[k].facts, "milling_dose_rate");
     if (!rate) continue;
     const double place = static_cast<double>(k) + 1;
-    add_level(chart, place - 0.25, place + 0.25, *rate, fmt::format("{}: {}", k + 1, runs[k].name),
-              run_colour(k));
+    const auto colour = run_colour(k);
+    chart.bands.push_back({colour, {place - 0.25, place + 0.25}, {0, 0}, {rate->value, rate->value}});
+    add_level(chart, place - 0.25, place + 0.25, *rate, fmt::format("{}: {}", k + 1, runs[k].name), colour);
     chart.y.high = std::max(chart.y.high, 1.1 * (rate->value + rate->half_width.value_or(0)));
   }
   draw(grid, chart);
@@ -256,7 +257,7 @@ void draw_points(pugi::xml_node grid, const std::vector<Point>& points, const Pl
       fmt::format(
           "For each point a short line at its {}, within its 95 % interval; one for each steady state.",
           what.title),
-      {places.title, low - room, high + room},
+      {places.title, low - room, high + room, false, !places.over_a_key},
       {fmt::format("{} [{}]", what.title, what.unit)}};
   std::vector<plot::Curve> curves;
   for (std::size_t c = 0; c < places.curves.size(); ++c)

@@ -37,9 +37,13 @@ std::string law_text(const casefile::ContactSpec& c) {
   return text + fmt::format(", least separation {} mm/s", brief(1000 * c.least_separation.to<double>()));
 }
 
-std::string ball_text(const casefile::BallSpec& ball, int count) {
-  return fmt::format("{} of {} mm, {} kg/m\u00b3", count, brief(1000 * ball.diameter.to<double>()),
-                     brief(ball.density.to<double>()));
+/// @param entry  of the file, "balls.0": its units are those of the text
+std::string ball_text(const RunFolder& run, const casefile::BallSpec& ball, int count,
+                      const std::string& entry) {
+  const auto in_file = [&](const char* key) { return casefile::text_of_key(run.spec, entry + key); };
+  return fmt::format("{} of {}, {}", count,
+                     in_file(".diameter").value_or(brief(1000 * ball.diameter.to<double>()) + " mm"),
+                     in_file(".density").value_or(brief(ball.density.to<double>()) + " kg/m\u00b3"));
 }
 
 void add_headline(pugi::xml_node main, const RunFolder& run) {
@@ -182,16 +186,23 @@ std::string page_of_run(const RunFolder& run) {
 
 Rows case_rows(const RunFolder& run) {
   const auto& spec = run.spec;
+  const auto written_in = [&](const char* section) {
+    return [&spec, section](const std::string& key) {
+      return casefile::text_of_key(spec, std::string(section) + "." + key);
+    };
+  };
   Rows rows;
-  for (const auto& batch : spec.batches) rows.push_back({"balls", ball_text(batch, batch.count)});
-  if (!spec.balls.empty())
+  for (std::size_t k = 0; k < spec.batches.size(); ++k)
     rows.push_back(
-        {"balls placed individually", ball_text(spec.balls.front(), static_cast<int>(spec.balls.size()))});
+        {"balls", ball_text(run, spec.batches[k], spec.batches[k].count, fmt::format("balls.{}", k))});
+  if (!spec.balls.empty())
+    rows.push_back({"balls placed individually",
+                    ball_text(run, spec.balls.front(), static_cast<int>(spec.balls.size()), "ball.0")});
   if (spec.powder_mass) rows.push_back({"powder", brief(1000 * spec.powder_mass->to<double>()) + " g"});
-  rows.push_back({"vessel", casefile::describe(spec.vessel)});
+  rows.push_back({"vessel", casefile::describe(spec.vessel, written_in("vessel"))});
   for (const auto& piston : spec.pistons)
     rows.push_back({"piston " + run.partners[piston.wall].label, casefile::describe(piston)});
-  rows.push_back({"mill", casefile::describe(spec.mill)});
+  rows.push_back({"mill", casefile::describe(spec.mill, written_in("mill"))});
   rows.push_back({"gravity", casefile::describe_gravity(spec)});
   if (!spec.pairs_only) {
     rows.push_back({"contact of balls", law_text(spec.ball_ball)});
