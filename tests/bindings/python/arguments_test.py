@@ -18,7 +18,7 @@ WRONG = {  # of each kind of argument: values that it is not
     "number": ["0.1", [], {}, True, -1, NOTHING, float("nan"), float("inf"), 1j],
     "time": [[], {}, True, NOTHING, b"2 s", 1j],
     "calls": [5, True, [5], ["f"], NOTHING],
-    "law": [5, "viscoelastic", {}, NOTHING, lambda speed: 0.5],
+    "law": [5, "viscoelastic", {}, NOTHING],
     "progress": [5, None, "yes", [], NOTHING],
     "columns": [5, "time=t", ["time=t"], True, {5: "t"}, {"time": 5}],
 }

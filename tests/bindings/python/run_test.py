@@ -141,6 +141,32 @@ def test_laws_are_called(small):
     assert np.allclose(ours.events["milling_dose"][:first], theirs.events["milling_dose"][:first], rtol=1e-6)
 
 
+@pytest.mark.parametrize("precision", ["double", "float128"])
+def test_a_law_of_one_function_has_the_friction_of_the_case(small, precision):
+    speeds = []
+    def restitution(speed):
+        speeds.append(speed)
+        return type(speed)("0.53")
+
+    ours = edmill.run(small, precision, until="0.6 s", ball_ball_law=restitution, ball_wall_law=restitution)
+    theirs = edmill.run(small, precision, until="0.6 s")
+    first = min(20, len(theirs.events))
+    assert first > 5 and len(speeds) >= len(ours.events)
+    for key in ("time", "milling_dose", "restitution_tangential"):
+        assert np.allclose(np.array(ours.events[key][:first], float), np.array(theirs.events[key][:first], float), rtol=1e-6, atol=1e-15), key
+
+
+def test_a_case_has_its_numbers(small):
+    assert small["contact.friction"] == "0.4" and small["balls.0.diameter"] == "9.52 mm"
+    assert small.edit({"mill.speed": "900 rpm"})["mill.speed"] == "900 rpm"
+    with pytest.raises(KeyError):
+        small["no.such"]
+    assert small.radii == pytest.approx(5 * [4.76e-3], rel=1e-15)
+    assert small.masses == pytest.approx(5 * [8000 * np.pi / 6 * 9.52e-3 ** 3], rel=1e-15)
+    with pytest.raises(edmill.InputError, match="^setting contact.friction=-1"):
+        small.with_settings("contact.friction=-1")
+
+
 def test_progress_is_told(small):
     told = []
     edmill.run(small, until="60 s", events=False, progress=lambda time, collisions: told.append((time, collisions)))

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import decimal
+from collections.abc import Callable
 from typing import Protocol, Union
 
 Number = Union[float, decimal.Decimal]  #: float in double, with all digits a Decimal in the wider precisions
@@ -37,6 +38,17 @@ class Running(Protocol):
 
     def stop(self) -> None:
         """Ends the run after this impact."""
+
+
+class RestitutionLaw:
+    """A law of one function of the approach speed [m/s], with Coulomb friction as in (2.24')."""
+
+    def __init__(self, restitution: Callable[[Number], Number], friction: str, min_tangential: str = "-1"):
+        self.restitution, self._friction, self._least = restitution, friction, min_tangential
+
+    def restitution_of_slip(self, normal_change: Number, slip_speed: Number, compliance: Number) -> Number:
+        kind = type(slip_speed)
+        return max(kind(self._least), 1 - kind(self._friction) * compliance * normal_change / slip_speed) if slip_speed > 0 else kind(0)
 
 
 class ContactLaw(Protocol):

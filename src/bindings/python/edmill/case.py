@@ -10,6 +10,8 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
 from . import _edmill
 from .checks import place, require, text as checked_text, texts
 
@@ -110,7 +112,10 @@ class Case:
 
     def _set(self, text: str, name: str, settings: Sequence[str]) -> None:
         self._text, self._name, self._settings = text, name, tuple(texts("settings", settings, '"section.key=value"'))
-        self._case = _edmill.Case.parse(text, name, list(self._settings))
+        try:
+            self._case = _edmill.Case.parse(text, name, list(self._settings))
+        except _edmill.InputError as error:
+            raise _edmill.InputError(str(error).replace("--set ", "setting ")) from None
 
     def with_settings(self, *settings: str) -> Case:
         """The case with "section.key=value" over it."""
@@ -127,6 +132,13 @@ class Case:
             return self.with_settings(*settings)
         except _edmill.InputError as error:
             raise EditError(str(error)) from None
+
+    def __getitem__(self, key: str) -> str:
+        """A number as the case gives it, with its unit: `case["mill.speed"]` is "1054 rpm"."""
+        value = self._case.text_of(key)
+        if value is None:
+            raise KeyError(key)
+        return value
 
     @property
     def text(self) -> str:
@@ -150,6 +162,16 @@ class Case:
     @property
     def ball_count(self) -> int:
         return self._case.ball_count
+
+    @property
+    def radii(self) -> np.ndarray:
+        """Of the balls, in the order of their numbers [m]."""
+        return np.array(self._case.balls)[:, 0]
+
+    @property
+    def masses(self) -> np.ndarray:
+        """Of the balls, in the order of their numbers [kg]."""
+        return np.array(self._case.balls)[:, 1]
 
     @property
     def end_time(self) -> float | None:

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from . import _edmill, checks
-from .callbacks import ContactLaw, Impact, Running
+from .callbacks import ContactLaw, Impact, RestitutionLaw, Running
 from .case import Case, case_of
 from .checks import require
 from .tables import Records, Tables
@@ -226,16 +226,20 @@ class _Progress:
         self._do(lambda show, close: close())
 
 
-def _check_law(name: str, law: Any) -> None:
-    for method in ("restitution", "restitution_of_slip"):
-        require(name, law, law is None or callable(getattr(law, method, None)),
-                "an object with restitution(approach_speed) and restitution_of_slip(normal_change, slip_speed, compliance)")
+def _law_of(name: str, law: Any, case: Case) -> ContactLaw | None:
+    """A law, or a function that is the restitution of one, with the friction of the case."""
+    if law is None or all(callable(getattr(law, method, None)) for method in ("restitution", "restitution_of_slip")):
+        return law
+    require(name, law, callable(law), "a function of the approach speed, or an object with restitution(approach_speed) and "
+            "restitution_of_slip(normal_change, slip_speed, compliance)")
+    require(name, law, case._case.text_of("contact.friction") is not None, "a whole law: the case has no contact.friction for all contacts")
+    return RestitutionLaw(law, case["contact.friction"], case._case.text_of("contact.min_tangential") or "-1")
 
 
 def run(case: Case | Mapping | str, precision: str | None = None, until: str | float | decimal.Decimal | None = None, *,
         digits: int | None = None, folder: str | pathlib.Path | None = None, events: bool = True, report: bool = False,
-        observers: Iterable[Callable[[Impact, Running], object]] = (), ball_ball_law: ContactLaw | None = None,
-        ball_wall_law: ContactLaw | None = None, until_precision: float | str | None = None, checkpoint: str | None = None,
+        observers: Iterable[Callable[[Impact, Running], object]] = (), ball_ball_law: ContactLaw | Callable[[Any], Any] | None = None,
+        ball_wall_law: ContactLaw | Callable[[Any], Any] | None = None, until_precision: float | str | None = None, checkpoint: str | None = None,
         progress: bool | Callable[[float, int], Any] = False) -> Run:
     """Simulates a case, without Python's lock.
 
@@ -248,8 +252,9 @@ def run(case: Case | Mapping | str, precision: str | None = None, until: str | f
     observers      callables of an impact and the run, called after each impact: 1 us each, where the engine takes as long
                    for a whole impact. `run.stop()` ends the run.
     ball_ball_law, ball_wall_law
-                   objects with `restitution(approach_speed)` and `restitution_of_slip(normal_change, slip_speed,
-                   compliance)`, in place of the case's laws; slow, unlike the laws that a case names
+                   a function, the restitution of an approach speed, with the friction of the case; or objects with
+                   `restitution(approach_speed)` and `restitution_of_slip(normal_change, slip_speed, compliance)`. In
+                   place of the case's laws; slow, unlike the laws that a case names
     until_precision
                    ends the run when the 95 % interval of the dose rate is this part of it, 0.01 or "1%"; `until` is the limit
                    (default: 100 times the case's end_time)
@@ -280,8 +285,7 @@ def run(case: Case | Mapping | str, precision: str | None = None, until: str | f
     observers = list(observers)
     for observer in observers:
         require("observers", observer, callable(observer), "callables of an impact and the run")
-    _check_law("ball_ball_law", ball_ball_law)
-    _check_law("ball_wall_law", ball_wall_law)
+    ball_ball_law, ball_wall_law = _law_of("ball_ball_law", ball_ball_law, case), _law_of("ball_wall_law", ball_wall_law, case)
     require("progress", progress, isinstance(progress, bool) or callable(progress), "True, False or a callable")
     if checkpoint is not None:
         require("checkpoint", checkpoint, isinstance(checkpoint, str), 'a text such as "10 min"')
