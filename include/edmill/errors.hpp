@@ -8,12 +8,18 @@
 
 namespace edmill {
 
+/// What edmill throws.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// Input that a user can correct; every problem of a file at once, each with file, line, key, what was found
 /// and what was expected. The program exits with 2.
-class InputError : public std::runtime_error {
+class InputError : public Error {
  public:
   explicit InputError(std::vector<std::string> problems)
-      : std::runtime_error(joined(problems)), problems_(std::move(problems)) {}
+      : Error(joined(problems)), problems_(std::move(problems)) {}
   explicit InputError(std::string problem) : InputError(std::vector<std::string>{std::move(problem)}) {}
 
   const std::vector<std::string>& problems() const { return problems_; }
@@ -28,21 +34,21 @@ class InputError : public std::runtime_error {
 };
 
 /// A decision that the widest scalar could not make; the text holds the state that reproduces it.
-class UndecidedError : public std::runtime_error {
+class UndecidedError : public Error {
  public:
-  using std::runtime_error::runtime_error;
+  using Error::Error;
 };
 
 /// The user ended the program before there were any results.
-class InterruptedError : public std::runtime_error {
+class InterruptedError : public Error {
  public:
-  InterruptedError() : std::runtime_error("interrupted before the first event; there are no results") {}
+  InterruptedError() : Error("interrupted before the first event; there are no results") {}
 };
 
 /// A broken precondition inside edmill.
-class ContractError : public std::logic_error {
+class ContractError : public Error {
  public:
-  using std::logic_error::logic_error;
+  using Error::Error;
 };
 
 }  // namespace edmill

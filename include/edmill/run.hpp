@@ -30,6 +30,13 @@ struct OwnParts {
   Laws<Real> laws{};
 };
 
+/// What does not change of a ball.
+template <class Real>
+struct Ball {
+  Real radius{}, mass{};  ///< [m], [kg]
+  std::string material;   ///< empty where the case names none
+};
+
 /// A case from its initial state on, in one scalar: double, float128, or mpfr. A run in mpfr must be made
 /// and advanced within one scope of `mpfr::Digits`; without it, it has 50 digits.
 template <class Real>
@@ -75,6 +82,7 @@ class Run {
   int ball_count() const;
   /// State of a ball now.
   BallState<Real> ball(int i) const;
+  Ball<Real> properties(int i) const;
   Summary<Real> summary() const;
 
  private:

@@ -8,6 +8,7 @@
     python      Python, with the package edmill; blocks of a page share their variables. A comment with a number behind what prints, up to a
                 colon, is what it prints: "# 5.8 ± 0.1: with its interval"
     toml        with "# NAME.toml" as first line, a file; otherwise sections of a case, which must be valid
+    cpp         with "// NAME.cpp" as first line, the end of docs/examples/NAME.cpp
     cmake, diff, text, {directive}   not run here: an own test reads them, or they are no code
 
 usage: pages_test.py EDMILL PYTHON_PACKAGE SOURCES FOLDER PAGE [--long] [--update]
@@ -112,11 +113,21 @@ class Page:
                 self.python("\n".join(lines), place)
             elif language == "toml":
                 self.toml(lines, place)
+            elif language == "cpp":
+                self.cpp(lines, place)
             elif language not in OTHERS and not language.startswith("{"):
                 self.problem(place, f"a block in '{language}', which this test does not know")
         if self.a.update:
             self.page.write_text("\n".join(self.lines) + "\n", encoding="utf-8")
         return self.problems
+
+    def cpp(self, lines, place):
+        """The end of an example, which another test builds."""
+        name = lines[0].removeprefix("// ")
+        example = pathlib.Path(self.a.sources) / "docs/examples" / name
+        self.ran += 1
+        if not example.is_file() or not example.read_text(encoding="utf-8").rstrip().endswith("\n".join(lines[1:])):
+            self.problem(place, f"not the end of docs/examples/{name}")
 
     def succeed(self, command, place):
         done = self.shell(command)

@@ -46,6 +46,18 @@ std::string ball_text(const RunFolder& run, const casefile::BallSpec& ball, int 
                      in_file(".density").value_or(brief(ball.density.to<double>()) + " kg/m\u00b3"));
 }
 
+/// What voids a rate stands with it, in few words; the warning says the rest.
+void add_doubts(pugi::xml_node card, const io::Facts& f) {
+  for (const auto& [kind, text] :
+       {std::pair{"several_states", "other seeds may settle elsewhere"},
+        std::pair{"transient", "not steady yet"}, std::pair{"too_few_collisions", "too few collisions"},
+        std::pair{"wide_interval", "known to 5 % or worse"}})
+    if (f.has(std::string("warnings/") + kind)) {
+      auto doubt = add(card, "dd", {{"class", "doubt"}});
+      add(doubt, "a", {{"href", "#warnings"}}, text);
+    }
+}
+
 void add_headline(pugi::xml_node main, const RunFolder& run) {
   const auto& f = run.facts;
   auto section = add_section(main, "results", "Results");
@@ -68,6 +80,7 @@ void add_headline(pugi::xml_node main, const RunFolder& run) {
       any = true;
       value.append_attribute("data-interval") = fmt::format("{}", *rate->half_width).c_str();
       add(box, "dd", {{"class", "interval"}}, "\u00b1 " + width + " " + unit);
+      add_doubts(box, f);
     }
   }
   add_note(

@@ -328,6 +328,12 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
     const auto scope = use();
     return to_public<std::string>(state_of(i), to_text<Real>);
   }
+  Ball<Real> properties_of(int i) const {
+    EDMILL_REQUIRE(i >= 0 && i < ball_count(), "the number of a ball");
+    const auto& ball = built_.the_case.balls[static_cast<std::size_t>(i)];
+    const auto material = static_cast<std::size_t>(ball.material);
+    return {ball.radius, ball.mass, material > 0 ? spec_->materials[material - 1].name : ""};
+  }
   model::BallState<Real> state_of(int i) const {
     EDMILL_REQUIRE(i >= 0 && i < ball_count(), "the number of a ball");
     return driver_->simulation().state_at(i, driver_->simulation().now());
@@ -510,6 +516,11 @@ template <class Real>
 BallState<Real> Run<Real>::ball(int i) const {
   const auto scope = implementation_->use();
   return run::to_public<Real>(implementation_->state_of(i), [](const Real& x) { return x; });
+}
+template <class Real>
+Ball<Real> Run<Real>::properties(int i) const {
+  const auto scope = implementation_->use();
+  return implementation_->properties_of(i);
 }
 template <class Real>
 Summary<Real> Run<Real>::summary() const {

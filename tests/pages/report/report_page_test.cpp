@@ -81,11 +81,18 @@ TEST_F(Report, ShowsHowErrorsGrow) {
   EXPECT_FALSE(terms_of(main, "errors").empty());
 }
 
-TEST_F(Report, WarningsHaveASectionOfTheirOwn) {
+TEST_F(Report, WarningsHaveASectionOfTheirOwnAndStandWithTheRatesThatTheyVoid) {
   run("--report --set 'balls.0.count=2'");
-  const auto sections = ids(body(), "//section");
+  const auto main = body();
+  const auto sections = ids(main, "//section");
   ASSERT_GE(sections.size(), 2u);
   EXPECT_EQ(sections[1], "warnings");
+  const auto doubts = main.select_nodes("//*[@id='results']//dd[@class='doubt']/a[@href='#warnings']");
+  const auto intervals = main.select_nodes("//*[@id='results']//dd[@class='interval']");
+  ASSERT_GE(intervals.size(), 2u);
+  EXPECT_GE(doubts.size(), intervals.size());
+  run("--report");
+  EXPECT_TRUE(body().select_nodes("//dd[@class='doubt']").empty());
 }
 
 TEST_F(Report, OfAnyRunSaysWhichOutputsItMisses) {
