@@ -463,6 +463,8 @@ std::string new_case(const Wanted& wanted) {
   out.comment(fmt::format("The balls fill {} of the jar, with the gaps between them; makers advise a third.",
                           percent(charge.volume / packing / inside.volume())));
   if (charge.powder > 0) {
+    out.comment(fmt::format("For grains up to {:.2g} mm: makers advise balls of three times the largest.",
+                            1000 * charge.smallest / 3));
     out.section("powder");
     out.key("mass",
             quoted(wanted.powder.empty() ? fmt::format("{:.4g} g", 1000 * charge.powder) : wanted.powder),
