@@ -104,6 +104,31 @@ bool records(const casefile::OutputSpec& output, const model::Partners& partners
   });
 }
 
+/// "cap -y (bottom)": of a wall that is named by an axis of the vessel, where that is along gravity, on
+/// average over a drive period.
+model::Partners with_top_and_bottom(const casefile::CaseSpec& spec) {
+  const auto mill = casefile::build_mill<double>(spec);
+  const double gravity = norm<double>(mill.gravity), period = mill.motion.period();
+  auto infos = mill.vessel.walls();
+  for (auto& wall : infos) {
+    const auto& label = wall.label;
+    const int axis = label.size() < 2 ? -1 : label.back() - 'x';
+    const char sign = label.size() < 2 ? ' ' : label[label.size() - 2];
+    if (gravity == 0 || axis < 0 || axis > 2 || (sign != '-' && sign != '+')) continue;
+    Vec3<double> outward = Vec3<double>::Zero();
+    outward[axis] = sign == '-' ? -1 : 1;
+    constexpr int samples = 24;
+    double along = 0;
+    for (int k = 0; k < samples; ++k) {
+      const auto pose = mill.motion.pose(Instant<double>{0, period * k / samples});
+      along +=
+          dot<double>(mill.motion.direction_to_inertial(pose, outward), mill.gravity) / gravity / samples;
+    }
+    if (std::abs(along) > 0.9) wall.label += along > 0 ? " (bottom)" : " (top)";
+  }
+  return model::Partners(infos);
+}
+
 }  // namespace
 
 std::optional<RateOf> rate_in(const io::Facts& summary, const std::string& path) {
@@ -118,7 +143,7 @@ RunFolder read_run_folder(const std::filesystem::path& place) {
   const bool reported = facts.flag("reported");
   folder.spec = casefile::read_case_of_run((place / "case.toml").string(), facts.texts("settings"),
                                            facts.text("case_digest"));
-  folder.partners = casefile::partners_of(folder.spec);
+  folder.partners = with_top_and_bottom(folder.spec);
   if (const auto found = walls_of(facts), expected = folder.partners.walls(); found != expected)
     throw InputError(fmt::format("{}: collisions: found {} walls, expected the {} of the case", file.string(),
                                  found, expected));

@@ -309,8 +309,10 @@ std::vector<std::filesystem::path> Study::table_places() const {
 void Study::run() {
   take_folder();
   auto jobs = collect_jobs();
-  if (line_ && !jobs.empty() && ran_ == 0) {
-    io::tell("{}\n", forecast(jobs, [this](const RunRecord& r) { put(r); }));
+  if (shows_ && !jobs.empty() && ran_ == 0) {
+    const auto text = forecast(jobs, [this](const RunRecord& r) { put(r); });
+    constexpr double a_while = 60;  // [s]
+    if (line_ || forecast_.wall_time(jobs, executor_.threads()).value_or(0) > a_while) io::tell("{}\n", text);
     std::erase_if(jobs,
                   [this](const Job& job) { return waiting_.find(job.digest)->second->record.has_value(); });
   }

@@ -59,7 +59,7 @@ TEST_F(Report, EachSectionExplainsTheTermsThatItUses) {
     const auto terms = terms_of(main, section);
     return std::find(terms.begin(), terms.end(), term) != terms.end();
   };
-  EXPECT_TRUE(has("results", "inverse milling dose rate"));
+  EXPECT_TRUE(has("results", "specific milling dose rate"));
   EXPECT_TRUE(has("results", "95 % interval"));
   EXPECT_TRUE(has("spectra", "slip speed"));
   EXPECT_TRUE(has("energy", "least separation speed"));
