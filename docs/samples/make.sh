@@ -26,5 +26,5 @@ END
 mkdir -p "$folder"
 for page in steel/report.html:report.html comparison.html:comparison.html speed/sweep.html:sweep.html; do
   sed -E -e 's/edmill ([0-9.]+) \([0-9a-z-]+\)(, [^<]*)?/edmill \1/g' -e 's|(CPU time</th><td>)[0-9.e-]+ s for |\1for |' \
-    "${page%:*}" >"$folder/${page#*:}"
+    -e 's|<a href="(runs/[^"]*\|sweep\.csv\|runs\.csv)">([^<]*)</a>|\2|g' "${page%:*}" >"$folder/${page#*:}"
 done

@@ -199,7 +199,7 @@ class Session : private Observer<double> {
       if (const auto rate = number((std::string("/") + key).c_str()))
         json.add(name, with_interval(*rate, number((std::string("/intervals/") + key).c_str())) + unit);
     if (const auto half = number("/impact_energy_by_dose/median"))
-      json.add("impact energy", "half of the dose below " + energy_text(*half) + ", 90 % below " +
+      json.add("impact energy", "half of the impacts' dose below " + energy_text(*half) + ", 90 % below " +
                                     energy_text(*number("/impact_energy_by_dose/90_percent")));
     if (const auto speed = number("/mean_impact_speed"))
       json.add("mean impact speed", fmt::format("{:.3g} m/s", *speed));

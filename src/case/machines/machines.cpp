@@ -141,7 +141,12 @@ Batch batch_of(const std::string& text) {
   const auto fail = [&](const std::string& expected) -> InputError {
     return InputError(fmt::format("--balls: found \"{}\", expected {}", text, expected));
   };
-  std::string diameter = text, material = "steel";
+  std::string diameter, material = "steel";
+  for (std::size_t k = 0; k < text.size(); ++k)  // "20 x 15 mm" and "20×15mm" are 20x15mm
+    if (text.compare(k, 2, "\u00d7") == 0)
+      diameter += 'x', ++k;
+    else if (text[k] != ' ')
+      diameter += text[k];
   if (const auto colon = diameter.find(':'); colon != std::string::npos) {
     material = diameter.substr(colon + 1);
     diameter.resize(colon);
@@ -323,6 +328,14 @@ std::string quoted(const std::string& text) { return "\"" + text + "\""; }
 void put_machine(Writer& out, const Machine& machine, const Wanted& wanted, const Inside& inside) {
   std::string section, source;
   const auto& speed = wanted.speed.empty() ? machine.usual : wanted.speed;
+  const auto rate = [](const std::string& text) {
+    return value_of("--speed", text, Dimension::angular_speed);
+  };
+  const bool outside =
+      !wanted.speed.empty() && (rate(speed) < rate(machine.slowest) || rate(speed) > rate(machine.fastest));
+  const std::string as_given =
+      outside ? fmt::format("as given; the machine has {} to {}", machine.slowest, machine.fastest)
+              : "as given";
   for (const auto& s : machine.settings) {
     const auto dot = s.key.find('.');
     if (s.key.substr(0, dot) != section) {
@@ -338,10 +351,7 @@ void put_machine(Writer& out, const Machine& machine, const Wanted& wanted, cons
           fmt::format("{:.4g} mm", 1000 * (s.key == "vessel.diameter" ? inside.diameter : inside.height)));
     if (given) value = quoted(speed);
     if (const auto at = value.find("{speed}"); at != std::string::npos) value.replace(at, 7, speed);
-    std::string comment = is_jar               ? inside.note
-                          : given              ? "as given"
-                          : s.source == source ? ""
-                                               : brief(s.source);
+    std::string comment = is_jar ? inside.note : given ? as_given : s.source == source ? "" : brief(s.source);
     if (!given && !is_jar && !s.note.empty()) comment = s.note + (comment.empty() ? "" : "; " + comment);
     out.key(s.key.substr(dot + 1), value, comment);
     if (!given) source = s.source;
@@ -429,8 +439,7 @@ std::string new_case(const Wanted& wanted) {
     for (const auto& other : all.elsewhere)
       if (std::any_of(other.names.begin(), other.names.end(),
                       [&](const auto& name) { return plain(name) == plain(wanted.machine); }))
-        throw InputError(
-            fmt::format("--mill: found \"{}\", which edmill does not know: {}", wanted.machine, other.what));
+        throw InputError(fmt::format("--mill: \"{}\": {}", wanted.machine, other.what));
     std::vector<std::string> keys;
     for (const auto& one : all.machines) keys.push_back(one.key);
     throw InputError(
@@ -462,6 +471,9 @@ std::string new_case(const Wanted& wanted) {
   put_machine(out, *machine, wanted, inside);
   out.comment(fmt::format("The balls fill {} of the jar, with the gaps between them; makers advise a third.",
                           percent(charge.volume / packing / inside.volume())));
+  if (charge.volume / packing > inside.volume() / 2)
+    out.comment(
+        "Above half, balls rest on each other for long: see docs/limits.md before you trust the result.");
   if (charge.powder > 0) {
     out.comment(fmt::format("For grains up to {:.2g} mm: makers advise balls of three times the largest.",
                             1000 * charge.smallest / 3));

@@ -60,13 +60,17 @@ struct FieldList {
             });
     v("fast_impact_rate", "1/s", "of impacts that approach at more than 1 m/s",
       per_second(Real(number(s.fast_impacts))));
-    v("mean_impact_speed", "m/s", "of approach, along the normal; not of contacts at rest",
-      s.impacts_counted() > 0 ? std::optional<Real>(s.impact_speeds / number(s.impacts_counted()))
-                              : std::nullopt);
-    v.group("impact_energy_by_dose",
-            "kinetic energy of the approach along the normal, M/2 v^2, before any of it is dissipated",
-            [&] { by_dose(s.impact_energy); });
-    v.group("dissipated_energy_by_dose", "dose of single impacts", [&] { by_dose(s.dissipated_energy); });
+    const Real impact_dose = s.milling_dose - s.touched_dose;
+    v("mean_impact_speed", "m/s", "of approach, along the normal, weighted by dose; without contacts at rest",
+      s.speed_by_dose > 0 && impact_dose > 0 ? std::optional<Real>(s.speed_by_dose / impact_dose)
+                                             : std::nullopt);
+    v.group(
+        "impact_energy_by_dose",
+        "kinetic energy of the approach along the normal, M/2 v^2, before any of it is dissipated; without "
+        "contacts at rest",
+        [&] { by_dose(s.impact_energy); });
+    v.group("dissipated_energy_by_dose", "dose of single impacts, without contacts at rest",
+            [&] { by_dose(s.dissipated_energy); });
     v("milling_dose", "J", "energy dissipated by all impacts", s.milling_dose);
     v("milling_dose_rate", "W", "", per_second(s.milling_dose));
     v("inverse_milling_dose_rate", "s/J", "null without a dose",
@@ -216,8 +220,8 @@ struct FieldList {
     v("milling_dose_share", "1", "of the whole dose", ratio(dose, s.milling_dose));
   }
   void by_dose(const QuantilesByDose& energy) {
-    v("median", "J", "half of the dose comes from impacts below", energy.half);
-    v("90_percent", "J", "90 % of the dose comes from impacts below", energy.ninety);
+    v("median", "J", "impacts below it dissipate half of the dose of all impacts", energy.half);
+    v("90_percent", "J", "impacts below it dissipate 90 % of the dose of all impacts", energy.ninety);
   }
   void by_partner(const char* unit, const auto& value_of) {
     for (int k = 0; k < s.partners.count(); ++k)

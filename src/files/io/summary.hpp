@@ -48,7 +48,8 @@ struct Intervals {
   bool any() const { return batches >= fewest; }
 };
 
-/// Impacts below which half, and 90 %, of the dose is [J].
+/// The energies below which impacts dissipate half, and 90 %, of the dose of all impacts [J]; contacts at
+/// rest, whose energies follow from the least separation speed, are not among them.
 struct QuantilesByDose {
   std::optional<double> half, ninety;
 };
@@ -78,7 +79,7 @@ struct Summary {
   std::vector<std::uint64_t> collisions;  ///< with each partner
   std::vector<std::uint64_t> impacts;     ///< of these, not at rest
   std::uint64_t fast_impacts = 0;         ///< above `Intervals::fast`
-  Real impact_speeds{0};                  ///< approach speeds of all impacts, their sum [m/s]
+  Real speed_by_dose{0};                  ///< of impacts, approach speed times dose, their sum [J m/s]
   QuantilesByDose impact_energy, dissipated_energy;
   std::vector<Real> dose_by_partner;   ///< [J]
   Real milling_dose{0}, wall_work{0};  ///< [J]

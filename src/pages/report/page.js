@@ -33,6 +33,8 @@ function play() {
   const decimals = Math.max(0, 3 - Math.floor(Math.log10(end))); // thousandths of the whole, or finer
   const ride = document.getElementById("ride"), view = new MillView(canvas, mill.target, mill.eye[2] - mill.target[2]);
   const path = Array.from({ length: mill.vessel.poses.length / 7 }, (_, k) => mill.vessel.poses.slice(7 * k, 7 * k + 3));
+  const extent = (k) => Math.max(...path.map((p) => p[k])) - Math.min(...path.map((p) => p[k]));
+  if (extent(2) > 3 * extent(1)) view.turn(0, 0.5); // the jar's way is a circle, seen from the side
   const look = { colour: mill.vessel.colour, opacity: mill.vessel.opacity / 2, edge: "#b59a00b0" };
 
   let time = 0, playing = false, last = null, asked = false;

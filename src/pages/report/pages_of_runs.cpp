@@ -49,7 +49,7 @@ std::string against(const RateOf& rate, const RateOf& first) {
     const double percent = 100 * (rate.value / first.value - 1);
     change = fmt::format("{}{:.1f} %", percent < 0 ? "\u2212" : "+", std::abs(percent));
   }
-  return !apart ? change + ", no interval" : *apart ? change : change + ", not significant";
+  return !apart ? change + ", no interval" : *apart ? change + ", significant" : change + ", not significant";
 }
 
 void add_rates_of(pugi::xml_node main, const std::vector<RunFolder>& runs) {
@@ -172,32 +172,6 @@ std::string page_of_runs(const std::vector<RunFolder>& runs) {
                   version(), commit(), document});
 }
 
-std::string value_of(const Point& point, const std::string& key) {
-  const auto found = std::ranges::find(point.settings, key, &casefile::Setting::first);
-  return found == point.settings.end() ? "" : found->second;
-}
-
-/// Keys whose values differ between the points, in their order.
-std::vector<std::string> varied_keys(const std::vector<Point>& points) {
-  std::vector<std::string> keys;
-  for (const auto& setting : points | std::views::transform(&Point::settings) | std::views::join) {
-    const auto& key = setting.first;
-    const auto differs = [&](const Point& p) { return value_of(p, key) != value_of(points[0], key); };
-    if (std::ranges::find(keys, key) == keys.end() && std::ranges::any_of(points, differs))
-      keys.push_back(key);
-  }
-  return keys;
-}
-
-/// Without the keys that all points have in common.
-std::string name_of_point(const std::vector<Point>& points, std::size_t index) {
-  std::string name = points[index].name;
-  if (name.empty())
-    for (const auto& key : varied_keys(points))
-      name += fmt::format("{}{} = {}", name.empty() ? "" : ", ", key, value_of(points[index], key));
-  return name.empty() ? fmt::format("point {}", index + 1) : name;
-}
-
 /// The axis of the points: the values of a key that varies, where they are numbers of one unit, or their
 /// numbers. Where a second key varies there is a curve for each of its values.
 struct Places {
@@ -209,7 +183,7 @@ struct Places {
 
   explicit Places(const std::vector<Point>& points) : curve(points.size()) {
     for (std::size_t k = 0; k < points.size(); ++k) x.push_back(static_cast<double>(k) + 1);
-    auto keys = varied_keys(points);
+    auto keys = study::varied_keys(points);
     if (keys.size() == 2 && number_of_values(points, keys[1]) > number_of_values(points, keys[0]))
       std::swap(keys[0], keys[1]);
     if (keys.empty() || keys.size() > 2 || !take(points, keys[0])) return;
@@ -217,7 +191,7 @@ struct Places {
     if (keys.size() == 1) return;
     curves.clear();
     for (std::size_t k = 0; k < points.size(); ++k) {
-      const auto name = keys[1] + " = " + value_of(points[k], keys[1]);
+      const auto name = keys[1] + " = " + study::value_of(points[k], keys[1]);
       curve[k] = static_cast<std::size_t>(std::ranges::find(curves, name) - curves.begin());
       if (curve[k] == curves.size()) curves.push_back(name);
     }
@@ -227,7 +201,7 @@ struct Places {
   static std::size_t number_of_values(const std::vector<Point>& points, const std::string& key) {
     std::set<std::string> values;
     for (const auto& point : points)
-      if (casefile::split_number(value_of(point, key))) values.insert(value_of(point, key));
+      if (casefile::split_number(study::value_of(point, key))) values.insert(study::value_of(point, key));
     return values.size();
   }
   /// @return whether all values of this key are numbers of one unit
@@ -235,7 +209,7 @@ struct Places {
     std::vector<double> values;
     std::string unit;
     for (const auto& point : points) {
-      const auto value = casefile::split_number(value_of(point, key));
+      const auto value = casefile::split_number(study::value_of(point, key));
       if (!value || (!values.empty() && value->second != unit)) return false;
       unit = value->second;
       values.push_back(value->first);
@@ -303,7 +277,7 @@ void add_runs(pugi::xml_node main, const std::vector<Point>& points) {
   add_note(section, "The record of each run, and the command that makes it again with a report of its own.");
   for (std::size_t k = 0; k < points.size(); ++k) {
     auto details = add(section, "details", {{"class", "runs"}});
-    add(details, "summary", {}, fmt::format("{}: {}", k + 1, name_of_point(points, k)));
+    add(details, "summary", {}, fmt::format("{}: {}", k + 1, study::name_of(points, k)));
     auto list = add(details, "ul");
     for (const auto& run : points[k].runs) {
       auto item = add(list, "li");
@@ -348,7 +322,7 @@ std::string study_page(const study::Study& study, const std::string& kind, const
     const auto& point = points[k];
     const auto failed = point.failed();
     std::vector<std::string> row{
-        std::to_string(k + 1), name_of_point(points, k),
+        std::to_string(k + 1), study::name_of(points, k),
         std::to_string(point.done()) + (failed > 0 ? fmt::format(", {} failed", failed) : "")};
     for (const auto& what : study::main_quantities())
       row.push_back(study::text_of(point.estimate(what), what));

@@ -62,10 +62,12 @@ void add_headline(pugi::xml_node main, const RunFolder& run) {
   const auto& f = run.facts;
   auto section = add_section(main, "results", "Results");
   add(section, "p", {},
-      fmt::format("{} collisions between {} s and {} s of simulated time, {} of them contacts at rest.",
+      fmt::format("{} collisions between {} s and {} s of simulated time, {} of them contacts at rest, which "
+                  "give {} of the dose.",
                   brief(f.number("collisions/total"), 12), brief(f.number("start_time"), 12),
                   brief(f.number("end_time"), 12),
-                  percent(f.find("least_separation/impact_share").value_or(0))));
+                  percent(f.find("least_separation/impact_share").value_or(0)),
+                  percent(f.find("least_separation/milling_dose_share").value_or(0))));
   auto list = add(section, "dl", {{"class", "cards"}});
   bool any = false;
   for (const auto& [name, unit, rate] : main_rates(f)) {

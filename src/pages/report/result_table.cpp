@@ -48,12 +48,15 @@ std::string rate_rows(const Facts& f) {
     if (const auto rate = f.find(key))
       out += row_text(name, with_interval(*rate, f.find(std::string("intervals/") + key)) + " " + unit);
   if (const auto speed = f.find("mean_impact_speed"))
-    out += row_text("mean impact speed", fmt::format("{:.3g} m/s", *speed));
+    out += row_text("mean impact speed", fmt::format("{:.3g} m/s, weighted by dose", *speed));
   for (const auto& [name, key] : {std::pair{"impact energy", "impact_energy_by_dose"},
                                   std::pair{"dissipated in an impact", "dissipated_energy_by_dose"}})
     if (const auto half = f.find(std::string(key) + "/median"))
-      out += row_text(name, fmt::format("half of the dose below {}, 90 % below {}", energy_text(*half),
-                                        energy_text(f.number(std::string(key) + "/90_percent"))));
+      out +=
+          row_text(name, fmt::format("half of the impacts' dose below {}, 90 % below {}", energy_text(*half),
+                                     energy_text(f.number(std::string(key) + "/90_percent"))));
+  if (const double share = f.number("least_separation/milling_dose_share"); share > 0.1)
+    out += row_text("contacts at rest", percent(share) + " of the dose: balls that roll, slide or settle");
   return out;
 }
 

@@ -108,7 +108,7 @@ std::optional<StudyResult> sweep(const StudyOptions& options) {
     if (options.estimate) return StudyResult{{}, false, "", "", study.forecast()};
     study.run();
     study.write_page(report::study_page(study, "Sweep", ""));
-    return StudyResult{study.counts(), study.interrupted(), folder, "", ""};
+    return StudyResult{study.counts(), study.interrupted(), folder, study::list_of(study.points()), ""};
   });
 }
 

@@ -26,7 +26,7 @@ struct StudyResult {
   study::StudyCounts counts;
   bool interrupted = false;
   std::string folder;
-  std::string optimum;   ///< what an optimisation, or several seeds, found, as text
+  std::string optimum;   ///< what the points, an optimisation, or several seeds have shown, as text
   std::string estimate;  ///< how long it will take, as text, where only that is asked for
 };
 

@@ -259,7 +259,7 @@ io::Summary<Real> summary_of(const casefile::CaseSpec& spec, const casefile::Ini
   summary.milling_dose = statistics.milling_dose();
   summary.wall_work = statistics.wall_work();
   summary.fast_impacts = statistics.count(&Totals::fast);
-  summary.impact_speeds = statistics.sum(&Totals::impact_speeds);
+  summary.speed_by_dose = statistics.sum(&Totals::speed_by_dose);
   const auto by_dose = [](const numerics::WeightedQuantiles& energies) {
     return io::QuantilesByDose{energies.quantile(0.5), energies.quantile(0.9)};
   };

@@ -26,11 +26,11 @@ class RunStatistics : public engine::Observer<Real> {
     std::uint64_t in_stall = 0;  ///< friction rested
     std::uint64_t fast = 0;      ///< above io::Intervals::fast
     numerics::CompensatedSum<Real> milling_dose, touched_dose, stall_dose, supplied_energy, wall_work;
-    numerics::CompensatedSum<Real> impact_speeds;  ///< of approach, not of contacts at rest
+    numerics::CompensatedSum<Real> speed_by_dose;  ///< approach speed times dose, not of contacts at rest
 
     void archive(Archive& a) {
       a(collisions, touched, in_stall, fast, milling_dose, touched_dose, stall_dose, supplied_energy,
-        wall_work, impact_speeds);
+        wall_work, speed_by_dose);
     }
   };
 
@@ -61,16 +61,16 @@ class RunStatistics : public engine::Observer<Real> {
       t.touched_dose += outcome.milling_dose;
       t.supplied_energy += outcome.supplied_energy;
     } else {
-      t.impact_speeds += outcome.approach_speed;
+      t.speed_by_dose += outcome.approach_speed * outcome.milling_dose;
+      const double dose = static_cast<double>(outcome.milling_dose);
+      impact_energies_.add(static_cast<double>(outcome.impact_energy()), dose);
+      dissipated_energies_.add(dose, dose);
     }
     if (outcome.in_stall) {
       ++t.in_stall;
       t.stall_dose += outcome.milling_dose;
     }
-    const double dose = static_cast<double>(outcome.milling_dose);
-    impact_energies_.add(static_cast<double>(outcome.impact_energy()), dose);
-    dissipated_energies_.add(dose, dose);
-    const double share = dose / (impact.with_wall ? 1 : 2);
+    const double share = static_cast<double>(outcome.milling_dose) / (impact.with_wall ? 1 : 2);
     add_to_ball(impact.ball, share);
     if (!impact.with_wall) add_to_ball(impact.partner, share);
   }
@@ -198,7 +198,8 @@ class RunStatistics : public engine::Observer<Real> {
   numerics::CompensatedSum<Real> counted_dose_;
   numerics::Batches<Real> batches_;
   std::size_t balls_;
-  numerics::WeightedQuantiles impact_energies_, dissipated_energies_;  ///< by dose [J]
+  numerics::WeightedQuantiles impact_energies_,
+      dissipated_energies_;    ///< by dose, without contacts at rest [J]
   std::vector<double> doses_;  ///< of the first balls that are alike; half of a dose with another [J]
 };
 

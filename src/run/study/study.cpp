@@ -117,6 +117,50 @@ std::string text_of(const numerics::OfSeeds& found, const Quantity& quantity) {
   return all;
 }
 
+std::string value_of(const Point& point, const std::string& key) {
+  const auto found = std::ranges::find(point.settings, key, &casefile::Setting::first);
+  return found == point.settings.end() ? "" : found->second;
+}
+
+std::vector<std::string> varied_keys(const std::vector<Point>& points) {
+  std::vector<std::string> keys;
+  for (const auto& setting : points | std::views::transform(&Point::settings) | std::views::join) {
+    const auto& key = setting.first;
+    const auto differs = [&](const Point& p) { return value_of(p, key) != value_of(points[0], key); };
+    if (std::ranges::find(keys, key) == keys.end() && std::ranges::any_of(points, differs))
+      keys.push_back(key);
+  }
+  return keys;
+}
+
+std::string name_of(const std::vector<Point>& points, std::size_t index) {
+  std::string name = points[index].name;
+  if (name.empty())
+    for (const auto& key : varied_keys(points))
+      name += fmt::format("{}{} = {}", name.empty() ? "" : ", ", key, value_of(points[index], key));
+  return name.empty() ? fmt::format("point {}", index + 1) : name;
+}
+
+std::string list_of(const std::vector<Point>& points) {
+  constexpr std::size_t most = 40;
+  std::string out;
+  for (std::size_t k = 0; k < std::min(most, points.size()); ++k) {
+    out += fmt::format("  {}:", name_of(points, k));
+    std::string_view before = " ";
+    for (const auto& quantity : main_quantities()) {
+      if (quantity.name == "specific_milling_dose_rate") continue;  // the dose rate in other words
+      const auto found = points[k].estimate(quantity);
+      if (!found.mean) continue;
+      out += fmt::format("{}{}{}", before, quantity.name == "impact_energy" ? "impact energy " : "",
+                         text_of(found, quantity));
+      before = ", ";
+    }
+    out += '\n';
+  }
+  if (points.size() > most) out += fmt::format("  and {} more points\n", points.size() - most);
+  return out;
+}
+
 std::string describe(const Point& point) {
   std::string out;
   for (const auto& quantity : main_quantities()) {

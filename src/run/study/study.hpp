@@ -44,6 +44,15 @@ std::string text_of(const numerics::OfSeeds& found, const Quantity& quantity);
 /// What the runs of a point say together, with their steady states: lines for a terminal.
 std::string describe(const Point& point);
 
+/// The value that a point has for a key, as text; empty where it leaves that of the case.
+std::string value_of(const Point& point, const std::string& key);
+/// Keys whose values differ between the points, in their order.
+std::vector<std::string> varied_keys(const std::vector<Point>& points);
+/// The name of a point: that of its file, or its values of the keys that vary.
+std::string name_of(const std::vector<Point>& points, std::size_t index);
+/// Each point with its main quantities: lines for a terminal.
+std::string list_of(const std::vector<Point>& points);
+
 /// Points of a sweep: the entries times the grid, whose last key changes fastest.
 std::vector<Point> points_of(const casefile::SweepSpec& spec);
 

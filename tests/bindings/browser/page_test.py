@@ -153,7 +153,7 @@ class Page(unittest.TestCase):
         self.run_to_the_end()
         facts = self.facts()
         self.assertRegex(facts["milling time"], r"^[\d.]+ ± [\d.]+ min$")
-        self.assertRegex(facts["impact energy"], r"^half of the dose below [\d.]+ mJ, 90 % below [\d.]+ mJ$")
+        self.assertRegex(facts["impact energy"], r"^half of the impacts' dose below [\d.]+ mJ, 90 % below [\d.]+ mJ$")
         self.assertRegex(facts["impacts above 1 m/s"], r"^\d+ ± \d+ per second$")
         self.assertRegex(facts["mean impact speed"], r"^[\d.]+ m/s$")
 

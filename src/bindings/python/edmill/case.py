@@ -134,10 +134,10 @@ class Case:
             raise EditError(str(error)) from None
 
     def __getitem__(self, key: str) -> str:
-        """A number as the case gives it, with its unit: `case["mill.speed"]` is "1054 rpm"."""
+        """The text of a number as the case gives it, with its unit: `case["mill.speed"]` is "1054 rpm"."""
         value = self._case.text_of(key)
         if value is None:
-            raise KeyError(key)
+            raise KeyError(f"{key}: the case gives no such number; keys are as in its file, \"mill.speed\", \"balls.0.diameter\"")
         return value
 
     @property

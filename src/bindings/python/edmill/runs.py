@@ -97,7 +97,8 @@ class Run:
 
     @property
     def impact_energy(self) -> float | None:
-        """Kinetic energy of the approach along the normal, M/2 v^2, below which impacts give half of the dose [J]."""
+        """Kinetic energy of the approach along the normal, M/2 v^2, below which impacts give half of their dose [J]; None without
+        impacts. Contacts at rest are left out."""
         return self.summary["impact_energy_by_dose"]["median"]
 
     def _rates(self, kind: str) -> dict[str, Value]:

@@ -26,6 +26,7 @@ class Study:
 
     def __init__(self, folder: pathlib.Path, name: str, failed: bool, text: str = ""):
         self.folder, self.failed = folder, failed  #: whether any run failed
+        self._temporary: Any = None  # a folder that goes with this object
         self.text = text  #: what several seeds say together: their dose rate, or each steady state with the number of its runs
         self.tables = Tables(folder)
         self.points: Records = self.tables[name]
@@ -55,18 +56,21 @@ class Study:
         return frame
 
     def plot(self, quantity: str = "milling_dose_rate", axes=None):
-        """A quantity with its 95 % intervals over the key that varies, a curve for each value of a second one. Returns matplotlib's axes."""
+        """A quantity with its 95 % intervals over the key that varies, in the unit of its values if they have one, and a curve for each
+        value of a second key. Returns matplotlib's axes."""
         import matplotlib.pyplot
 
-        frame = self.to_dataframe()
+        frame, typed = self.to_dataframe(), self.points.to_dataframe()
         require("quantity", quantity, quantity in frame.columns, "a column of points")
         axes = matplotlib.pyplot.gca() if axes is None else axes
         columns = list(frame.columns)
         varied = [name for name in columns[2:columns.index("replicas")] if frame[name].nunique() > 1] or ["point"]
         varied.sort(key=lambda name: -frame[name].nunique())
         units = frame.attrs["units"]
-        others = frame[varied[1:]].apply(lambda row: ", ".join(f"{name} = {value:.4g}" if isinstance(value, float) else f"{name} = {value}"
-                                                              for name, value in row.items()), axis=1)
+        parts = [str(value).split(" ", 1) for value in typed[varied[0]]]
+        if units.get(varied[0]) and len({part[-1] for part in parts}) == 1:
+            frame[varied[0]], units[varied[0]] = [float(part[0]) for part in parts], parts[0][-1]
+        others = typed[varied[1:]].apply(lambda row: ", ".join(f"{name} = {value}" for name, value in row.items()), axis=1)
         for label in dict.fromkeys(others):
             curve = frame[others == label].sort_values(varied[0])
             axes.errorbar(curve[varied[0]], curve[quantity], curve.get(quantity + "_ci95"), label=label or None, marker="o", capsize=3)
@@ -129,7 +133,8 @@ def sweep(source: Case | Mapping | str | os.PathLike, folder: str | os.PathLike 
     each key: `edmill.sweep(case, over={"mill.speed": ["200 rpm", "300 rpm"]}, seeds=3).to_dataframe()`, each with `seeds` runs.
     Without it, `source` is a sweep file or a dictionary of its sections, in which `case` may be a Case.
 
-    Runs that the folder has already are not done again; without a `folder` the tables are in a new one for temporary files.
+    Runs that the folder has already are not done again; without a `folder` the tables are in a temporary one,
+    which is removed with the result.
     `jobs` threads, all cores for 0. `progress`: a line on standard error, on a terminal."""
     if over is not None:
         require("over", over, isinstance(over, Mapping) and len(over) > 0, "values by key, {\"mill.speed\": [\"200 rpm\", \"300 rpm\"]}")
@@ -140,7 +145,12 @@ def sweep(source: Case | Mapping | str | os.PathLike, folder: str | os.PathLike 
     else:
         require("source", source, not isinstance(source, Case), "a sweep file, or a case together with `over`")
         require("seeds", seeds, seeds is None, "none: a sweep file has `replicas`")
-    return _study(_edmill.sweep, "sweep", source, tempfile.mkdtemp(prefix="edmill-sweep-") if folder is None else folder, jobs, progress)
+    if folder is not None:
+        return _study(_edmill.sweep, "sweep", source, folder, jobs, progress)
+    temporary = tempfile.TemporaryDirectory(prefix="edmill-sweep-")
+    study = _study(_edmill.sweep, "sweep", source, temporary.name, jobs, progress)
+    study._temporary = temporary
+    return study
 
 
 def optimize(source: Mapping | str | os.PathLike, folder: str | os.PathLike, jobs: int = 0, *, progress: bool = False) -> Study:

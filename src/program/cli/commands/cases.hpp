@@ -63,7 +63,7 @@ struct New {
   int run() {
     const auto text = machines::new_case(wanted_);
     app::check(casefile::parse_case(text, "the new case"));  // the balls have room
-    if (file_.empty())
+    if (file_.empty() || file_ == "-")
       io::print("{}", text);
     else
       io::NamedFile(file_).write(text);

@@ -174,7 +174,7 @@ inline int end_of_study(const std::optional<app::StudyResult>& result, bool quie
   }
   const auto& c = result->counts;
   if (!quiet)
-    io::print("{}{}: {} reused, {} run now, {} failed{}\nTables are in {}\n", result->optimum,
+    io::print("{}{}: {} reused, {} run now, {} failed{}\nTables and their page are in {}\n", result->optimum,
               counted(c.total, "run"), c.kept, c.ran, c.failed, result->interrupted ? ", interrupted" : "",
               result->folder);
   return c.failed > 0 ? some_runs_failed : ok;
