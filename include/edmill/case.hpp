@@ -17,21 +17,21 @@ template <class Real>
 class Run;
 struct CaseAccess;
 
-/// A case as its file states it, in exact quantities: no scalar is chosen yet. Copies share what was read.
+/// A case as read from its file, in exact quantities; no scalar is chosen yet. Copies share their data.
 class Case {
  public:
   /// Reads and checks a case file; its keys: docs/reference.md.
   /// @param path      of the file
-  /// @param settings  "section.key=value" over the file, as `edmill run --set`
+  /// @param settings  "section.key=value" texts that override the file, as with `edmill run --set`
   /// @throws InputError with every problem of the file
   static Case read(const std::string& path, const std::vector<std::string>& settings = {});
-  /// Reads and checks the text of a case; `name` stands for the file in messages.
+  /// Reads and checks the text of a case; messages refer to it as `name`.
   static Case parse(const std::string& text, const std::string& name = "case.toml",
                     const std::vector<std::string>& settings = {});
 
   /// SHA-256 of the canonical text: in one scalar, cases with the same digest give the same bits.
   const std::string& digest() const;
-  /// Scalar of the run, unless the program chooses another: "double", "float128", ...
+  /// Scalar that the case requests, "double" or "float128" for example; a program may choose another one.
   const std::string& precision() const;
   int ball_count() const;
 

@@ -1,11 +1,12 @@
-// A contact law of the user's own.
+// A user-defined contact law.
 #pragma once
 
 namespace edmill {
 
-/// How fast two bodies leave an impact, and how much of their slip is left. edmill keeps bodies from leaving
-/// slower than the case's least separation speed, whatever the law says (docs/theory.md, section 6).
-/// Answers beyond their ranges, and impacts that gain energy by them, end the run with an InputError.
+/// A user-defined contact law: the normal restitution of an impact and the part of the slip that remains.
+/// Whatever the law returns, bodies separate no slower than the least separation speed of the case
+/// (docs/theory.md, section 6). A value outside its range, or an impact that gains energy, ends the run with
+/// an InputError.
 template <class Real>
 class CustomLaw {
  public:
@@ -14,7 +15,8 @@ class CustomLaw {
   /// e_n in [0, 1]. @param approach_speed  |g_n| >= 0 [m/s]
   virtual Real restitution(const Real& approach_speed) const = 0;
 
-  /// e_t, the part of the slip that is left, in [-1, 1]; beyond that the impact adds energy. (2.24')
+  /// e_t, the ratio of the slip after to the slip before the impact, in [-1, 1]; beyond that the impact adds
+  /// energy. (2.24')
   /// @param normal_change  |g_n| + g_n' >= 0 [m/s]: the normal impulse over the effective mass
   /// @param slip_speed     |g_t| >= 0 [m/s]
   /// @param compliance     1 + M/(m_i J_i) + M/(m_j J_j), for a wall 1 + 1/J_i; the tangential impulse over

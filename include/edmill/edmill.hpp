@@ -1,4 +1,4 @@
-// Everything that edmill offers to programs.
+// The whole public interface of edmill.
 #pragma once
 
 #include "edmill/case.hpp"

@@ -8,14 +8,14 @@
 
 namespace edmill {
 
-/// What edmill throws.
+/// Base class of all exceptions that edmill throws.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Input that a user can correct; every problem of a file at once, each with file, line, key, what was found
-/// and what was expected. The program exits with 2.
+/// Invalid input that the user can correct. It contains all problems of a file together, each with file,
+/// line, key, the value found and the values expected. The program exits with 2.
 class InputError : public Error {
  public:
   explicit InputError(std::vector<std::string> problems)
@@ -33,7 +33,7 @@ class InputError : public Error {
   std::vector<std::string> problems_;
 };
 
-/// A decision that the widest scalar could not make; the text holds the state that reproduces it.
+/// A decision that not even the widest scalar could make; the message contains the state that reproduces it.
 class UndecidedError : public Error {
  public:
   using Error::Error;

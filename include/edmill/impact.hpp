@@ -1,4 +1,4 @@
-// What is known of an impact and of a ball.
+// Data of an impact and the state of a ball, as programs receive them.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@ namespace edmill {
 template <class Real>
 using Vector = std::array<Real, 3>;
 
-/// In the inertial frame: Z is the fulcrum's axis.
+/// State of a ball in the inertial frame, whose Z axis is the axis of the fulcrum.
 template <class Real>
 struct BallState {
   Vector<Real> position;  ///< of the centre [m]
@@ -17,7 +17,7 @@ struct BallState {
   Vector<Real> spin;      ///< [rad/s]
 };
 
-/// One impact as programs see it: plain numbers, vectors inertial.
+/// One impact as programs receive it. All vectors are in the inertial frame.
 template <class Real>
 struct Impact {
   std::uint64_t index;          ///< counts from 0 since the start of the run
@@ -29,12 +29,12 @@ struct Impact {
   Real approach_speed;          ///< of the contact points along the normal, before [m/s]
   Real slip_speed;              ///< of the contact points across the normal, before [m/s]
   Real separation_speed;        ///< of the contact points along the normal, after [m/s]
-  Real restitution_tangential;  ///< e_t, the part of the slip that is left
+  Real restitution_tangential;  ///< e_t, the slip after the impact over the slip before it
   Real normal_impulse;          ///< [N s]
   Real tangential_impulse;      ///< [N s]
-  Real milling_dose;            ///< kinetic energy that the impact takes away [J]
-  Real supplied_energy;         ///< by the least separation speed [J]
-  Real wall_work;               ///< of the moving wall on the ball [J]
+  Real milling_dose;            ///< kinetic energy that the impact dissipates [J]
+  Real supplied_energy;         ///< energy added by the least separation speed [J]
+  Real wall_work;               ///< work of the moving wall on the ball [J]
 };
 
 }  // namespace edmill

@@ -1,4 +1,4 @@
-// A motion of the user's own.
+// A user-defined motion of the vessel.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace edmill {
 
-/// A number of turns in a drive period of the case, exact.
+/// An exact number of turns per drive period of the case.
 struct TurnsPerPeriod {
   std::int64_t turns = 0, of = 1;  ///< turns / of; `of` is positive
 };
@@ -20,20 +20,21 @@ struct Harmonic {
   Real phase{0};  ///< [turns]
 };
 
-/// Turns what comes behind it about an axis, or shifts it.
+/// One joint of a chain: it rotates all that follows it about an axis, or translates it.
 template <class Real>
 struct Joint {
   bool rotates = true;
   std::array<Real, 3>
-      axis;  ///< in the frame of the joint before, of any length; of a translation that of its harmonics
+      axis;  ///< in the frame of the previous joint, of any length; for a translation, of its harmonics
   std::array<Real, 3> shift{};              ///< of a translation [m]
   Real angle{0};                            ///< of a rotation, at t = 0 [turns]
   TurnsPerPeriod speed{};                   ///< of a rotation, constant
   std::vector<Harmonic<Real>> harmonics{};  ///< along the axis, or about it
 };
 
-/// From the ground to the vessel, in place of the motion of a case, whose drive period remains: any periodic
-/// motion of a rigid body is such a chain, by the Fourier series of its coordinates.
+/// A chain of joints from the ground to the vessel. It replaces the motion of the case but keeps its drive
+/// period. Any periodic motion of a rigid body can be written as such a chain, by the Fourier series of its
+/// coordinates.
 template <class Real>
 using Joints = std::vector<Joint<Real>>;
 

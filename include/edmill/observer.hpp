@@ -1,4 +1,4 @@
-// What watches a run.
+// Interface for observers of a run.
 #pragma once
 
 #include "edmill/impact.hpp"
@@ -13,7 +13,7 @@ template <class Real>
 class Observer {
  public:
   virtual ~Observer() = default;
-  /// @param impact  SI, inertial frame; states are those of the run, after it
+  /// @param impact  SI, inertial frame; the states of `run` are those after the impact
   /// @param run  at the time of the impact; `run.stop()` ends the run after it
   virtual void on_impact(const Impact<Real>& impact, Run<Real>& run) = 0;
 };

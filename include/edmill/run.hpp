@@ -15,13 +15,13 @@
 
 namespace edmill {
 
-/// Laws of the user's own; empty ones leave the case's.
+/// User-defined contact laws. A null pointer keeps the law of the case.
 template <class Real>
 struct Laws {
   std::shared_ptr<const CustomLaw<Real>> ball_ball, ball_wall;
 };
 
-/// What a program brings along in place of the case's; empty parts leave those of the case.
+/// Parts of the model that a program defines itself. An empty part keeps that of the case.
 template <class Real>
 struct OwnParts {
   Planes<Real> planes{};                       ///< of the vessel
@@ -30,48 +30,48 @@ struct OwnParts {
   Laws<Real> laws{};
 };
 
-/// What does not change of a ball.
+/// Properties of a ball that are constant during a run.
 template <class Real>
 struct Ball {
   Real radius{}, mass{};  ///< [m], [kg]
   std::string material;   ///< empty where the case names none
 };
 
-/// A case from its initial state on, in one scalar: double, float128, or mpfr. A run in mpfr must be made
-/// and advanced within one scope of `mpfr::Digits`; without it, it has 50 digits.
+/// A run of a case in one scalar: double, float128, or mpfr. A run in mpfr must be constructed and advanced
+/// within one scope of `mpfr::Digits` (default: 50 digits).
 template <class Real>
 class Run {
  public:
   /// Places the balls and predicts their first contacts.
-  /// @throws InputError when the balls find no room or the scalar cannot resolve the case
+  /// @throws InputError when there is no room for the balls or the scalar cannot resolve the case
   /// @throws UndecidedError when no scalar can decide about a first contact
-  /// @throws InputError when the planes close no vessel about the origin
+  /// @throws InputError when the planes do not form a closed vessel around the origin
   explicit Run(const Case& the_case, const Laws<Real>& laws = {}, const Planes<Real>& vessel = {});
-  /// The same with any parts that the program defines.
-  /// @throws InputError also when the walls of a curved vessel leave no room in its box, or leave it open,
+  /// A run with parts of the model that the program defines.
+  /// @throws InputError also when the walls of a curved vessel leave no room in its box or do not close it,
   /// and when a joint has no axis
   Run(const Case& the_case, const OwnParts<Real>& own);
   ~Run();
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
 
-  /// Has the outputs of the case, case.toml, final_state.csv and summary.json written into a folder, as
-  /// `edmill run --out`. To be called before the run advances; without it nothing is written.
+  /// Makes the run write the outputs of the case, case.toml, final_state.csv and summary.json to a folder,
+  /// like `edmill run --out`. Must be called before the run advances; without it nothing is written.
   /// @throws InputError when a file cannot be written, another process or run writes into the folder, or an
   /// unfinished run has left its checkpoint there
   void write_to(const std::string& folder);
-  /// Puts these files in place, and removes those that an earlier run has left there and this one has not; to
-  /// be called once, after the run's last advance.
+  /// Moves these files into place and removes files of an earlier run that this run has not written. Must be
+  /// called once, after the last advance.
   void commit();
 
   /// Observers receive every impact, in the order of attachment; they must outlive the run.
   void attach(Observer<Real>& observer);
 
-  /// Simulates up to `time` [s], or to where a stop rule of the case or an observer ends the run.
-  /// @return whether the run can go on
+  /// Simulates up to `time` [s], or until a stop rule of the case or an observer ends the run.
+  /// @return true if the run can be continued
   /// @throws UndecidedError when no scalar can make a decision
   bool advance_to(const Real& time);
-  /// To the end that the case asks for.
+  /// Simulates to the end of the case.
   void finish();
   /// Ends the run after the present impact; for observers.
   void stop();

@@ -1,8 +1,8 @@
-// The scalars of a run. Heavy; `Run<double>` does not need it.
+// The scalars of a run. Slow to compile; `Run<double>` does not need this header.
 #pragma once
 
 // float128 is IEEE's binary128, rounded to nearest: its results are the same bits on every machine. On x86-64
-// the compiler has it; elsewhere, and where EDMILL_PORTABLE_FLOAT128 is defined, it is a class of Boost's.
+// it is a type of the compiler; elsewhere, or if EDMILL_PORTABLE_FLOAT128 is defined, a class of Boost.
 #if defined(__x86_64__) && defined(__SIZEOF_FLOAT128__) && !defined(EDMILL_PORTABLE_FLOAT128)
 #define EDMILL_NATIVE_FLOAT128
 #include <boost/multiprecision/float128.hpp>
@@ -26,6 +26,6 @@ using float128 =
                                   boost::multiprecision::et_off>;
 #endif
 
-// Beside it, `mpfr` has as many digits as `mpfr::Digits` chooses, 50 at first.
+// The third scalar, `mpfr`, has as many digits as `mpfr::Digits` sets (default: 50).
 
 }  // namespace edmill

@@ -1,4 +1,4 @@
-// The version of the package, and whether headers and library fit.
+// The version of the package, and a link-time check that headers and library match.
 #pragma once
 
 #include <string>

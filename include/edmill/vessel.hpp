@@ -1,4 +1,4 @@
-// Vessels of the user's own.
+// User-defined vessels.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 
 namespace edmill {
 
-/// A flat wall: inside is where a position's component along the normal is below `distance`, in the vessel
-/// frame, whose origin is inside.
+/// A flat wall in the vessel frame. Inside, where the origin is, the component of a position along the normal
+/// is less than `distance`.
 template <class Real>
 struct Plane {
   std::array<Real, 3> normal;  ///< outwards, of any length
@@ -25,13 +25,13 @@ using Planes = std::vector<Plane<Real>>;
 /// have no coordinates: outputs that map walls or draw them are refused.
 template <class Real>
 struct CurvedVessel {
-  /// Of each wall a polynomial of at most degree 8 that is positive where the centre of a ball of radius r is
-  /// inside, falls as r grows, and is zero where the ball touches the wall. That of a cone with its apex at y
-  /// = a whose radius grows by t with each metre downwards: (t (a - y) - sqrt(1 + t^2) r)^2 - x^2 - z^2. The
-  /// gradient of a wall must not vanish where a ball touches it.
+  /// One polynomial per wall, of degree 8 at most. It is positive if the centre of a ball of radius r is
+  /// inside, decreases as r grows, and is zero where the ball touches the wall; its gradient must not vanish
+  /// there. For a cone with its apex at y = a whose radius grows by t with each metre downwards it is (t (a -
+  /// y) - sqrt(1 + t^2) r)^2 - x^2 - z^2.
   std::vector<Polynomial<Real>> walls;
-  /// Half the edges of a box about the origin that has the vessel inside [m], and is not much larger; the
-  /// origin need not be in the vessel.
+  /// Half-edges of a box around the origin that contains the vessel and is not much larger [m]. The origin
+  /// need not be in the vessel.
   std::array<Real, 3> half_sizes;
 };
 

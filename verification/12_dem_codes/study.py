@@ -112,12 +112,12 @@ def page():
              "Three cases in edmill and in the DEM codes of Debian, by decks of `edmill export`; values are those of `edmill audit`, dose rates those of",
              "`edmill compare`. This page is written by", "", "    python3 verification/12_dem_codes/study.py build/release/edmill docs/dem_study.md", "",
              f"Versions: {versions}.",
-             f"Contacts last {CONTACT_TIME} at 1 m/s, with 50 steps in each; one core, beside other work, so that processor times hold within a factor of",
-             "two. Dose rates count from 0.5 s on, when the charge has forgotten its start. What contacts of this duration do to a dose rate is shown by `edmill limit`: with LAMMPS in the vibrated box, see",
-             "[DEM codes](dem.md); here it is within the intervals.", ""]
+             f"Contacts last {CONTACT_TIME} at 1 m/s, with 50 steps in each. All runs used one core, beside other work, so that processor times are accurate",
+             "within a factor of two. Dose rates count from 0.5 s on, when the charge has forgotten its start. `edmill limit` shows how contacts of this duration change a dose rate (for LAMMPS in the vibrated box see",
+             "[DEM codes](dem.md)); here the change is within the intervals.", ""]
     for title, (text, own, by_code) in CASES.items():
         lines += rows_of(title, text, (own, by_code))
-    lines += ["## What a code can express", "", "Asked of `edmill export` case by case; edmill has all of them.", "",
+    lines += ["## What a code can express", "", "The table shows the answers of `edmill export`, case by case; edmill can simulate all of them.", "",
               "| case | " + " | ".join(NAMES[code] for code in PRESENT) + " |", "|---" * (len(PRESENT) + 1) + "|"]
     for feature, text in FEATURES.items():
         lines.append(f"| {feature} | " + " | ".join(answer(text, code) for code in PRESENT) + " |")

@@ -16,16 +16,18 @@
 
 namespace edmill {
 
-/// How a number of another library becomes an `mpfr`, exactly, and back, rounded: `exact`, `rounded`.
+/// Conversions of a number type of another library: `exact` converts to `mpfr` without rounding, `rounded`
+/// converts back and rounds.
 template <class Number>
 struct MpfrConversion {};
 
-/// A binary floating-point number of MPFR. Every operation rounds to nearest, to the digits that the thread
-/// has chosen with `mpfr::Digits`, 50 at first; what is only stored, copied or converted from a narrower type
-/// keeps all its bits. Significands of up to 384 bits are part of the number, longer ones are allocated.
+/// An MPFR floating-point number. Every operation rounds to nearest, to the precision that the current thread
+/// has set with `mpfr::Digits` (default: 50 decimal digits). Stored and copied numbers, and those converted
+/// from a narrower type, keep all their bits. Significands of up to 384 bits are part of the object, longer
+/// ones are allocated.
 class mpfr {
  public:
-  /// Chooses the digits of the thread until the end of the scope.
+  /// Sets the precision of the current thread until the end of the scope.
   class Digits {
    public:
     /// @param shown  digits written to files (default: enough to read the same number back)
@@ -43,7 +45,7 @@ class mpfr {
       unsigned decimal, shown;
       mpfr_prec_t bits;
     };
-    /// As many as scalars of a fixed number of digits have, mpfr50 for example.
+    /// Bits for this many decimal digits, the same as in scalars of fixed precision such as mpfr50.
     static constexpr mpfr_prec_t bits_of(unsigned decimal) {
       const long long thousand = 1000LL * decimal;
       return static_cast<mpfr_prec_t>(thousand / 301 + (thousand % 301 != 0 ? 2 : 1));
@@ -130,7 +132,7 @@ class mpfr {
     drop();
     make(bits);
   }
-  /// Rounded to the digits of the thread.
+  /// A copy rounded to the precision of the current thread.
   mpfr rounded() const { return of(mpfr_set, data()); }
   /// Decimal text with `digits` significant digits, in the format of printf's %g (default: enough to read the
   /// same number back).
@@ -160,7 +162,7 @@ class mpfr {
   requires requires(const mpfr& x) { MpfrConversion<Number>::rounded(x); }
   explicit operator Number() const { return MpfrConversion<Number>::rounded(*this); }
 
-  /// The result of one of MPFR's functions at the digits of the thread.
+  /// Calls one of MPFR's functions with a result in the precision of the current thread.
   template <class Function, class... Arguments>
   static mpfr of(const Function& function, const Arguments&... arguments) {
     mpfr result((Unset()));
@@ -226,7 +228,7 @@ class mpfr {
   }
 
   mpfr_t n_;
-  mp_limb_t inside_[most_inside / GMP_NUMB_BITS];  ///< uninitialised like any number
+  mp_limb_t inside_[most_inside / GMP_NUMB_BITS];  ///< left uninitialised, like a variable of arithmetic type
 };
 
 inline mpfr abs(const mpfr& x) { return mpfr::of(mpfr_abs, x.data()); }
@@ -251,7 +253,7 @@ inline mpfr frexp(const mpfr& x, int* exponent) {
   *exponent = static_cast<int>(e);
   return result;
 }
-/// The number lies below 2 to this power, and not below half of it. @pre not zero
+/// The exponent e with 2^(e-1) <= |x| < 2^e. @pre x is not zero
 inline long exponent_of(const mpfr& x) { return mpfr_get_exp(x.data()); }
 inline bool isfinite(const mpfr& x) { return mpfr_number_p(x.data()) != 0; }
 inline bool isinf(const mpfr& x) { return mpfr_inf_p(x.data()) != 0; }
@@ -260,7 +262,7 @@ inline bool isnan(const mpfr& x) { return mpfr_nan_p(x.data()) != 0; }
 
 }  // namespace edmill
 
-/// Without the digits, which are not constant: `mpfr::bits`.
+/// The number of digits is not a constant and is left at its default; use `mpfr::bits`.
 template <>
 class std::numeric_limits<edmill::mpfr> : public std::numeric_limits<edmill::mpfr::Digits> {
  public:

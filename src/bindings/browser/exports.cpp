@@ -173,7 +173,7 @@ class Session : private Observer<double> {
   /// The case with the settings in it, as a file that the command line runs: with the same log, if any.
   std::string case_text() const { return text_with_values(spec_, log_); }
 
-  /// The SHA-256 of collisions.csv as the command line writes it. Nothing can follow.
+  /// Ends the run and adds the SHA-256 of collisions.csv, as the command line writes it.
   void finish(JsonText& json) {
     if (!finished_) run_.commit();
     finished_ = true;
@@ -184,7 +184,7 @@ class Session : private Observer<double> {
  private:
   static constexpr const char* folder = "/run";
 
-  /// What a reader is shown of summary.json, milling time first.
+  /// Adds the results in summary.json that the page shows, milling time first.
   static void results(JsonText& json, const nlohmann::json& summary) {
     const auto number = [&](const char* path) -> std::optional<double> {
       const nlohmann::json::json_pointer place(path);
@@ -247,7 +247,7 @@ const char* kept(std::string text) {
   return last.c_str();
 }
 
-/// What `work` puts into JSON, or the problems that it found.
+/// Returns the JSON that `work` fills, or the problems that it throws.
 const char* answer(const auto& work) {
   JsonText problems;
   try {
@@ -277,12 +277,12 @@ Session& running() {
   return *session;
 }
 
-/// The page shows what is searched while it goes on.
+/// Sends the current stage of a search to the page, which shows it.
 void tell_stage(const std::string& stage) {
   EM_ASM({ postMessage({what : 'stage', stage : UTF8ToString($0)}); }, stage.c_str());
 }
 
-/// Those of a case, a wall as -1 - its number.
+/// Records the first impacts of a case, with -1 - number for a wall.
 struct FirstImpacts : Observer<double> {
   explicit FirstImpacts(int most) : most(static_cast<std::size_t>(most)) {}
   void on_impact(const Impact<double>& impact, Run<double>& run) override {
@@ -310,7 +310,7 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_begin(int log) {
   });
 }
 
-/// To a time [s], or for a negative one by one impact.
+/// Advances the run to a time [s], or by one impact if the time is negative.
 EMSCRIPTEN_KEEPALIVE const char* edmill_advance(double time) {
   return answer([&](JsonText& json) {
     if (time < 0)

@@ -1,4 +1,4 @@
-// The judge's runs in double, the page's only scalar.
+// Runs that judges make, in double, which is the only scalar of the page.
 #include "run/event_source.hpp"
 
 namespace edmill::run {

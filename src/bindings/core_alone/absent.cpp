@@ -1,5 +1,5 @@
-// What stands for libraries that the core alone does not have: HDF5, pugixml, zlib and zstd. A case that
-// needs one of them is refused with its name.
+// Substitutes for functions that need libraries which the core-only build lacks: HDF5, pugixml, zlib and
+// zstd. A case that needs one of them is refused with a message that names it.
 #include "base/errors.hpp"
 #include "io/input_file.hpp"
 #include "io/table_hdf5.hpp"
@@ -36,7 +36,7 @@ EventFile::EventFile(const std::filesystem::path&, std::vector<EventColumn>,
   refuse("an event log as .h5", "HDF5");
 }
 EventFile::~EventFile() = default;
-// Nobody has one whose constructor throws.
+// Never called, since the constructor throws.
 void EventFile::add(std::size_t, std::int64_t) {}
 void EventFile::add(std::size_t, double) {}
 void EventFile::end_row() {}

@@ -55,7 +55,7 @@ auto call_python(const Call& call) {
   }
 }
 
-/// Other threads of Python run in its scope.
+/// Releases Python's lock in its scope, so that other threads of Python can run.
 class Unlocked {
  public:
   Unlocked() : state_(PyEval_SaveThread()) {}
@@ -67,7 +67,7 @@ class Unlocked {
   PyThreadState* state_;
 };
 
-/// Python can be called in its scope.
+/// Holds Python's lock in its scope, so that Python can be called.
 class Locked {
  public:
   Locked() : state_(call_python(PyGILState_Ensure)) {}
@@ -92,7 +92,7 @@ pybind11::object made_by(const Make& make) {
   return pybind11::reinterpret_steal<pybind11::object>(made);
 }
 
-/// What a callable of Python returns. @throws py::error_already_set
+/// Calls a callable of Python and returns its result. @throws py::error_already_set
 template <class... Argument>
 pybind11::object call(const pybind11::object& callable, Argument&&... argument) {
   const auto arguments = pybind11::make_tuple(std::forward<Argument>(argument)...);

@@ -25,7 +25,7 @@ namespace {
 using run::AnyRun;
 using run::SeenImpact;
 
-/// Numbers of a run for Python: in double floats, in wider scalars Decimals with all digits.
+/// Converts numbers of a run to Python: floats for double, Decimals with all digits for wider scalars.
 struct Numbers {
   bool wide;
 
@@ -107,10 +107,10 @@ class Collector : public run::Watcher {
       return;
     }
     const auto seen = impact.in_double();
-    auto& row = doubles_.emplace_back();  // zero in its gaps, too: equal runs give equal bytes
+    auto& row = doubles_.emplace_back();  // padding bytes are zero, so that equal runs give equal bytes
     for_each_member<double>([&](const char*, auto which) { row.*which = seen.*which; });
   }
-  /// An array in double owns what the list held: nothing is copied.
+  /// Returns the events. In double the array takes over the data of the list without a copy.
   py::object events() {
     if (!numbers_.wide) {
       auto* owner = new std::vector(std::move(doubles_));
@@ -202,7 +202,7 @@ class CallingLaw : public run::LawInTexts {
         of_slip_(law.attr("restitution_of_slip")),
         numbers_(numbers),
         interrupted_(interrupted) {}
-  /// A run may let go of it without Python's lock.
+  /// Takes Python's lock, which a run does not hold when it destroys the law.
   ~CallingLaw() override {
     const Locked python;
     restitution_ = py::none();

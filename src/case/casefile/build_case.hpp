@@ -1,4 +1,4 @@
-// From a case as read to the values of one scalar and the balls' initial states.
+// Converts a case as read from its file to one scalar type, with the initial states of its balls.
 #pragma once
 
 #include <vector>
@@ -20,11 +20,11 @@ struct InitialCase {
 template <class Real>
 model::Mill<Real> build_mill(const CaseSpec& spec);
 
-/// Case and initial state in a mill, the file's or another: explicit balls first, then the batches, placed at
-/// random by the case's seed.
-/// @throws InputError when balls overlap, lie outside the vessel, cannot be placed, or an initial state does
-/// not fit, and for what this scalar cannot resolve
-/// @param resolved  whether the last of these is asked for
+/// Builds the case and its initial state in a mill, which need not be that of the file: explicit balls first,
+/// then the batches, placed at random by the case's seed.
+/// @param resolved  check that this scalar can resolve the case
+/// @throws InputError when balls overlap, lie outside the vessel or cannot be placed, an initial state does
+/// not fit, or the scalar cannot resolve the case
 template <class Real>
 InitialCase<Real> build_case_in(const model::Mill<Real>& mill, const CaseSpec& spec, bool resolved = true);
 template <class Real>

@@ -27,7 +27,7 @@ namespace edmill::casefile {
 
 namespace detail {
 
-/// The nearest scalar; of two that are as near, the even one.
+/// The nearest value of a scalar type, ties to even.
 template <class Real>
 Real nearest(const Rational& value) {
   using boost::multiprecision::cpp_int;
@@ -47,7 +47,7 @@ Real nearest(const Rational& value) {
   return Dyadic(value < 0 ? cpp_int(-quotient) : quotient, exponent - 1 + static_cast<int>(spare)).to<Real>();
 }
 
-/// Of pi, so that the last rounding is the only one that counts.
+/// Bits to which pi is computed, so that only the last rounding matters.
 template <class Real>
 int bits_for() {
   return 2 * binary_digits<Real>() + 64;
@@ -67,7 +67,7 @@ Real Quantity::to() const {
 template <class Real>
 Instant<Real> instant_at(const Quantity& time, const Quantity& period) {
   if (time.zero()) return {};
-  const int bits = detail::bits_for<Real>() + 64;  // as many periods as an integer holds
+  const int bits = detail::bits_for<Real>() + 64;  // for as many periods as an integer holds
   const Rational seconds = value_of(time, bits), length = value_of(period, bits), count = seconds / length;
   const auto periods =
       static_cast<std::int64_t>(boost::multiprecision::cpp_int(numerator(count) / denominator(count)));
@@ -90,7 +90,8 @@ model::BallProperties<Real> to_ball(const BallSpec& spec, const Real& diameter) 
   return {radius, spec.density.to<Real>() * volume, spec.reduced_inertia.to<Real>(), spec.material};
 }
 
-/// Placed balls by cells of at least the widest centre distance that matters, in the vessel frame.
+/// Placed balls in a grid of cells, in the vessel frame. A cell is at least as wide as the largest distance
+/// of centres to be tested.
 template <class Real>
 class PlacedBalls {
  public:
@@ -129,7 +130,7 @@ class PlacedBalls {
   boost::unordered_flat_map<Key, std::vector<Entry>> cells_;
 };
 
-/// A ball of a crowd. All places are in double, whatever the scalar of the run, and so exact in all of them.
+/// A ball of a crowd. Positions are double in runs of every scalar, so that all start from the same ones.
 struct CrowdBall {
   double radius;                      ///< [m]
   double gap_ball = 0, gap_wall = 0;  ///< to balls before it and to walls [m]
@@ -137,7 +138,7 @@ struct CrowdBall {
   bool fixed = false;                 ///< stays where it is
 };
 
-/// How `push_apart` moves them.
+/// The iteration of `push_apart`.
 class Crowd {
   using Place = Vec3<double>;
 
@@ -160,7 +161,7 @@ class Crowd {
     return std::none_of(rooms_.begin(), rooms_.end(), [](const Room& r) { return r.vessel.is_empty(); });
   }
 
-  /// @return whether all are apart
+  /// Parts all pairs and brings all balls inside, once. @return true if nothing had to be moved
   bool sweep() {
     if (have_gone_far()) find_pairs();
     bool apart = true;
@@ -225,7 +226,7 @@ class Crowd {
     return false;
   }
 
-  /// Pairs that can come too close before any ball has gone half the skin, by cells as wide as the widest.
+  /// Finds the pairs that can come too close before a ball has moved by half the skin, with a grid of cells.
   void find_pairs() {
     begin_.clear();
     for (const auto& ball : balls_) begin_.push_back(ball.place);
@@ -278,8 +279,9 @@ class Crowd {
 /// Moves balls apart, from places inside the vessel where they may overlap, until none is closer to another
 /// or to a wall than `share` of its gaps. The moves are projections: each pair that is too close is parted
 /// along the line of its centres, each ball beyond a wall goes back along the normal.
-/// @param moved  how far each wall is inside the vessel, for pistons; empty where none does [m]
-/// @return false when they were not apart after a number of sweeps that depends on nothing but their number
+/// @param moved  inward displacement of each wall, for pistons; empty if there are none [m]
+/// @return false if they are still too close after a number of sweeps that depends only on the number of
+/// balls
 inline bool push_apart(const model::AnyVessel<double>& vessel, const std::vector<double>& moved,
                        std::vector<CrowdBall>& balls, double share) {
   Crowd crowd(vessel, moved, balls, share);
@@ -335,7 +337,8 @@ class Filling {
   }
 
  private:
-  /// Each ball of the batches at random where it finds room, or else all together.
+  /// Places the balls of the batches one by one at random; if a ball finds no room, places all of them
+  /// together.
   void add_batches() {
     if (!fit_alone() || !fit_by_volume() || !problems_.empty()) return;
     const std::size_t given = result_.states.size();
@@ -431,8 +434,8 @@ class Filling {
     return sum;
   }
 
-  /// Refuses what no packing holds: from a dozen balls on none is denser than that of equal ones,
-  /// pi/sqrt(18).
+  /// Reports a total volume that no packing reaches: from a dozen balls on, the densest is that of equal
+  /// balls, pi/sqrt(18).
   bool fit_by_volume() {
     if (spec_.batches.empty()) return true;
     constexpr double densest = 0.7405, few = 12;
@@ -451,7 +454,8 @@ class Filling {
     return false;
   }
 
-  /// What is pushed apart: balls whose state is given stay, those of batches begin at random places.
+  /// A ball of a batch that is pushed apart from the others, beginning at a random place. Balls whose state
+  /// is given do not move.
   struct Drawn {
     const BallBatch* batch;
     model::BallProperties<Real> ball;
@@ -463,11 +467,11 @@ class Filling {
     for (const auto& batch : spec_.batches)
       for (int k = 0; k < batch.count; ++k) drawn.push_back({&batch, draw_ball(batch)});
     std::vector<CrowdBall> crowd;
-    // Gaps shrink as they must.
+    // Tries smaller and smaller gaps.
     for (const double share : {1.0, 0.5, 0.25, 0.0625, 0.0})
       for (int attempt = 0; attempt < (share > 0 ? 2 : 8); ++attempt)
         if (part_crowd(drawn, drawn.size(), share, crowd)) return add_crowd(drawn, crowd);
-    // How many do find room, from the first on.
+    // Bisection for the number of balls that find room.
     std::size_t fitting = 0, failing = drawn.size();
     while (failing - fitting > 1) {
       const std::size_t middle = (fitting + failing) / 2;
@@ -479,7 +483,7 @@ class Filling {
         volume_of_balls() / static_cast<double>(mill_.vessel.volume()), fitting));
   }
 
-  /// The first `count` of the balls drawn, from new random places.
+  /// Pushes the first `count` of the drawn balls apart, from new random places. @return true if it succeeds
   bool part_crowd(const std::vector<Drawn>& drawn, std::size_t count, double share,
                   std::vector<CrowdBall>& crowd) {
     const auto vessel = mill_.vessel.template cast<double>();
@@ -594,7 +598,8 @@ model::PairLaws<Real> to_pairs(const CaseSpec& spec, int walls) {
   return pairs;
 }
 
-/// Diameters as the case says, states from a final_state.csv.
+/// Fills the case with balls whose properties are those of the case and whose states are from a
+/// final_state.csv.
 template <class Real>
 void fill_from_file(const CaseSpec& spec, InitialCase<Real>& result) {
   const auto saved = io::read_final_state<Real>(spec.initial_state);

@@ -43,7 +43,7 @@ void read_run(Section& run, CaseSpec& spec) {
   run.reject_unknown_keys();
 }
 
-/// The material of a name that a key gives; 0 where there is none or, which is reported, it is unknown.
+/// Number of the material that a key names; 0 without a name, and for an unknown name, which is reported.
 int material_of(Section& section, const std::string& key, const std::string& name, const CaseSpec& spec) {
   if (name.empty()) return 0;
   const int material = spec.material_named(name);
@@ -83,7 +83,7 @@ void read_materials(Entries<MaterialSpec>& entries, CaseSpec& spec) {
   read_entries(entries, [&](Section& entry, MaterialSpec& material) {
     entry.require(material.name.empty() || spec.material_named(material.name) == 0, "name",
                   "a name that no other material has");
-    // A wrong one has been reported here, and is not at the balls that have it.
+    // An invalid density is reported here, and must not be reported again at each ball of the material.
     if (entry.has("density") && !(material.density && material.density->positive()))
       material.density = BallSpec{}.density;
     spec.materials.push_back(std::move(material));
@@ -137,20 +137,20 @@ void read_balls(CaseFile& file, CaseSpec& spec) {
   });
 }
 
-/// Instants count drive periods, so a run has no more of them than an integer holds.
+/// Reports times that are too large: instants count drive periods in an integer.
 void check_times(Section run, const CaseSpec& spec) {
   const auto within = [&](const Quantity& time) {
     return rational(time) < rational(period_of(spec.mill)) * 1000000000000000;
   };
   const std::string expected = "a time of less than 1e15 drive periods";
   run.require(within(spec.initial_time), "initial_time", expected);
-  // Unless given it is the initial time.
+  // The default is the initial time.
   if (run.has("start_time")) run.require(within(spec.statistics_start), "start_time", expected);
   run.require(!spec.end_time || within(*spec.end_time), "end_time", expected);
 }
 
-/// The lines of [run]. Digests of 1.0 name its keys in this order, those without a value too; of later keys
-/// they name those that are given.
+/// The lines of [run] in the canonical text. The keys of version 1.0 come first, in this order, even without
+/// a value; later keys follow only if they are given.
 std::string text_of_run(const CaseSpec& c) {
   constexpr std::array<std::string_view, 8> of_1_0{"precision",      "seed",          "initial_time",
                                                    "start_time",     "end_time",      "max_milling_dose",
@@ -211,7 +211,7 @@ std::string canonical_text(const CaseSpec& c) {
   return out.str();
 }
 
-/// @param finished  a run of it is over: the file that it began from is not looked for
+/// @param finished  the case is that of a finished run: the file of its initial state need not exist
 CaseSpec parse(const std::string& text, const std::string& name, const std::vector<std::string>& overrides,
                bool finished, SizeLimit sizes = SizeLimit::physical) {
   Document document(name);

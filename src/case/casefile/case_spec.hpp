@@ -1,4 +1,4 @@
-// A case as its file says it: exact quantities, no scalar yet.
+// A case as written in its file: exact quantities, not yet converted to a scalar type.
 #pragma once
 
 #include <array>
@@ -33,13 +33,13 @@ struct MaterialSpec {
   }
 };
 
-/// What all ways of adding balls have in common.
+/// Keys that single balls and batches have in common.
 struct BallSpec {
   int count = 1;
   Quantity diameter, diameter_spread;
   Quantity density{8000};
   std::string material_name;
-  int material = 0;  ///< of CaseSpec::materials, from 1; 0 for none
+  int material = 0;  ///< number in CaseSpec::materials, from 1; 0 for none
   Quantity reduced_inertia{2, 5};
   QuantityVector velocity{};
   Colour colour{0, 0, 1};
@@ -145,7 +145,7 @@ struct AuditSpec {
   Named<ColumnName> columns;
   std::optional<Quantity> tolerance, gap_tolerance;
   std::optional<std::uint64_t> first_ball;
-  std::string walls;  ///< "-1, -2, -3": what stands for the walls, by id; empty when not given
+  std::string walls;  ///< "-1, -2, -3": the log's numbers of the walls, by id; empty when not given
   bool from_start = false;
 
   static constexpr const char* what = "How `edmill audit` reads another code's log.";
@@ -163,7 +163,7 @@ struct AuditSpec {
   }
 };
 
-/// In [powder]: how much milling it needs, and what counts as milling.
+/// Keys of [powder]: the target dose, and which impacts count toward it.
 struct TargetSpec {
   std::optional<Quantity> dose;
   model::CountedDose<Quantity> counted{false, {}};
@@ -190,12 +190,12 @@ struct Gravity : QuantityVector {
 struct CaseSpec {
   std::string file;                   ///< path of the case file
   std::string text;                   ///< of the case file
-  std::vector<std::string> settings;  ///< over it, "section.key=value"
+  std::vector<std::string> settings;  ///< that override the file, "section.key=value"
   bool reported = false;              ///< the outputs of the report were added to those of the file
   std::string digest;                 ///< SHA-256 of the case's canonical text
   std::string precision = "double";
-  std::optional<std::uint64_t> digits;  ///< that are to be right to the end; the precision is chosen for them
-  std::optional<std::uint64_t> right_digits;  ///< that two runs have shown to be right
+  std::optional<std::uint64_t> digits;  ///< number that must be correct to the end; determines the precision
+  std::optional<std::uint64_t> right_digits;  ///< correct digits, by comparison of two runs
   std::uint64_t seed = 1;
   Quantity initial_time, statistics_start;
   std::optional<Quantity> end_time;
@@ -210,13 +210,13 @@ struct CaseSpec {
   std::vector<int> wall_materials;  ///< by wall, from 1; 0 for none
   ContactSpec ball_ball, ball_wall;
   std::vector<PairSpec> pairs;  ///< in place of both where two materials are named
-  bool pairs_only = false;      ///< every contact that can be is one of them
+  bool pairs_only = false;      ///< every possible contact has a law among them
   std::optional<Quantity> powder_mass;
   TargetSpec target;
   std::vector<ExplicitBall> balls;
   std::vector<BallBatch> batches;
   std::vector<OutputSpec> outputs;
-  AuditSpec audit;  ///< no part of what is simulated, nor of the digest
+  AuditSpec audit;  ///< affects neither the simulation nor the digest
 
   static constexpr const char* what = "Begin and end of the run, its scalar, gravity.";
   static void keys(auto& c, auto&& row) {
@@ -287,7 +287,7 @@ model::Partners partners_of(const CaseSpec& spec);
 /// @throws InputError with every problem of the file: file, line, key, found, expected
 CaseSpec read_case(const std::string& path, const std::vector<std::string>& overrides = {});
 
-/// Reads and checks the text of a case; `name` stands for the file in messages.
+/// Reads and checks the text of a case; `name` is the name of the file in messages.
 CaseSpec parse_case(const std::string& text, const std::string& name,
                     const std::vector<std::string>& overrides = {});
 
@@ -295,7 +295,7 @@ CaseSpec parse_case(const std::string& text, const std::string& name,
 struct WrittenNumber {
   std::string number, unit;
 
-  /// The number and sign 10^-digits more, exactly, with its unit.
+  /// The exact text of number + sign * 10^-digits, with the unit.
   std::string plus(int sign, unsigned digits) const;
 };
 
@@ -303,23 +303,24 @@ struct WrittenNumber {
 /// @param key  "contact.restitution", "balls.0.diameter"
 /// @throws InputError when the case gives no such number
 WrittenNumber value_of_key(const CaseSpec& spec, const std::string& key);
-/// "12.7 mm", of the same; nothing when the case gives no such number.
+/// The same number with its unit as text, "12.7 mm"; nothing if the case gives no such number.
 std::optional<std::string> text_of_key(const CaseSpec& spec, const std::string& key);
 
 /// The case with another value of a key, read anew.
-/// @param sizes  of quantities; without limit, 1e-380 too, for a case close to this one, to derive by
+/// @param sizes  SizeLimit::none allows values such as 1e-380, for finite differences
 CaseSpec with_value(const CaseSpec& spec, const std::string& key, const std::string& value,
                     SizeLimit sizes = SizeLimit::physical);
 
-/// For a case that has been changed since it was read: what a file with its numbers would be refused for.
+/// Problems for which a file with the numbers of this case would be refused, if the case has been changed
+/// since it was read.
 std::vector<std::string> problems_of(const CaseSpec& spec);
 
 /// The text of a case file, followed by the settings over it as comments, for readers.
 std::string text_with_settings(const CaseSpec& spec);
 
-/// The case that a run left in its folder: `text_with_settings` as a file. The file that the run began from
-/// is not looked for; what cannot be known without it, the digest, is empty then.
-/// @param settings  over the file, as the run had them
+/// The case that a run left in its folder, a file with `text_with_settings`. If the run began from the final
+/// state of another one, that file is not read, and the digest, which depends on it, is empty.
+/// @param settings  of the run, which override the file
 /// @throws InputError also when the case has another digest
 CaseSpec read_case_of_run(const std::string& path, const std::vector<std::string>& settings,
                           const std::string& digest);

@@ -9,7 +9,7 @@ namespace edmill::casefile {
 
 namespace {
 
-/// What a section gives of a law, over what it inherits.
+/// Reads the keys of a law that a section gives; the others keep their inherited values.
 void read_law(Section& s, LawTable& given) {
   LawTable::keys(given, KeyReader(s, KeyReader::Absent::kept));
   if (s.has("restitution") && s.has("restitution_normal"))
@@ -31,7 +31,7 @@ std::optional<Quantity> charge_ratio(const CaseSpec& spec) {
   return quantity_of(mass / rational(*spec.powder_mass), 1);
 }
 
-/// The powder-load table has balls of 2.36 mm to 9.52 mm.
+/// Reports balls outside of the powder-load table, which covers 2.36 mm to 9.52 mm.
 void require_diameters(Section& s, const CaseSpec& spec) {
   using Law = model::PowderLoad<Quantity>;
   const Rational least(Law::diameters.front(), 1000000), largest(Law::diameters.back(), 1000000);
@@ -43,7 +43,7 @@ void require_diameters(Section& s, const CaseSpec& spec) {
   });
 }
 
-/// @param missing  called with the key of what its law needs and is not given, and what was expected
+/// @param missing  called for each missing parameter of the law, with its key and the expected value
 ContactSpec to_spec(Section& contact, const LawTable& given, const CaseSpec& spec, const auto& missing) {
   ContactSpec result;
   result.least_separation = given.least_separation;
@@ -83,7 +83,7 @@ ContactSpec to_spec(Section& contact, const LawTable& given, const CaseSpec& spe
   });
 }
 
-/// Whether all that its law needs is given.
+/// True if all parameters that the law needs are given.
 bool is_complete(const LawTable& given, const CaseSpec& spec) {
   Document ignored;
   Section nothing(ignored, nullptr, "contact");
@@ -119,7 +119,7 @@ void read_pairs(ContactTable& contact, CaseSpec& spec) {
   }
 }
 
-/// Where the case has laws for pairs of materials only, every contact that can be has one.
+/// For a case with laws for pairs of materials only: reports possible contacts that have none.
 void require_all_pairs(Section& contact, const CaseSpec& spec) {
   const auto& walls = spec.wall_materials;
   std::vector<int> of_balls;

@@ -20,13 +20,13 @@ namespace {
 
 std::uint64_t count_of(const Quantity& q) { return static_cast<std::uint64_t>(numerator(rational(q))); }
 
-/// What is kept of a value that was read.
+/// The number that is stored for a value: the period for the speed of a drive, otherwise the value itself.
 Quantity kept(const Quantity& q, const Range& range) {
   if (range.kind != Range::drive) return q;
   return q.positive() ? quantity_of(2 / rational(q), 1 - q.pi_power) : Quantity{1};
 }
 
-/// The files' own keys, their sections, are the keys of the first.
+/// All sections. The first one has the top-level keys of the files, which are the names of sections.
 const std::vector<KeySection>& all_sections() {
   static const auto sections = [] {
     std::vector<KeySection> list{{"", "", "", {}}};
@@ -212,7 +212,7 @@ KeyLister KeyLister::inside(const std::string& key, bool list, const char* what)
   if (list || !list_.empty()) lister.list_ = heading;
   const auto is_it = [&](const auto& s) { return s.name == lister.section_; };
   if (std::any_of(sections_.begin(), sections_.end(), is_it)) return lister;
-  // After what its own section has inside.
+  // Insert it after the sections that are inside of the same section.
   auto place = sections_.end();
   while (!section_.empty() && std::prev(place)->name != section_ &&
          !std::prev(place)->name.starts_with(section_ + "."))

@@ -26,8 +26,8 @@ std::string expected(const Parameter& p);
 /// @pre the parameter has a fallback of its dimension
 Quantity fallback_of(const Parameter& p);
 
-/// A struct that lists its keys. A member of one can be such a struct itself: a table inside the table, whose
-/// keys all have values without it.
+/// A struct that lists its keys. A member may be such a struct itself: a table inside the table. That table
+/// may be absent, so all of its keys need defaults.
 template <class T>
 concept Keyed = requires(T& t) {
   T::keys(t, [](const Parameter&, const auto&) {});
@@ -46,7 +46,7 @@ concept NamedEntry = requires(Section& section, const std::string& name) {
 template <class T>
 concept Choice = std::is_enum_v<T>;
 
-/// A table with the keys of a T, which is read where more than the table is known.
+/// A table with the keys of a T that is not read at once, because its reader needs other parts of the file.
 template <Keyed T>
 struct Inner {
   std::optional<Section> section;
@@ -65,13 +65,13 @@ T entry_of(const std::vector<T>&) {
   return {};
 }
 
-/// Reads members from a section; what is wrong is reported. A key that is absent gives the fallback; without
-/// one the member keeps its value where it is optional or the row says what is true `otherwise`, else the key
-/// is missing.
+/// Reads members from a section and reports problems. The member of an absent key gets the fallback of its
+/// row. Without a fallback it keeps its value if it is optional or if the row describes a default in
+/// `otherwise`; if not, the missing key is reported.
 class KeyReader {
  public:
   enum class Absent { fallback, kept };
-  /// @param absent  whether the members of absent keys keep their values whatever the row says
+  /// @param absent  `kept`: members of absent keys always keep their values
   explicit KeyReader(Section& section, Absent absent = Absent::fallback)
       : section_(section), kept_(absent == Absent::kept) {}
 
@@ -118,7 +118,8 @@ class KeyReader {
     Section own = section_.section(p.key);
     read_all_keys(own, value);
   }
-  /// Entries [[key]]. `T::check(entry, list)`, if T has it, judges each as the last of the list.
+  /// Entries [[key]]. `T::check(entry, list)`, if T has it, checks each entry when it is the last of the
+  /// list.
   template <Keyed T>
   void operator()(const Parameter& p, std::vector<T>& list) {
     for (Section& entry : section_.sections(p.key)) {
@@ -136,7 +137,7 @@ class KeyReader {
     static_cast<std::vector<Section>&>(entries) = section_.sections(p.key, entries.may_be_none);
   }
 
-  /// No quantity is missing or cannot be read.
+  /// True if every quantity was present and readable.
   bool complete() const { return complete_; }
 
  private:
@@ -207,7 +208,7 @@ std::string kind_of(const Parameter& p) {
   }
 }
 
-/// What is true without the key, for readers. @param optional  nothing need be
+/// The default of a key, for readers. @param optional  the key may be absent without a default
 std::string default_of(const Parameter& p, bool optional);
 
 /// "119/25000", "0,1/10,0", "-" for nothing, in the digest.
@@ -223,10 +224,10 @@ std::string digest_of(const std::optional<Value>& value) {
 
 struct DigestValue {
   std::string key, value;
-  bool named;  ///< of a key that 1.0 did not have
+  bool named;  ///< with its name, as it is later than version 1.0
 };
 
-/// What a run depends on, in the order of the list.
+/// Values that affect a run, in the order of the keys.
 template <class T>
 std::vector<DigestValue> digest_values(const T& keyed) {
   T plain{};
@@ -258,8 +259,8 @@ struct KeySection {
   std::vector<Key> keys;
 };
 
-/// Every key that a case, a sweep or an optimisation file can contain, in the order in which a reader wants
-/// them. A look-up of any other key is an error of the program.
+/// Every key that a case, a sweep or an optimisation file can contain, in the order of the reference. Looking
+/// up any other key is a programming error.
 std::span<const KeySection> key_sections();
 /// @param path  of a section as messages name it, "output.0.columns.1"
 bool is_key(const std::string& path, const std::string& name);
@@ -268,9 +269,9 @@ bool is_key(const std::string& path, const std::string& name);
 class KeyLister {
  public:
   explicit KeyLister(std::vector<KeySection>& sections) : sections_(sections) {}
-  /// The keys of a table. @param list  whether there are several, [[key]]
+  /// A lister for the keys of a table inside this one. @param list  true for an array of tables, [[key]]
   KeyLister inside(const std::string& key, bool list, const char* what) const;
-  /// Keys that one type alone has.
+  /// A lister for keys of a single type.
   KeyLister only_of(const std::string& type) const {
     KeyLister lister = *this;
     lister.of_ = type;
@@ -298,13 +299,13 @@ class KeyLister {
     add(p, kind_of<Inner<T>>(p), default_of(p, true));
     add_section(p, false, T{});
   }
-  /// One of several types, and the keys of each.
+  /// Adds the key of a choice between types, and the keys of each type.
   template <class... Part>
   void operator()(const Parameter& p, const std::variant<Part...>&) const {
     add_choice<std::variant<Part...>>(p);
     (list_part(Part{}), ...);
   }
-  /// The names of the types of a variant after the meaning.
+  /// Adds a key whose meaning is followed by the names of a variant's types.
   template <class Variant>
   void add_choice(const Parameter& p) const {
     std::string meaning = p.meaning;
@@ -326,7 +327,7 @@ class KeyLister {
     }
   }
 
-  /// A key that several types have in the same sense is one row.
+  /// Adds a row. A key that several types have with the same meaning gets only one.
   void add(const Parameter& p, const std::string& kind, const std::string& fallback) const;
 
   template <Keyed T>

@@ -1,4 +1,4 @@
-// Memory that is not there, in a sentence with what asked for it.
+// Lack of memory as an error message that names the case.
 #pragma once
 
 #include <new>
@@ -20,7 +20,7 @@ class OutOfMemory : public std::bad_alloc {
   std::string text_;
 };
 
-/// Does work on a case. @throws OutOfMemory when it takes more memory than there is
+/// Calls work() and returns its result. @throws OutOfMemory when there is too little memory
 auto with_memory_for(const CaseSpec& spec, const auto& work) {
   try {
     return work();

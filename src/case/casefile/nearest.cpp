@@ -9,7 +9,7 @@ namespace edmill::casefile {
 
 namespace {
 
-/// Letters and digits alone, small.
+/// The word in lower case, without hyphens and underscores.
 std::string plain(const std::string& word) {
   std::string text;
   for (const char c : word)
@@ -34,7 +34,7 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return to[a.size()][b.size()];
 }
 
-constexpr std::size_t least_beginning = 3;  ///< letters that a beginning has at least
+constexpr std::size_t least_beginning = 3;  ///< length of the shortest prefix that counts
 
 bool begins(const std::string& word, const std::string& with) {
   return with.size() >= least_beginning && word.starts_with(with);
@@ -48,7 +48,7 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
   std::size_t fewest = 0;
   for (const auto& candidate : candidates) {
     const std::string known = plain(candidate);
-    // A third of the letters may be wrong, so that short words are not taken for any other.
+    // No more than a third of the letters may be wrong: otherwise short words would match any others.
     const std::size_t edits = edit_distance(given, known),
                       most = (std::max(given.size(), known.size()) + 1) / 3;
     const bool near = edits <= most || begins(known, given) || begins(given, known);

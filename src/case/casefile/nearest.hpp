@@ -1,4 +1,4 @@
-// What a mistyped word was meant to be.
+// Suggestions for mistyped words.
 #pragma once
 
 #include <string>
@@ -6,12 +6,13 @@
 
 namespace edmill::casefile {
 
-/// The candidate that a mistyped word most likely stands for: with few edits besides case, hyphens and
-/// underscores, or one that it begins with or that begins with it. Empty when there is none.
+/// The candidate that was most likely meant by a mistyped word: one that needs few edits besides case,
+/// hyphens and underscores, or one of which the word is a prefix or that is a prefix of the word. Empty
+/// without any.
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
 
-/// "'height', or another of: a, b", with the nearest of the candidates first where there is one: "one of: a,
-/// b".
+/// The candidates as text, the nearest one first: "'height', or another of: a, b"; "one of: a, b" if none is
+/// near.
 std::string nearest_of(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace edmill::casefile

@@ -15,7 +15,7 @@ namespace {
 using model::impact_variables;
 using model::VariableKind;
 
-/// What the keys of every entry must be together.
+/// Checks the keys that all entries have, and conditions between them.
 void check_common(Section& s, const CaseSpec& spec, const OutputSpec& output) {
   const auto& timer = output.timer;
   if (timer.start_time && timer.end_time)
@@ -39,8 +39,7 @@ void check_common(Section& s, const CaseSpec& spec, const OutputSpec& output) {
               "a file name that no other output has, unless both append");
 }
 
-/// The place in ball_variables of the variable that a key names; nothing where there is none, which is
-/// reported.
+/// Index in ball_variables of the variable that a key names; nothing for an unknown name, which is reported.
 std::optional<int> ball_variable_of(Section& s, const std::string& name) {
   std::vector<std::string> names;
   for (const auto& v : model::ball_variables) names.emplace_back(v.name);

@@ -1,5 +1,5 @@
-// How an entry [[output]] is read, and the keys that several types of output have. The keys of one type are
-// where that output is: output/registry.hpp
+// Reads entries [[output]]: the keys that several types of output have. Keys of a single type are defined
+// with that output, output/registry.hpp
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@ namespace edmill::casefile {
 /// The variables that a type of output has in its columns.
 struct ColumnRules {
   bool of_balls = false, flags = false, counts = false, numbers = false;
-  std::vector<Statistic> of_flags{}, of_numbers{};  ///< none: the type shows single values
+  std::vector<Statistic> of_flags{}, of_numbers{};  ///< empty if the type shows single values
 };
 
 /// An entry of `columns`. Which keys it has depends on the type of output.
@@ -51,7 +51,7 @@ struct ColumnTable : ColumnSpec {
   static bool is_flag(const std::string& variable);
 };
 
-/// `columns`, as a type of output has them.
+/// Reads `columns` for a type of output.
 struct ColumnReader {
   ColumnRules rules;
   std::vector<ColumnSpec>& columns;
@@ -71,14 +71,14 @@ constexpr Parameter max_rows_key(const char* fallback = nullptr) {
 inline constexpr Parameter contact_point_key{"contact_point", Dimension::none,
                                              "a sphere where the bodies touch"};
 
-/// The place in impact_variables of the variable that a key names; nothing where there is none that the rules
-/// allow, which is reported.
+/// Index in impact_variables of the variable that a key names; nothing for a name that is unknown or that the
+/// rules exclude, which is reported.
 std::optional<int> variable_of(Section& s, const std::string& name, const ColumnRules& rules);
 
-/// The size of a table: at least 1 and not beyond reason.
+/// Range of the size of a table.
 inline constexpr Range table_size{1, 1000};
 
-/// The dimension in which a unit of the variables is given in a case.
+/// Dimension of a unit of the variables.
 Dimension dimension_of(std::string_view unit);
 
 /// "a, b, c", for messages.
@@ -97,7 +97,8 @@ struct OutputType {
   OutputKeys keys;
 };
 
-/// Those that `Keys::keys(output, row)` lists. What they must be together is in `Keys::check`.
+/// The keys that `Keys::keys(output, row)` lists. `Keys::check`, if it exists, checks conditions between
+/// them.
 template <class Keys>
 inline constexpr OutputKeys output_keys{[](Section& entry, const CaseSpec& spec, OutputSpec& output) {
                                           Keys::keys(output, KeyReader(entry));
@@ -108,7 +109,7 @@ inline constexpr OutputKeys output_keys{[](Section& entry, const CaseSpec& spec,
                                           OutputSpec output;
                                           Keys::keys(output, lister);
                                         }};
-/// Those of a struct that becomes OutputSpec::own.
+/// The keys of a struct that is stored in OutputSpec::own.
 template <Keyed Keys>
 struct OwnKeys {
   static void keys(auto& output, auto&& row) { Keys::keys(output.template make_own<Keys>(), row); }

@@ -1,4 +1,4 @@
-// What an entry [[output]] asks for. docs/outputs.md
+// The settings of an entry [[output]]. docs/outputs.md
 #pragma once
 
 #include <any>
@@ -17,10 +17,10 @@ namespace edmill::casefile {
 using model::Parameter;
 using model::Range;
 
-/// Of what pictures show: red, green and blue from 0 to 1. (thesis D.3.3)
+/// A colour in pictures: red, green and blue from 0 to 1. (thesis D.3.3)
 using Colour = std::array<double, 3>;
 
-/// When an output records. (thesis D.3.2) Of two starts the first counts, and of two ends.
+/// When an output records. (thesis D.3.2) Of two starts, or of two ends, the earlier one counts.
 struct TimerSpec {
   bool on = true;
   std::optional<Quantity> start_time, end_time, duration;
@@ -29,7 +29,7 @@ struct TimerSpec {
   std::optional<Quantity> interval;
   std::optional<std::uint64_t> max_rows;
 
-  /// Of every output; some have an interval beside them.
+  /// The keys of every output; some types have an interval as well.
   static void keys(auto& t, auto&& row) {
     using enum Dimension;
     row({"on", "false leaves the table empty", Range::any, "true"}, t.on);
@@ -50,8 +50,8 @@ struct TimerSpec {
 
 class Section;
 
-/// A table whose keys are the user's names: entries of a T, which has `read(section, name)`, and `what` and
-/// `entry` for readers.
+/// A table whose keys are chosen by the user. Each is read by `T::read(section, name)`; `T::what` and
+/// `T::entry` describe them for readers.
 template <class T>
 struct Named : std::vector<T> {
   static constexpr const char* what = T::what;
@@ -126,13 +126,13 @@ struct AnimationSpec {
   }
 };
 
-/// What every entry says, what several types share, and what reports ask for.
+/// Settings of every entry, settings that several types share, and those of a single type.
 struct OutputSpec {
   std::string type;
   std::string file;
   std::string folder;  ///< inside the run's folder; empty for that itself
   bool append = false;
-  bool table = true;  ///< whether it is one, which can be appended to another
+  bool table = true;  ///< whether it is a table, which can be appended to another
   TimerSpec timer;
   Named<Restriction> only;
   std::vector<ColumnSpec> columns;
@@ -140,10 +140,10 @@ struct OutputSpec {
   bool accumulated = false;                       ///< trends: since the start instead of for each interval
   std::optional<ContactPointSpec> contact_point;  ///< pictures
   AnimationSpec animation;
-  std::any own;  ///< keys that only this type of output has, as its reader left them
+  std::any own;  ///< keys that only this type of output has, set by its reader
 
   static constexpr const char* what = "Tables and pictures that the run writes.";
-  /// Of every type.
+  /// The keys of every type.
   static void keys(auto& o, auto&& row) {
     row(Parameter{"type", "which table or picture: see the types of outputs above"}.as("name").usually(
             "required"),
@@ -163,7 +163,7 @@ struct OutputSpec {
         o.only);
   }
 
-  /// Those of this kind, which are made where there are none.
+  /// The keys of this type; they are created if there are none yet.
   template <class Keys>
   Keys& make_own() {
     if (!own.has_value()) own = Keys{};

@@ -1,4 +1,4 @@
-// Motions and vessels as a case file says them: joints of a chain, shapes, pistons.
+// Reads motions and vessels of a case file: joints of a chain, shapes, pistons.
 #include "casefile/parts.hpp"
 
 #include <fmt/format.h>
@@ -26,8 +26,8 @@ using model::Swing;
 using model::TurnFraction;
 using PistonSpec = model::Piston<Quantity>;
 
-/// The share of a turn by which `turns` exceeds whole turns, cut to the bits of a TurnFraction: to those that
-/// the thread's `mpfr` needs, too.
+/// Splits `turns` into whole turns and a fraction. The fraction is truncated to the bits of a TurnFraction,
+/// or to those of the thread's `mpfr` if it needs more.
 TurnFraction fraction_of(const Quantity& turns) {
   TurnFraction fraction;
 #if !defined(EDMILL_WITHOUT_MPFR)
@@ -46,8 +46,8 @@ TurnFraction fraction_of(const Quantity& turns) {
   return fraction;
 }
 
-/// A constant angle or phase less its whole turns: a scalar has the rest to its last digit. One of less
-/// than a turn stays as it is given.
+/// A constant angle or phase without its whole turns, so that a scalar represents it to its last digit. An
+/// angle of less than a turn is returned as given.
 Quantity without_whole_turns(const Quantity& turns) {
   const auto fraction = fraction_of(turns);
   if (fraction.whole == 0 || fraction.whole == -1) return turns;
@@ -57,7 +57,7 @@ Quantity without_whole_turns(const Quantity& turns) {
   return quantity_of({bits, cpp_int(1) << (64 * fraction.bits.size())});
 }
 
-/// A frequency [1/s] for an angular speed [rad/s], turns for an angle [rad].
+/// Converts an angular speed [rad/s] to a frequency [1/s], or an angle [rad] to turns.
 Quantity in_turns(const Quantity& radians) {
   return quantity_of(rational(radians) / 2, radians.pi_power - 1);
 }
@@ -119,7 +119,7 @@ Joint<Quantity> joint_of(Section& section, JointTable& table) {
   return joint;
 }
 
-/// The fastest joint sets the clock.
+/// Period of the fastest rotation or swing, which becomes the drive period [s].
 Quantity period_of_fastest(const Joints<Quantity>& joints) {
   Quantity fastest{0};
   const auto see = [&](const Quantity& frequency) {
@@ -140,10 +140,10 @@ std::string axis_name(const std::array<Quantity, 3>& axis) {
   return fmt::format("({:g}, {:g}, {:g})", axis[0].to<double>(), axis[1].to<double>(), axis[2].to<double>());
 }
 
-/// With its sign, after other terms.
+/// A term of a sum with its sign, " + 5".
 std::string term(double value) { return fmt::format(" {} {:g}", value < 0 ? '-' : '+', std::abs(value)); }
 
-/// Terms that may begin with a sign.
+/// The sum of terms with signs as text, without a leading plus.
 std::string as_sum(const std::string& terms) {
   if (terms.empty()) return "0 deg";
   return terms.starts_with(" + ")   ? terms.substr(3)
@@ -191,7 +191,7 @@ Joints<Quantity> read_joints(Section& mill) {
   return joints;
 }
 
-/// What the ranges of single parameters do not say.
+/// Checks conditions between the parameters of a vessel.
 void require_shape(Section&, const auto&) {}
 void require_shape(Section& vessel, const model::Capsule<Quantity>& capsule) {
   vessel.require(capsule.height >= capsule.diameter, "height", "the diameter or more");
@@ -208,7 +208,8 @@ QuantityVector quantities(const Point& p) {
   return {quantity_of(p[0]), quantity_of(p[1]), quantity_of(p[2])};
 }
 
-/// The planes through three vertices and more that have all others on one side, in exact numbers.
+/// The convex hull of vertices in exact numbers: the planes through three or more of them that have all
+/// others on one side.
 class Hull {
  public:
   explicit Hull(std::vector<Point> vertices) : vertices_(std::move(vertices)) {
@@ -300,7 +301,7 @@ template <class Variant>
 Variant read_part(Section& given, const char* key) {
   Variant chosen;
   const auto name = given.kind(key, names_of_kinds<Variant>());
-  // Where the type is unknown, nothing else can be judged.
+  // If the type is unknown, no other key can be checked.
   Document ignored;
   Section nothing(ignored, nullptr, given.path());
   Section& section = given.of_unknown_kind() ? nothing : given;
@@ -336,7 +337,7 @@ std::string described(const auto& part, const Written& written) {
   return name_of(part) + text;
 }
 
-/// Displacements of a piston between two times at most [m].
+/// Bounds of a piston's displacement between two times [m].
 struct Travel {
   double least, most;
 };
@@ -357,13 +358,14 @@ bool can_move(const model::AnyVessel<double>& vessel, int wall) {
   return vessel.is_flat(wall) && vessel.function_count() == vessel.wall_count();
 }
 
-/// From a flat wall to what is opposite [m].
+/// Distance from a flat wall to the opposite side of the vessel [m].
 double depth_of(const model::AnyVessel<double>& vessel, int wall) {
   const Vec3<double> origin = Vec3<double>::Zero(), normal = vessel.normal(wall, origin);
   return vessel.gap(wall, origin) + dot<double>(normal.cwiseAbs(), vessel.half_sizes());
 }
 
-/// Even with all pistons as far inward as they go, the largest ball has room at the origin.
+/// Reports pistons that leave too little room for the largest ball at the origin when all of them are as far
+/// inward as they go.
 void require_room(Section& entry, const PolyhedronVessel& polyhedron, const std::vector<PistonSpec>& pistons,
                   double from, double to, double diameter) {
   auto planes = polyhedron.planes();
@@ -514,7 +516,7 @@ void require_travel(std::vector<Section>& entries, const CaseSpec& spec) {
     const double to = spec.end_time ? spec.end_time->to<double>() : from;
     const auto own = travel_of(piston, from, to);
     const double depth = depth_of(vessel, piston.wall);
-    if (own.least < -1e-14 * depth)  // what is left is rounding
+    if (own.least < -1e-14 * depth)  // beyond rounding
       entries[k].problem("wall", fmt::format("a piston that leaves the vessel by {:g} m", -own.least),
                          "a distance from which its speed and swings do not bring it out");
     if (const auto* polyhedron = vessel.get_if<PolyhedronVessel>()) {

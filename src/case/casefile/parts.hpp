@@ -1,4 +1,4 @@
-// Motions and vessels as a case file says them.
+// Motions and vessels of a case file.
 #pragma once
 
 #include <functional>
@@ -64,10 +64,10 @@ std::string text_of(const std::variant<Part...>& part) {
 /// Any motion as joints from the ground to the vessel.
 std::vector<model::Joint<Quantity>> joints_of(const MotionSpec& motion);
 
-/// The joints with what each turns in a drive period, exactly.
+/// The joints, each with the exact number of its turns in a drive period.
 model::Joints<Quantity> with_phases(model::Joints<Quantity> joints);
 
-/// The swings with what each turns in a drive period, exactly.
+/// The swings, each with the exact number of its turns in a drive period.
 std::vector<model::Swing<Quantity>> with_phases(std::vector<model::Swing<Quantity>> swings,
                                                 const Quantity& period);
 
@@ -76,14 +76,14 @@ std::string equation_of(const model::Joints<Quantity>& joints);
 /// " + 0.01 m sin(2 pi 5 t)" for each.
 std::string equation_of(const std::vector<model::Swing<Quantity>>& swings, bool rotate);
 
-/// A number of a key as its file has it, "38 mm"; nothing where there is none.
+/// Returns the number of a key as written in the file, "38 mm"; nothing if there is none.
 using Written = std::function<std::optional<std::string>(const std::string& key)>;
 /// For readers: "cylinder: diameter 38 mm, height 57 mm". @param written  without it values are in SI
 std::string describe(const MotionSpec& motion, const Written& written = {});
 std::string describe(const VesselSpec& vessel, const Written& written = {});
 
 class Section;
-/// Type and parameters of [mill] and [vessel]; what is wrong is reported. @param key  of the type
+/// Reads type and parameters of [mill] or [vessel] and reports problems. @param key  the one of the type
 MotionSpec read_motion(Section& mill, const char* key);
 VesselSpec read_vessel(Section& vessel, const char* key);
 

@@ -8,19 +8,19 @@ namespace edmill::casefile {
 
 class Section;
 
-/// Those of a fixed number of digits, the narrowest first: "double", "float128", "mpfr50"...
+/// The scalars with a fixed number of digits, the narrowest first: "double", "float128", "mpfr50"...
 const std::vector<std::string>& precisions();
 
-/// Whether it is one of these, or "mpfr:DIGITS".
+/// True if the name is one of these, or "mpfr:DIGITS".
 bool is_precision(const std::string& name);
 
-/// What is expected, for messages.
+/// The valid names, for messages.
 std::string choices_of_precision();
 
 /// Decimal digits of a scalar. @pre is_precision(precision)
 double digits_of(const std::string& precision);
 
-/// Reports a value of the key `precision` that is not known, and puts "double" in its place.
+/// Reports an unknown value of the key `precision` and replaces it by "double".
 void check_precision(Section& section, std::string& name);
 
 }  // namespace edmill::casefile

@@ -16,7 +16,7 @@ using boost::multiprecision::cpp_int;
 
 namespace {
 
-/// One unit of the thesis's tables D.1 and D.2, or a usual companion: spellings and exact SI factor.
+/// A unit of the thesis's tables D.1 and D.2, or another common one: spellings and exact SI factor.
 struct Unit {
   Dimension dimension;
   std::vector<std::string_view> spellings;
@@ -122,7 +122,7 @@ cpp_int arc_tangent_of_inverse(int x, int bits) {
   return sum;
 }
 
-/// pi times 2^bits, cut. Machin's formula
+/// pi times 2^bits, truncated, by Machin's formula.
 cpp_int pi_in_bits(int bits) {
   constexpr int spare = 64, most = 4096;
   const auto computed = [](int to) {
@@ -245,7 +245,7 @@ std::optional<Quantity> parse_decimal(std::string_view text) {
     exponent -= static_cast<long>(end - point - 1);
   std::string digits;
   std::copy_if(mantissa_text.begin(), mantissa_text.end(), std::back_inserter(digits), is_digit);
-  // Beyond any physical size, and a guard against numbers that would fill the memory.
+  // Refuses numbers beyond any physical size, which could also fill the memory.
   if (digits.size() > 400 || exponent > 400 || exponent < -800) return std::nullopt;
   const auto first = digits.find_first_not_of('0');
   const cpp_int mantissa(first == std::string::npos ? std::string("0") : digits.substr(first));

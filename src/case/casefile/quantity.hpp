@@ -33,7 +33,7 @@ struct UnitText {
 };
 std::vector<UnitText> unit_texts();
 
-/// An exact SI value: a rational number, which casefile/rational.hpp has, times pi^`pi_power`.
+/// An exact SI value: a rational number (defined in casefile/rational.hpp) times pi^`pi_power`.
 class Quantity {
  public:
   struct Exact;
@@ -58,7 +58,7 @@ class Quantity {
   friend std::strong_ordering operator<=>(const Quantity& a, const Quantity& b);
   friend bool operator==(const Quantity& a, const Quantity& b) { return (a <=> b) == 0; }
 
-  /// Nearest scalar; no value passes through double on its way to a wider one.
+  /// Nearest value of a scalar type; the conversion to a wider one does not go through double.
   template <class Real>
   Real to() const;
 
@@ -76,11 +76,11 @@ struct QuantityProblem {
 
 using QuantityResult = std::variant<Quantity, QuantityProblem>;
 
-/// Whether sizes beyond 1e-30 to 1e30 in SI units are refused: squares and cubes of others overflow or vanish
-/// in double.
+/// Whether magnitudes outside of 1e-30 to 1e30 in SI units are refused: their squares and cubes may overflow
+/// or underflow in double.
 enum class SizeLimit { physical, none };
 
-/// What a number without a unit is, where the dimension has one.
+/// Treatment of numbers without a unit in dimensions that have one.
 enum class Plain { refused, is_si };
 
 /// Number and unit, e.g. "1054 rpm", "8 g/cm^3", "-9.8 m/s²".

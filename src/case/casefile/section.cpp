@@ -1,4 +1,4 @@
-// Files as they are read, settings over them, "section.key=value", and typed look-ups of their keys.
+// Reads TOML files, applies settings "section.key=value" to them, and looks up typed values of their keys.
 #include "casefile/section.hpp"
 
 #include <fmt/format.h>
@@ -32,7 +32,7 @@ std::size_t byte_of_column(const std::string& line, std::size_t column) {
   return at;
 }
 
-/// What is after an error of TOML's grammar in a line, where that is known.
+/// The probable cause of a syntax error in a line of TOML, for messages; empty if unknown.
 std::string hint_of(const Document& document, std::size_t line) {
   if (line == 0 || line > document.lines.size()) return "";
   const std::string& text = document.lines[line - 1];
@@ -45,7 +45,7 @@ std::string hint_of(const Document& document, std::size_t line) {
   return comma ? " and a comma in a number, where a decimal point is expected" : "";
 }
 
-/// The place of "3" in an array; none where there is no such entry.
+/// Parses the index of an array entry, "3"; nothing if there is no such entry.
 std::optional<std::size_t> entry_of(const toml::array& array, const std::string& index) {
   if (index.empty() || index.size() > 6 || index.find_first_not_of("0123456789") != std::string::npos)
     return std::nullopt;
@@ -53,7 +53,7 @@ std::optional<std::size_t> entry_of(const toml::array& array, const std::string&
   return place < array.size() ? std::optional(place) : std::nullopt;
 }
 
-/// What a key of a table or an index of an array names; null for nothing.
+/// The child of a table by key, or of an array by index; null if there is none.
 template <class Node>
 Node* child_of(Node& parent, const std::string& key) {
   if (auto* table = parent.as_table()) return table->get(key);
@@ -91,7 +91,7 @@ void apply(toml::table& root, Document& document, const std::string& text) {
     parsed = toml::parse("value = " + value);
   } catch (const toml::parse_error&) {
   }
-  if (parsed.size() != 1) parsed = toml::table{{"value", value}};  // what is no TOML is a text
+  if (parsed.size() != 1) parsed = toml::table{{"value", value}};  // otherwise it is taken as text
   auto& read = *parsed.get("value");
   const auto& last = keys.back();
   if (parent->is_array() && child_of(*parent, last)->is_table() && !read.is_table())

@@ -31,30 +31,30 @@ struct Document {
 
   /// "case.toml:12" or "--set".
   std::string where(const toml::node* node, const std::string& path) const;
-  /// Text of a value as it stands in the file, so that decimals stay exact.
+  /// Text of a value as written in the file, so that decimals stay exact.
   std::string raw(const toml::node& node, const std::string& path) const;
-  /// In the order of the lines of the file; before them those of no line.
+  /// The problems in the order of the lines of the file, after those that have no line.
   std::vector<std::string> problems_by_line() const;
-  /// One message a key, and none for what is inside of a key that is wrong itself.
+  /// Adds a problem. Each key gets at most one, and errors inside of an invalid table are suppressed.
   void report(const toml::node* node, const std::string& path, const std::string& found,
               const std::string& expected);
 
  private:
   using Override = std::pair<const std::string, std::string>;
-  /// The command line's setting of a key or of what the key is in; null for a key of the file.
+  /// The command line's setting of a key or of a table that contains it; null for a key of the file.
   const Override* override_of(std::string path) const;
   std::string line(const std::string& path, std::size_t number) const;
 };
 
 /// Parses the text of the file `document.name` and keeps its lines.
-/// @param settings  over it, "section.key=value"; what is wrong with one is a problem of the document
-/// @throws InputError when the text is no TOML
+/// @param settings  "section.key=value", applied over the text; their errors become problems of the document
+/// @throws InputError when the text is not valid TOML
 toml::table parse_toml(const std::string& text, const std::string& kind, Document& document,
                        const std::vector<std::string>& settings = {});
 
 /// "balls", "0", "count" of "balls.0.count".
 std::vector<std::string> parts_of(const std::string& path);
-/// What a path names in a table; indices pick entries of arrays. Null for nothing.
+/// The node of a path in a table, in which indices select entries of arrays; null if there is none.
 const toml::node* node_at(const toml::table& root, const std::string& path);
 
 /// "one of "a", "b"", for messages.
@@ -75,7 +75,7 @@ class Section {
   /// A sub-section; a key of another kind is reported.
   Section section(const std::string& key);
   /// Entries of an array of tables.
-  /// @param may_be_empty  whether `key = []` is none of them, as for `--set output=[]`
+  /// @param may_be_empty  true if `key = []` is valid and has no entries, as for `--set output=[]`
   std::vector<Section> sections(const std::string& key, bool may_be_empty = false);
 
   std::optional<Quantity> quantity(const std::string& key, Dimension dimension);
@@ -88,13 +88,13 @@ class Section {
   Colour colour(const std::string& key, const Colour& fallback);
   /// One of `choices`, or the first when absent.
   std::string choice(const std::string& key, const std::vector<std::string>& choices);
-  /// A choice that decides which other keys there are: after an unknown one no key is rejected.
+  /// A choice that determines which other keys exist; if it is unknown, no key is rejected.
   std::string kind(const std::string& key, const std::vector<std::string>& kinds);
   bool of_unknown_kind() const { return of_unknown_kind_; }
 
   /// true or false; false when absent.
   bool flag(const std::string& key);
-  /// Keys in the order of the file; asking for them makes none of them known.
+  /// Keys in the order of the file. The call does not mark them as known.
   std::vector<std::string> keys() const;
   /// A value as `--set` would take it: a text, a number, true or false, or an array in one line.
   std::optional<std::string> setting(const std::string& key);
@@ -105,17 +105,17 @@ class Section {
   bool has(const std::string& key) const { return node_of(key) != nullptr; }
   bool is_array(const std::string& key) const { return has(key) && node_of(key)->is_array(); }
   void problem(const std::string& key, const std::string& found, const std::string& expected);
-  /// Reports a found value unless `good`.
+  /// Reports the value of a key unless `good`.
   void require(bool good, const std::string& key, const std::string& expected);
   /// Reports every key that no look-up asked for.
   void reject_unknown_keys();
 
  private:
   std::string full(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
-  /// Makes the key known.
+  /// Looks up a key and marks it as known.
   const toml::node* find(const std::string& key);
   const toml::node* node_of(const std::string& key) const { return table_ ? table_->get(key) : nullptr; }
-  /// Reports a value, in place of what it was to give.
+  /// Reports a value and returns nothing in its place.
   std::nullopt_t refuse(const toml::node& node, const std::string& path, const std::string& found,
                         const std::string& expected) {
     document_->report(&node, path, found, expected);
@@ -138,8 +138,8 @@ class Section {
   bool of_unknown_kind_ = false;
 };
 
-/// The first of the keys that is present, else the last. A problem that is reported there is dropped where
-/// the key's own value is wrong and has been reported.
+/// The key at which to report a problem of several keys: the first one present, or else the last. The report
+/// is dropped if a problem with that key's own value has been reported before.
 inline const char* first_of(const Section& section, std::initializer_list<const char*> keys) {
   for (const char* key : keys)
     if (section.has(key)) return key;

@@ -51,7 +51,7 @@ void check_key(Section& s, const std::string& key) {
     s.problem(key, "a key that cannot be varied", expected);
 }
 
-/// Each key is one that can be varied, in the grid or in points.
+/// Reports keys that cannot be varied, and keys that are in the grid as well as in points.
 void check_keys(Section& s, const SweepSpec& spec) {
   Section grid = s.section("grid");
   for (const auto& axis : spec.grid) check_key(grid, axis.key);

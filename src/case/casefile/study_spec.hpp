@@ -1,4 +1,4 @@
-// Files that vary a case: sweeps and optimisations, as they are written.
+// Contents of the files that vary a case: sweeps and optimisations.
 #pragma once
 
 #include <array>
@@ -24,10 +24,10 @@ struct Setting : std::pair<std::string, std::string> {
   static std::optional<Setting> read(Section& section, const std::string& key);
 };
 
-/// A key that is no key of the case: it sets balls.0.count from the masses of powder and ball.
+/// A key of studies only, not of the case: it sets balls.0.count from the masses of powder and ball.
 inline constexpr const char* charge_ratio_key = "charge_ratio";
 
-/// What sweeps and optimisations have in common.
+/// Keys that sweeps and optimisations have in common.
 struct StudySpec {
   std::string file;       ///< path of the file itself
   std::string case_file;  ///< path of the case that is varied
@@ -102,7 +102,7 @@ struct SweepSpec : StudySpec {
 /// An entry [[optimize.variable]].
 struct OptimizeVariable {
   std::string key;
-  std::vector<std::string> values;  ///< when given, all that the variable can be
+  std::vector<std::string> values;  ///< the allowed values, if they are listed
   AnyValue least, most;             ///< as they are written
   double low = 0, high = 0;         ///< in `unit`
   std::string unit;

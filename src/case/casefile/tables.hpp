@@ -1,4 +1,4 @@
-// Tables of a case file that the reader turns into parts of the model, and what reads them.
+// Tables of a case file that are converted to parts of the model, and the functions that read them.
 #pragma once
 
 #include <map>
@@ -33,7 +33,7 @@ struct Axis {
 };
 
 struct JointTable {
-  std::optional<bool> rotates;  ///< none for the reference, which has the keys of both
+  std::optional<bool> rotates;  ///< empty in the reference, which lists the keys of both
   Axis axis;
   Quantity angle, speed, distance;
   Entries<SwingTable> swings;
@@ -124,11 +124,11 @@ struct PolyhedronTable {
   }
 };
 
-/// The table of a type of mill or vessel that has more than parameters.
+/// The table of a type of mill or vessel that has other keys besides parameters.
 inline ChainTable table_of(const model::Chain<Quantity>&) { return {}; }
 inline PolyhedronTable table_of(const model::Polyhedron<Quantity>&) { return {}; }
 
-/// A name in [vessel.materials]. Whether it is a wall is known when the vessel has been read.
+/// A name in [vessel.materials]. It is compared with the walls when the vessel has been read.
 struct WallName : std::string {
   static constexpr const char* what = "Materials of single walls.";
   static constexpr Parameter entry =
@@ -200,10 +200,10 @@ struct PairTable {
 
 using Laws = model::NamedLaws<Quantity>;
 
-/// What a section gives of a law. Parameters of every law may be given, so that a sweep over laws has all
-/// that it needs in one section.
+/// The keys of a contact law in a section. Parameters of other laws may be given too, so that a sweep over
+/// laws needs only one section.
 struct LawTable {
-  /// The law's name. The default does not take the place of one that is inherited.
+  /// The law's name. An inherited name has precedence over the default.
   struct Name {
     using Kinds = Laws;
     std::string text;
@@ -311,7 +311,7 @@ struct CaseFile {
   }
 };
 
-/// The vessel in double, unless it is none, which has been reported.
+/// The vessel in double; nothing if it is invalid, which has been reported.
 std::optional<model::AnyVessel<double>> known_vessel(const CaseSpec& spec);
 /// The wall of a label or a key; -1 for none.
 int wall_named(const std::string& name, const model::Partners& partners);
@@ -322,9 +322,9 @@ void read_pistons(Section& vessel, Entries<PistonTable>& entries, CaseSpec& spec
 /// Reports pistons that leave the vessel or meet the other end.
 void require_travel(std::vector<Section>& entries, const CaseSpec& spec);
 /// [contact], [contact.ball_ball], [contact.ball_wall] and [[contact.pair]].
-/// @pre all that they may refer to has been read: materials, vessel, powder and balls
+/// @pre materials, vessel, powder and balls have been read, to which laws may refer
 void read_contact(Section& contact, CaseSpec& spec);
-/// What a file may give a part or a law, asked of values from no file: reports what it would refuse.
+/// Checks a part or a law whose values are not from a file: reports values that a file may not contain.
 void check(Section mill, const MotionSpec& motion);
 void check(Section vessel, const VesselSpec& shape);
 void check(Section contact, const ContactSpec& law, const CaseSpec& spec);

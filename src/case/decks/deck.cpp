@@ -15,8 +15,8 @@
 
 namespace edmill::decks {
 
-// The files beside this one: texts with the names of what is filled in. What may be absent ends its own
-// lines.
+// Templates with named fields, the files *.in of this folder. A field that may be empty contains the end of
+// its line.
 extern const std::string_view lammps_in, lammps_frame_in, liggghts_in, yade_in, yade_planes_in,
     yade_triangles_in;
 extern const std::string_view pose_in;  ///< pose(t) in Python: orientation, centre, angular velocity and its
@@ -28,13 +28,13 @@ using namespace std::string_literals;
 
 const double turn = 2 * numerics::pi<double>();  ///< [rad]
 
-/// A law of contacts as a DEM code has it.
+/// Parameters of a contact law in a DEM code.
 struct SoftLaw {
   double restitution, friction;
   double damping;  ///< soft_contact.hpp
 };
 
-/// What a deck is written from; SI.
+/// The data from which a deck is written; SI.
 struct DeckCase {
   const std::string& file;
   DeckOptions options;
@@ -45,17 +45,17 @@ struct DeckCase {
   model::Joints<double> joints;  ///< of the vessel
   double begin;                  ///< time of the states [s]
   model::AnyPose<double> pose;   ///< of the vessel at the begin
-  /// By the names under which the texts have them.
+  /// Values of the templates' fields, by name.
   fmt::dynamic_format_arg_store<fmt::format_context> fields = {};
 
-  /// Names, each with its value after it.
+  /// Adds fields: names, each followed by its value.
   void add(const char* name, const auto& value, const auto&... more) {
     fields.push_back(fmt::arg(name, value));
     if constexpr (sizeof...(more) > 0) add(more...);
   }
   std::string filled(std::string_view text) const { return fmt::vformat(text, fields); }
 
-  /// As it was given: the mass came from it.
+  /// Density of a ball as given in the case: computed from the mass, without its rounding.
   double density(std::size_t ball) const {
     const double r = balls[ball].radius;
     return std::stod(
@@ -180,7 +180,7 @@ std::string pose_in_python(DeckCase& c) {
 }
 
 /// The balls as commands of LAMMPS and LIGGGHTS.
-/// @param spin  the words that set it, with places for its components
+/// @param spin  format of the command that sets the spin
 std::string atoms_of(const DeckCase& c, const char* spin, bool also_at_rest) {
   std::string text, sets;
   for (std::size_t k = 0; k < c.balls.size(); ++k) {
@@ -194,7 +194,8 @@ std::string atoms_of(const DeckCase& c, const char* spin, bool also_at_rest) {
   return text + sets;
 }
 
-/// Says in the deck, for `facts_of_deck`, and to the user what represents a round wall.
+/// Writes the number of facets of a round wall to the deck, for `facts_of_deck`, and to the notes for the
+/// user.
 void tell_facets(DeckCase& c, const std::vector<WallMesh>& meshes, Deck& deck) {
   const int facets = c.options.facets;
   const bool is_round =
@@ -206,8 +207,8 @@ void tell_facets(DeckCase& c, const std::vector<WallMesh>& meshes, Deck& deck) {
                     100 * (1 / std::cos(numerics::pi<double>() / facets) - 1)));
 }
 
-// LAMMPS of 2021 and later: exact regions. Regions turn about one axis at most, so a vessel that turns is at
-// rest and the fictitious forces and torques come from Python.
+// LAMMPS of 2021 and later: exact regions. Regions turn about one axis at most, so a vessel that turns is
+// simulated in its own frame, with fictitious forces and torques computed in Python.
 
 std::string region_of(const DeckCase& c, const std::string& moves) {
   const auto& v = c.mill.vessel;
@@ -225,7 +226,7 @@ std::string region_of(const DeckCase& c, const std::string& moves) {
                   c.file));
 }
 
-/// What its `damping tsuji` wants for a law.
+/// The parameter of LAMMPS's `damping tsuji` for a law.
 double tsuji_of(const DeckCase& c, const SoftLaw& law) {
   if (law.damping > 1.2728)
     throw InputError(
@@ -235,8 +236,9 @@ double tsuji_of(const DeckCase& c, const SoftLaw& law) {
   return lammps_restitution(law.damping);
 }
 
-/// The states as seen from the vessel, and fictitious forces and torques with the velocity of the step, not
-/// LAMMPS's of half a step before.
+/// Transforms the states to the vessel frame.
+/// @return the commands for fictitious forces and torques. They use the velocity at the step, not LAMMPS's
+/// velocity half a step before.
 std::string put_in_vessel(DeckCase& c) {
   const auto& motion = c.mill.motion;
   const Vec3<double> turning = motion.angular_velocity(c.pose);
@@ -276,32 +278,33 @@ Deck lammps_deck(DeckCase& c) {
   return deck;
 }
 
-// LIGGGHTS 3.8: walls as triangles that several moves carry along: turns about fixed axes through the origin,
-// and the velocity that is left. The formulas of both are written by joints, in its own variables.
+// LIGGGHTS 3.8: walls are triangles, moved by several commands: rotations about fixed axes through the
+// origin, and a translation by the remaining velocity. Their formulas are variables of LIGGGHTS, built joint
+// by joint.
 
 /// Orientation, angular velocity, and place and velocity of the vessel as variables of LIGGGHTS.
 class Chain {
  public:
   explicit Chain(const DeckCase& c) {
-    // Moves of a step ask for rates when its number is that of its end: those of its middle keep the walls in
-    // place.
+    // During a step the commands evaluate their rates with the step number of its end. The rates of its
+    // middle keep the walls in place.
     lines = fmt::format("variable t equal {}+(step-0.5)*dt\n", c.begin);
     for (const auto& joint : c.joints.list) joint.rotates ? add_rotation(joint) : add_translation(joint);
     // The velocity that the material point at the origin has.
     for (int i = 0; i < 3; ++i) velocity[i] = named(velocity[i] - named(spin.cross(centre_))[i]);
-    // A turn carries the vessel from where it is at the beginning of a step, before it is shifted.
+    // A rotation acts on the position at the beginning of a step, before the translation.
     const auto turned_shift = named(spin.cross(velocity));
     velocity = named(velocity + Formula("(0.5*dt)"s) * turned_shift);
   }
 
-  std::string lines;             ///< that define the variables
+  std::string lines;             ///< definitions of the variables
   FormulaVector spin, velocity;  ///< each "v_q7" or empty
 
  private:
   using Joint = model::Joint<double>;
   using Matrix = Eigen::Matrix<Formula, 3, 3>;
 
-  /// A variable for what is longer than a variable.
+  /// Defines a variable for a formula, unless that is as short as a variable.
   Formula named(const Formula& formula) {
     const auto& text = formula.text;
     const bool is_variable = text.starts_with("v_") && text.find_first_of("*+(") == std::string::npos;
@@ -405,11 +408,11 @@ Deck liggghts_deck(DeckCase& c) {
   return deck;
 }
 
-// YADE 2023: infinite planes where the vessel only translates, else triangles that turn about the point at
-// rest.
+// YADE 2023: infinite planes if the vessel only translates, otherwise triangles that turn about the point of
+// the vessel that is at rest.
 
-/// Whether the vessel's centre moves across its angular velocity at all times that are tried, so that a point
-/// of it is at rest.
+/// True if a point of the vessel is at rest at all sampled times: its centre moves perpendicularly to its
+/// angular velocity.
 bool turns_about_a_point(const DeckCase& c) {
   const auto& motion = c.mill.motion;
   const DriveClock<double> clock(motion.period());

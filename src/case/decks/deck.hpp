@@ -1,4 +1,4 @@
-// A case as the input of a DEM code that runs as it is. docs/dem.md
+// Writes a case as ready-to-run input of a DEM code. docs/dem.md
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ struct DeckOptions {
   std::string code;             ///< one of deck_codes
   std::string name = "deck";    ///< of the files, without extension
   double contact_time = 50e-6;  ///< of the largest ball on a wall [s]
-  double speed = 1;             ///< at which it lasts so long [m/s]
+  double speed = 1;             ///< approach speed of that contact [m/s]
   double duration = 0;          ///< simulated [s]; 0 for that of the case
   double frame_interval = 0;    ///< between frames of the dump [s]; 0 for a fifth of the contact time
   int steps = 50;               ///< of time in a contact

@@ -10,7 +10,7 @@ namespace edmill::decks {
 
 namespace {
 
-/// x with f(x) = value, of an f that falls between low and high.
+/// Solves f(x) = value between low and high for a decreasing f.
 double where_falling(const auto& f, double value, double low, double high) {
   for (int k = 0; k < 60; ++k) {
     const double middle = (low + high) / 2;
@@ -24,14 +24,14 @@ struct Bounce {
   double duration = 0;
 };
 
-/// In units in which m = K = 1 and the speed of the approach is 1. Without damping a contact lasts 3.218.
-/// @param place  of the touch between two steps, 0 to 1
-/// @param press  acceleration towards each other, beside the contact's own force
+/// Integrates a contact in units of m = K = 1 and approach speed 1. Without damping it lasts 3.218.
+/// @param place  position of the touch between two steps, 0 to 1
+/// @param press  acceleration towards each other, in addition to the contact's own force
 Bounce bounce(double damping, int steps, double place, Separation separation, double press = 0) {
   const double step = 3.218 / steps;
   double x = step * place, v = 1;
   int k = 0;
-  // With much damping a contact creeps: what has not parted by then does not.
+  // With much damping a contact creeps: bodies that have not separated by then never do.
   for (; x > 0 && k < 50 * steps; ++k) {
     const double root = std::sqrt(x), force = x * root + damping * std::sqrt(root) * v;
     v += step * press;

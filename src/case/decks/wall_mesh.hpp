@@ -1,4 +1,4 @@
-// Walls as triangles, for codes that have nothing else.
+// Walls as triangles, for codes that support no other walls.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ struct WallMesh {
 /// vessel's x axis. Empty for a vessel that has none.
 std::vector<WallMesh> meshes_of(const model::AnyVessel<double>& vessel, int facets);
 
-/// Unit, out of the vessel: of the facet of that prism that is nearest to a place.
+/// Unit normal, out of the vessel, of the facet of that prism that is nearest to a position.
 Vec3<double> facet_normal(const model::Tube<double>& tube, int facets, const Vec3<double>& place);
 
 /// The text of an STL file (ASCII) of these meshes, placed as in this pose.

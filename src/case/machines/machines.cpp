@@ -85,7 +85,7 @@ Catalogue read() {
 /// "mill.type = "spex8000"" as a cell.
 std::string code(const std::string& text) { return "`" + text + "`"; }
 
-/// A name without what people write differently: "pm100" of "Retsch PM 100".
+/// A name reduced to its distinctive part, for comparisons: "pm100" for "Retsch PM 100".
 std::string plain(const std::string& name) {
   std::string text;
   for (const char c : name)
@@ -237,9 +237,9 @@ double number_of(const std::string& option, std::string text, const char* expect
   return unit * number->to<double>();
 }
 
-constexpr double packing = 0.6;  ///< share of a heap of balls that is not gaps
+constexpr double packing = 0.6;  ///< packing fraction of a heap of balls
 
-/// What fills the vessel, and what follows from it.
+/// The charge of a vessel: its balls and powder, and quantities that follow from them.
 struct Charge {
   std::vector<Batch> batches;
   double mass = 0, volume = 0, smallest = 1e9, largest = 0;  ///< [kg], [m^3], [m], [m]
@@ -320,7 +320,7 @@ class Writer {
   std::string text_;
 };
 
-/// "Barahona", of a source: the whole one is in `edmill machines`.
+/// The first word or words of a source, "Barahona"; `edmill machines` prints the whole.
 std::string brief(const std::string& source) { return source.substr(0, source.find_first_of(",:")); }
 
 std::string quoted(const std::string& text) { return "\"" + text + "\""; }

@@ -6,7 +6,7 @@
 
 namespace edmill::machines {
 
-/// A key of a case with its value, and where that is from.
+/// A key of a case with its value, and the source of the value.
 struct Setting {
   std::string key, value;  ///< "mill.arm", "\"10 cm\"": as in a case file
   std::string source;      ///< of the value, whole
@@ -38,7 +38,7 @@ struct Elsewhere {
   std::string what;
 };
 
-/// How bodies bounce when a case does not say it.
+/// Default contact parameters for a kind of charge.
 struct Contact {
   std::string key, what, model, restitution, source;
 };
@@ -58,7 +58,7 @@ const Catalogue& catalogue();
 std::string table();
 std::string markdown();
 
-/// What a new case is asked to have; empty texts leave what the machine has.
+/// Options of a new case; empty texts select the defaults of the machine.
 struct Wanted {
   std::string machine = "spex8000";  ///< "pm100", "Retsch PM 100"
   std::vector<std::string> balls;    ///< "10x12.7mm", "4x6.35mm:zirconia"; one batch each
@@ -70,7 +70,7 @@ struct Wanted {
 };
 
 /// A case file with the sources in its comments.
-/// @throws InputError that names the wish, what was found and what was expected
+/// @throws InputError that names the option, what was found and what was expected
 std::string new_case(const Wanted& wanted);
 
 }  // namespace edmill::machines

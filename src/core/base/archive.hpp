@@ -1,4 +1,4 @@
-// Values as bytes, and back: one function of a class lists its members for both.
+// Serialisation: one function of a class lists its members, both for saving and for loading.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,8 @@
 
 namespace edmill {
 
-/// A number whose bytes are in the order of files, and back. Nothing changes on most machines.
+/// Converts a number between the byte order of the machine and that of files, which is the same on most
+/// machines.
 template <class T>
 T in_file_order(T value) {
   if constexpr (std::endian::native == std::endian::big) {
@@ -31,10 +32,10 @@ T in_file_order(T value) {
   return value;
 }
 
-/// Saves or loads everything that it is called with. A class takes part by a function that lists its members,
-/// `void archive(Archive& a) { a(x_, y_); }`; a scalar of its own by `archive_value` (base/scalar_list.hpp).
-/// Every bit is kept. The bytes are the same on every machine; they are of this build: there is no versioning
-/// of classes.
+/// Saves or loads the values it is called with. A class takes part with a function that lists its members,
+/// `void archive(Archive& a) { a(x_, y_); }`, a scalar with `archive_value` (base/scalar_list.hpp). Every bit
+/// is preserved, and the bytes are the same on every machine. Classes are not versioned: only the build that
+/// saved the bytes can load them.
 class Archive {
  public:
   /// Saves.
@@ -59,7 +60,8 @@ class Archive {
     rest_.copy(static_cast<char*>(data), size);
     rest_.remove_prefix(size);
   }
-  /// The number of elements that follow. @throws InputError when so many cannot follow
+  /// Saves or loads a number of elements. @throws InputError when the remaining bytes cannot contain that
+  /// many
   std::size_t count(std::size_t size) {
     std::uint64_t number = size;
     (*this)(number);
@@ -87,8 +89,8 @@ inline void archive_value(Archive& a, std::string& text) {
   text.resize(a.count(text.size()));
   a.raw(text.data(), text.size());
 }
-/// A vector that has elements before it is loaded has got its length from the case, and keeps it. Others grow
-/// with what is read, so that a wrong number asks for no more memory than the bytes account for.
+/// A vector that is not empty before loading was sized by the case and keeps its length. An empty one grows
+/// as elements are read, so that a wrong number cannot allocate more memory than the bytes account for.
 template <class T, class Allocator>
 void archive_value(Archive& a, std::vector<T, Allocator>& values) {
   const std::size_t size = a.count(values.size());
@@ -140,7 +142,7 @@ void Archive::one(T& value) {
     if (byte > 1) throw InputError("found neither true nor false in a saved state");
     value = byte == 1;
   } else if constexpr (std::is_same_v<T, long> || std::is_same_v<T, unsigned long>) {
-    // Its length depends on the machine, as that of std::size_t does.
+    // The size of long depends on the machine, as does that of std::size_t.
     std::conditional_t<std::is_signed_v<T>, long long, unsigned long long> wide = value;
     (*this)(wide);
     value = static_cast<T>(wide);

@@ -11,7 +11,7 @@ namespace edmill {
 
 namespace {
 
-/// Bytes of the first character; 0 when XML cannot have it.
+/// Length of the first character in bytes; 0 if XML does not allow it.
 std::size_t character_size(std::string_view text) {
   auto end = text.begin();
   const auto code = boost::locale::utf::utf_traits<char>::decode(end, text.end());
@@ -20,7 +20,7 @@ std::size_t character_size(std::string_view text) {
   return is_blank || is_other ? static_cast<std::size_t>(end - text.begin()) : 0;
 }
 
-/// That scientific notation has with so many digits.
+/// The exponent of `value` in scientific notation with this many digits.
 int exponent_of(double value, int digits) {
   const auto text = fmt::format("{:.{}e}", value, digits - 1);
   return std::stoi(text.substr(text.find('e') + 1));

@@ -1,5 +1,5 @@
-// Texts of any bytes, such as names of files, in files whose characters a standard prescribes; shares and
-// numbers with intervals as texts.
+// Cleans texts of arbitrary bytes, such as file names, for formats that restrict characters; formats
+// percentages, counts and numbers with intervals.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ std::string clean_text(std::string_view text);
 /// A clean text in one line, for comments: blanks replace line ends.
 std::string one_line(std::string_view text);
 
-/// Without blanks, tabs and line ends at its begin and end.
+/// The text without leading and trailing blanks, tabs and line ends.
 std::string_view trimmed(std::string_view text);
 
 /// A share: "0.5 %", "7.1 %", "100 %".
@@ -23,10 +23,10 @@ std::string percent(double share);
 
 /// "1 ball", "28 balls".
 std::string counted(std::uint64_t number, std::string_view noun);
-/// A number with the digits that the half-width of its interval allows: "27.92 ± 0.26", "(1.167 ± 0.035)e5";
-/// four digits without one.
+/// A number rounded to the precision of its interval: "27.92 ± 0.26", "(1.167 ± 0.035)e5"; to four digits if
+/// it has none.
 std::string with_interval(double value, std::optional<double> half_width);
-/// A time with its unit, as a person says it: "20.98 ± 0.29 min", "3.8 ± 0.2 days".
+/// A time in a convenient unit: "20.98 ± 0.29 min", "3.8 ± 0.2 days".
 std::string time_with_interval(double seconds, std::optional<double> half_width);
 /// An energy to three digits, with the unit that leaves the fewest zeros: "1.44 mJ".
 std::string energy_text(double joules);

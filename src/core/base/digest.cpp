@@ -69,7 +69,7 @@ void Sha256::add(std::string_view bytes) {
 
 std::string Sha256::hex() const {
   Sha256 end = *this;
-  // A bit, zeros up to a whole block, and in its last 8 bytes the number of bits.
+  // Padding: one set bit, zeros up to a whole block, and the number of bits in its last 8 bytes.
   std::string padding(1, '\x80');
   padding.append((2 * block_size - 9 - size_ % block_size) % block_size, '\0');
   for (int shift = 56; shift >= 0; shift -= 8) padding += static_cast<char>(8 * size_ >> shift & 0xff);

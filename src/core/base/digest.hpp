@@ -1,4 +1,4 @@
-// SHA-256 (FIPS 180-4) in hexadecimal, of a text or of bytes as they come.
+// SHA-256 (FIPS 180-4) in hexadecimal, of a whole text or of bytes added piece by piece.
 #pragma once
 
 #include <array>

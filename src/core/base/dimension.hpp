@@ -1,4 +1,4 @@
-// Physical dimensions of what a case file gives.
+// Physical dimensions of the quantities in a case file.
 #pragma once
 
 namespace edmill {

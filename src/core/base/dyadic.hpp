@@ -1,4 +1,4 @@
-// Exact numbers n 2^e: what sums and products of floating-point numbers are.
+// Exact numbers n 2^e, which contain all sums and products of floating-point numbers.
 #pragma once
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -85,7 +85,7 @@ inline int sign_of_sum(const Dyadic& x, int s, const Dyadic& square) {
 inline int sign_of_sum(const Dyadic& x, int s, const Dyadic& one, int t, const Dyadic& two) {
   const int first = sign_of_sum(x, s, one), second = two.sign() == 0 ? 0 : t;
   if (first * second >= 0) return first + second > 0 ? 1 : first + second < 0 ? -1 : 0;
-  // Of opposite signs: by their squares.
+  // The signs are opposite: compare the squares.
   const Dyadic rational = x * x + one - two, four_squares = Dyadic(4) * x * x * one;
   return first * sign_of_sum(rational, s * x.sign(), four_squares);
 }

@@ -1,4 +1,4 @@
-// Arctangent, logarithm and roots with the same bits everywhere: those of C libraries differ.
+// Arctangent, logarithm and roots with the same bits on every machine, unlike those of C libraries.
 #pragma once
 
 #include <array>
@@ -35,7 +35,8 @@ Real odd_series(const Real& x, int sign) {
 /// @pre 0 <= t <= 1
 template <class Real>
 Real arctangent(const Real& t) {
-  // atan(t) = atan(c) + atan((t - c) / (1 + t c)) with c = 1/4, 1/2, 3/4 or 1, and so the angles of these.
+  // atan(t) = atan(c) + atan((t - c) / (1 + t c)) with c = 1/4, 1/2, 3/4 or 1; the angles atan(c) are
+  // computed in the same way.
   const int quarters = static_cast<int>(4 * static_cast<double>(t) + 0.5);
   if (quarters == 0) return odd_series<Real>(t, 1);
   static const auto angles = [] {
@@ -53,7 +54,7 @@ Real arctangent(const Real& t) {
 
 }  // namespace detail
 
-/// Angle of the direction (across, along), 0 to pi for across >= 0. Error: a few units of the last place.
+/// atan2(across, along), from 0 to pi for across >= 0. Error: a few units of the last place.
 /// @pre across >= 0, not both 0
 template <class Real>
 Real angle_between(const Real& across, const Real& along) {
@@ -98,7 +99,8 @@ Real fifth_root(const Real& x) {
   Real m = frexp(x, &exponent);
   const int whole = (exponent - (exponent % 5 + 5) % 5) / 5;
   m = ldexp(m, exponent - 5 * whole);  // in [1/2, 16)
-  // The tangent of the root at 1 lies above it, and from above Newton's method falls until rounding ends it.
+  // The start lies on the tangent of the root at 1 and thus above the root; from there Newton's iterates fall
+  // until rounding stops them.
   for (Real y = (m + 4) / 5;;) {
     const Real square = y * y, next = (4 * y + m / (square * square)) / 5;
     if (!(next < y)) return ldexp(y, whole);

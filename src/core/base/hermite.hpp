@@ -1,5 +1,5 @@
-// Certified statements about a smooth function on an interval, from its values and slopes at the two ends, or
-// ahead of one point, from its value and two derivatives there.
+// Certified statements about a smooth function: on an interval, from its values and slopes at both ends, or
+// after one point, from its value and first two derivatives there.
 #pragma once
 
 #include <cmath>
@@ -64,15 +64,15 @@ template <class Real>
   return quartic.least() > quartic.slack;
 }
 
-/// Whether a start within rounding of zero rises fast enough for its departure to be provable.
+/// True if a function that is zero within rounding at the start rises fast enough to prove its departure.
 template <class Real>
 bool can_depart(const Point<Real>& left, const CurveBounds<Real>& bounds) {
   return left.slope > bounds.slope_error * 2 &&
          left.slope * left.slope > 16 * (bounds.second * bounds.value_error);
 }
 
-/// Proven: f, whose left value is zero within rounding and rising, is not positive-to-negative anywhere on
-/// (left, right]: it rises on the first part and is positive on the rest.
+/// Proven: f, which is zero within rounding and rising at the left end, does not change its sign from
+/// positive to negative on (left, right]: it rises on the first part and is positive on the rest.
 /// @pre |left.value| <= value_error and can_depart(left, bounds)
 template <class Real>
 bool proven_departure(const Point<Real>& left, const Point<Real>& right, const CurveBounds<Real>& bounds) {
@@ -100,10 +100,10 @@ bool proven_increasing(const Point<Real>& left, const Point<Real>& right, const 
   return least - bounds.third * (s * s) / 8 - bounds.slope_error * 2 > 0;
 }
 
-/// Estimate of the last root of the cubic Hermite interpolant as a fraction of [left, right]; outside (0, 1)
-/// when there is none to be had. A hint for where to split, never a decision, and so in double for every
-/// scalar.
-/// @param precision  relative change of the last but one step of Newton's iteration for the cubic
+/// Estimates the last root of the cubic Hermite interpolant, as a fraction of [left, right]; the result is
+/// outside (0, 1) if there is none. It only suggests where to split and decides nothing, so it is computed in
+/// double for every scalar.
+/// @param precision  Newton's iteration for the cubic ends after a step below this fraction of the root
 /// @pre right.value < 0
 template <class Real>
 double last_root_hint(const Point<Real>& left, const Point<Real>& right, double precision = 1.0 / 64) {
@@ -178,8 +178,9 @@ bool proven_clear(const Point<Real>& start, const Real& curvature, const Real& l
   return least > 0 && least * start.slope > 8 * (bounds.value_error * bounds.second) * length;
 }
 
-/// Estimate of the first positive root of the second Taylor polynomial, counted from the start; `length` or
-/// more when there is none before. A hint, never a decision, and so in double for every scalar.
+/// Estimates the first positive root of the second Taylor polynomial, measured from the start; at least
+/// `length` if there is no root before. It is a hint and decides nothing, so it is computed in double for
+/// every scalar.
 template <class Real>
 double first_root_hint(const Point<Real>& start, const Real& second_derivative, const Real& length) {
   const double value = start.value > 0 ? static_cast<double>(start.value) : 0.0;

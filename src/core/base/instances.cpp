@@ -3,7 +3,7 @@
 #include "base/scalar_text.hpp"
 #include "base/wide_trigonometry.hpp"
 
-// binary128 where it is a class of Boost's.
+// Serialisation of float128 where it is a class of Boost.
 #if !defined(EDMILL_NATIVE_FLOAT128)
 namespace edmill {
 
@@ -12,7 +12,7 @@ namespace {
 constexpr int bias = 16383, fraction_bits = 112, largest = 0x7fff;
 constexpr std::uint64_t leading = std::uint64_t{1} << 48, fraction = leading - 1;  // of the upper word
 
-/// The lower word and the upper one, as a binary128 has them.
+/// Lower and upper word of the IEEE binary128 encoding.
 std::array<std::uint64_t, 2> words_of(const float128& value) {
   const std::uint64_t sign = signbit(value) ? std::uint64_t{1} << 63 : 0;
   const auto with_exponent = [&](int exponent) { return sign | static_cast<std::uint64_t>(exponent) << 48; };

@@ -1,4 +1,4 @@
-// Simulated time as whole drive periods and a remainder, so that a late instant is as sharp as an early one.
+// Simulated time as whole drive periods and a remainder, so that late instants are as precise as early ones.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@ struct Instant {
   void archive(Archive& a) { a(period, offset); }
 
   friend bool operator<(const Instant& a, const Instant& b) {
-    if constexpr (std::is_same_v<Real, double>)  // which of two events is first is a coin toss: no branch
+    if constexpr (std::is_same_v<Real, double>)  // no branch: the order of two events is unpredictable
       return (a.period < b.period) | ((a.period == b.period) & (a.offset < b.offset));
     else
       return a.period != b.period ? a.period < b.period : a.offset < b.offset;
@@ -34,7 +34,8 @@ struct Instant {
   static Instant long_ago() { return {-(std::int64_t{1} << 52), Real(0)}; }
 };
 
-/// Arithmetic of instants for one drive period [s]. A still vessel uses its period as a clock unit only.
+/// Arithmetic of instants for one drive period [s]. For a vessel at rest the period is only a unit of the
+/// clock.
 template <class Real>
 class DriveClock {
  public:

@@ -7,10 +7,11 @@
 
 namespace edmill {
 
-/// In the scope of one of these, computations of the thread that check it end once its flag is true.
+/// During the lifetime of this object, computations of the thread that call `check` end once its flag is
+/// true.
 class Interruption {
  public:
-  /// @param flag  null leaves that of the scope around it
+  /// @param flag  null keeps the flag of the enclosing scope
   explicit Interruption(const std::atomic<bool>* flag) : before_(current()) {
     if (flag) current() = flag;
   }

@@ -13,7 +13,7 @@ void* allocate_pages(std::size_t size) {
   void* start = std::aligned_alloc(large_page, whole);
   if (start == nullptr) throw std::bad_alloc();
 #if defined(__linux__)
-  madvise(start, whole, MADV_HUGEPAGE);  // a wish: where it is not granted, small pages do
+  madvise(start, whole, MADV_HUGEPAGE);  // only a hint: without it small pages are used
 #endif
   return start;
 }

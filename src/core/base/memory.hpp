@@ -1,4 +1,4 @@
-// How memory is asked for where there is much of it.
+// Prefetching, and allocation of large arrays in large pages.
 #pragma once
 
 #include <cstddef>
@@ -8,21 +8,21 @@
 
 namespace edmill {
 
-/// Starts to bring the cache line at `address`, which may be any.
+/// Prefetches the cache line at `address`, which need not be valid.
 inline void fetch(const void* address) {
   __builtin_prefetch(address);
-  // Else a function that only fetches passes for one without effects, and compilers drop its calls.
+  // Otherwise compilers take a function that only prefetches for one without side effects and drop its calls.
   asm volatile("");
 }
 
 inline constexpr std::size_t large_page = std::size_t{1} << 21;  ///< [bytes]
 
-/// @return at least `size` bytes, from the start of a large page on, to be freed by std::free
+/// @return at least `size` bytes, aligned to a large page, to be freed by std::free
 /// @throws std::bad_alloc
 void* allocate_pages(std::size_t size);
 
-/// Large arrays in large pages, where the system has them: an event among many balls touches dozens of small
-/// pages, each of which would have to be found.
+/// An allocator that puts large arrays into large pages, where the system has them: an event among many balls
+/// accesses dozens of small pages, each of which needs an address translation.
 template <class T>
 struct LargePages {
   using value_type = T;

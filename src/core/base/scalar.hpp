@@ -1,4 +1,4 @@
-// What the core asks of a scalar. The scalars themselves are listed in base/scalar_list.hpp.
+// What the core requires of a scalar type. The scalars themselves are listed in base/scalar_list.hpp.
 #pragma once
 
 #include <cmath>
@@ -9,16 +9,17 @@
 
 namespace edmill {
 
-/// Name of a scalar as the case file and the records spell it, "double" for example; of one whose digits
-/// are chosen at run time the part before them.
+/// Name of a scalar in case files and records, "double" for example. For a scalar whose digits are chosen at
+/// run time, the part of the name before the digits.
 template <class Real>
 struct ScalarName;
 
 /// Least and largest number of digits that can be chosen.
 inline constexpr unsigned fewest_digits = 20, most_digits = 1'000'000;
-/// Numbers of digits with a name: "mpfr50" for "mpfr:50".
+/// Numbers of digits that have a short name: "mpfr50" for "mpfr:50".
 inline constexpr unsigned named_digits[] = {50, 100, 200};
-/// 3000 for "mpfr:3000", 50 for "mpfr50"; 0 for other names, and numbers that cannot be chosen.
+/// The digits in the name of a scalar: 3000 for "mpfr:3000", 50 for "mpfr50"; 0 for other names and for
+/// numbers out of range.
 inline unsigned chosen_digits_of(std::string_view name) {
   for (const unsigned digits : named_digits)
     if (name == "mpfr" + std::to_string(digits)) return digits;
@@ -50,7 +51,7 @@ struct WiderScalar : std::type_identity<void> {};
 template <class Real>
 using Wider = typename WiderScalar<Real>::type;
 
-/// Decimal text in as many digits as round-trip.
+/// Decimal text with enough digits to round-trip.
 template <class Real>
 std::string to_text(const Real& value);
 
@@ -59,13 +60,14 @@ std::string to_text(const Real& value);
 template <class Real>
 Real from_text(const std::string& text);
 
-/// |x|, without the functions of libraries.
+/// |x|, without a library function.
 template <class Real>
 Real magnitude(const Real& x) {
   return x < 0 ? Real(-x) : x;
 }
 
-/// Far above the rounding of a few operations in any scalar, far below what bounds leave to spare: 2^-20.
+/// A safety margin of 2^-20: far above the rounding of a few operations in any scalar, far below the slack of
+/// bounds.
 template <class Real>
 Real rounding_margin() {
   return Real(1) / 1048576;
@@ -83,20 +85,20 @@ constexpr int binary_digits() {
   return std::numeric_limits<Real>::digits;
 }
 
-/// For numbers that are hints or bounds and need few digits, but the range of the scalar's small numbers.
-/// Where digits are chosen at run time, see also `double_hints`.
+/// A type for hints and bounds, which need few digits but the range of the scalar towards small numbers. For
+/// scalars whose digits are chosen at run time, see also `double_hints`.
 template <class Real>
 struct HintOf : std::type_identity<double> {};
 template <class Real>
 using Hint = typename HintOf<Real>::type;
-/// Whether a double has the range of such numbers.
+/// True if the range of double suffices for such numbers.
 template <class Real>
 constexpr bool double_hints() {
   return true;
 }
 
-/// The digits of a scalar whose digits are chosen at run time, as the thread has them when this is made;
-/// `use` chooses them again for a scope. Nothing for other scalars.
+/// Stores the digits that the thread has chosen when this is constructed, for a scalar whose digits are
+/// chosen at run time; `use` chooses them again for a scope. Empty for other scalars.
 template <class Real>
 struct ChosenDigits {
   struct Scope {
@@ -105,8 +107,8 @@ struct ChosenDigits {
   Scope use() const { return {}; }
 };
 
-/// In its scope nothing of a number is lost in sums with narrower ones, though the thread may have chosen
-/// fewer digits since it was made.
+/// Returns a scope in which sums of this number with narrower ones lose no digits, even if the thread has
+/// chosen fewer digits since the number was computed.
 template <class Real>
 typename ChosenDigits<Real>::Scope with_all_digits_of(const Real&) {
   return {};

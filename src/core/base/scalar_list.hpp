@@ -1,4 +1,4 @@
-// The scalars of the core, in one place. Heavy: include it only where wide scalars are named.
+// All scalars of the core. Slow to compile: include it only where wide scalars are named.
 #pragma once
 
 #include <boost/math/tools/precision.hpp>
@@ -19,7 +19,7 @@ template <>
 struct ScalarName<float128> {
   static constexpr std::string_view value = "float128";
 };
-/// A fixed number of decimal digits: for the top of the decision ladder and for conversions.
+/// A scalar with a fixed number of decimal digits, for the top of the decision ladder and for conversions.
 template <unsigned digits>
 using mpfr_of = boost::multiprecision::number<
 #if defined(EDMILL_WITHOUT_MPFR)
@@ -28,7 +28,7 @@ using mpfr_of = boost::multiprecision::number<
     boost::multiprecision::mpfr_float_backend<digits, boost::multiprecision::allocate_stack>,
 #endif
     boost::multiprecision::et_off>;
-/// Decides what narrower scalars cannot.
+/// The widest scalar of the decision ladder.
 using mpfr50 = mpfr_of<50>;
 template <>
 struct ScalarName<mpfr50> {
@@ -36,7 +36,7 @@ struct ScalarName<mpfr50> {
 };
 
 #if defined(EDMILL_NATIVE_FLOAT128)
-/// As IEEE's binary128.
+/// Saves or loads the IEEE binary128 encoding.
 inline void archive_value(Archive& a, float128& value) {
   a.raw(&value.backend().value(), sizeof value.backend().value());  // x86-64 has the order of files
 }
@@ -44,7 +44,7 @@ inline void archive_value(Archive& a, float128& value) {
 void archive_value(Archive& a, float128& value);
 #endif
 #if !defined(EDMILL_WITHOUT_MPFR)
-/// All limbs, so that no bit depends on a conversion.
+/// Saves or loads precision, sign, exponent and all limbs, so that no bit depends on a conversion.
 inline void archive_value(Archive& a, mpfr& value) {
   std::int64_t bits = mpfr_get_prec(value.data());
   a(bits);

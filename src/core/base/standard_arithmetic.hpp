@@ -1,12 +1,13 @@
-// The arithmetic that bounds and bits rest on, whatever the host has chosen.
+// The floating-point environment that bounds and reproducible bits rely on, whatever the host program uses.
 #pragma once
 
 #include <cfenv>
 
 namespace edmill {
 
-/// Until the end of the scope numbers are rounded to nearest, with subnormal ones and without traps; then the
-/// thread has its own floating-point environment again. Threads that are started in the scope inherit it.
+/// Sets the default floating-point environment until the end of the scope: rounding to nearest, subnormal
+/// numbers, no traps. Then the thread gets its previous environment back. Threads that are started in the
+/// scope inherit it.
 class StandardArithmetic {
  public:
   StandardArithmetic() {

@@ -22,7 +22,7 @@ std::vector<double> deviations_of(std::vector<double> values) {
   return values;
 }
 
-/// Root mean square from a place on, without squares of small numbers.
+/// Root mean square of the values from index `first` on; scaled, so that no small number is squared.
 double size_of(const std::vector<double>& values, std::size_t first = 0) {
   double largest = 0, sum = 0;
   for (std::size_t k = first; k < values.size(); ++k) largest = std::max(largest, std::abs(values[k]));
@@ -36,13 +36,13 @@ double error_of_mean(const std::vector<double>& values) {
   return size_of(deviations_of(values)) / std::sqrt(static_cast<double>(values.size()) - 1);
 }
 
-/// The value that a |t| of `freedom` degrees exceeds with probability `significance`.
+/// Two-sided critical value of Student's t with `freedom` degrees of freedom.
 double student_limit(double freedom, double significance) {
   const Student distribution(freedom);
   return boost::math::quantile(boost::math::complement(distribution, significance / 2));
 }
 
-/// Whether one standard deviation exceeds another one by more than chance (F test).
+/// True if one standard deviation is significantly larger than another one (F test).
 bool exceeds(double one, double freedom, double other, double freedom_of_other, double significance) {
   if (!(one > other)) return false;
   if (!(other > 0)) return true;
@@ -74,7 +74,7 @@ Median median_of(std::vector<double> values, double alike) {
 }
 
 Median median_at_zero(const std::vector<double>& x, std::vector<double> y, double alike) {
-  constexpr std::size_t most = 400;  // of pairs there are many
+  constexpr std::size_t most = 400;  // points: the number of pairs grows with its square
   std::vector<double> slopes;
   for (std::size_t i = 0; i < std::min(most, x.size()); ++i)
     for (std::size_t j = 0; j < i; ++j)
@@ -86,7 +86,7 @@ Median median_at_zero(const std::vector<double>& x, std::vector<double> y, doubl
     spread += (x[k] - centre) * (x[k] - centre);
   }
   auto median = median_of(std::move(y), alike);
-  // The slope is known to what the scatter of y leaves of it.
+  // The uncertainty of the slope, which follows from the scatter of y, widens the interval.
   const double wider =
       median.half_width() * centre * std::sqrt(static_cast<double>(x.size()) / std::max(spread, 1e-300));
   median.low -= wider;
@@ -122,8 +122,9 @@ Estimate estimate(const std::vector<double>& values) {
 
 namespace {
 
-/// Cosine transforms of a series, of 1/2, 1, 3/2 ... cycles, each of the variance of a value where these are
-/// independent. Twelve contain correlation over a twentieth of the series; fewer of a short one.
+/// Cosine transforms of a series at 1/2, 1, 3/2 ... cycles, each with the variance of a single value if the
+/// values are independent. Twelve of them account for correlation over a twentieth of the series; a short
+/// series gets fewer.
 std::vector<double> cosines_of(const std::vector<double>& values) {
   const auto deviations = deviations_of(values);
   const double n = static_cast<double>(values.size());
@@ -167,10 +168,10 @@ bool drifts(const std::vector<double>& values) {
 namespace {
 
 constexpr double of_own_interval = 12;  ///< degrees of freedom
-/// Standard error of a mean whose interval a series gives.
+/// Standard error of a mean, from the half-width of its interval by `series_estimate`.
 double error_of(double half_width) { return half_width / student_limit(of_own_interval, 0.05); }
 
-/// Of runs of one steady state.
+/// Mean and interval of runs that share one steady state.
 Estimate pooled_estimate(const std::vector<double>& means, const std::vector<double>& errors) {
   const double n = static_cast<double>(means.size()), between = means.size() > 1 ? error_of_mean(means) : 0,
                within = size_of(errors) / std::sqrt(n), own = of_own_interval * n, others = n - 1,
@@ -263,7 +264,7 @@ bool stands_apart(double value, const std::vector<double>& sample, double signif
 }
 
 namespace {
-constexpr int least_octave = -100, bins_per_octave = 32;  // below 1e-30 J: as nothing
+constexpr int least_octave = -100, bins_per_octave = 32;  // values below about 1e-30 J share the first bin
 }  // namespace
 
 void WeightedQuantiles::add(double value, double weight) {

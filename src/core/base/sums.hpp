@@ -1,4 +1,4 @@
-// Sums over a run: without the loss of small terms, and batch by batch for the interval of a mean.
+// Compensated sums, and totals of batches for the interval of a mean.
 #pragma once
 
 #include <cstdint>
@@ -26,9 +26,9 @@ class CompensatedSum {
   Real sum_{0}, lost_{0};
 };
 
-/// Totals at the ends of batches of whole drive periods, so that each has all phases of the drive. When there
-/// are too many they are joined in pairs: a run of any length has 64 to 127 whole ones after its first 64
-/// periods.
+/// Totals at the ends of batches. A batch consists of whole drive periods, so that it covers all phases of
+/// the drive. If there are too many batches they are merged in pairs: after its first 64 periods, a run of
+/// any length has 64 to 127 complete batches.
 template <class Real>
 class Batches {
  public:
@@ -36,7 +36,7 @@ class Batches {
 
   void begin(const Instant<Real>& start) { start_ = start; }
 
-  /// Where the open batch ends.
+  /// End of the open batch.
   Instant<Real> next() const {
     return {start_.period + periods_ * static_cast<std::int64_t>(totals_.size() + 1), start_.offset};
   }
@@ -49,22 +49,23 @@ class Batches {
     periods_ *= 2;
   }
 
-  /// Where the open drive period ends.
+  /// End of the open drive period.
   Instant<Real> next_period() const { return {start_.period + elapsed_ + 1, start_.offset}; }
-  /// To be called with the totals before the first event at or after the end of a period.
+  /// Must be called with the current totals before the first event at or after the end of a period.
   void pass(const Instant<Real>& time, const std::vector<double>& totals) {
     elapsed_ = time.period - start_.period - (time.offset < start_.offset ? 1 : 0);
     latest_ = totals;
     while (!(time < next())) close(totals);
   }
-  /// Whole periods so far, and what they had of a quantity. @pre some have passed
+  /// Number of whole periods so far, and the total of a quantity over them. @pre at least one period has
+  /// passed
   std::int64_t elapsed() const { return elapsed_; }
   double total(std::size_t quantity) const { return latest_.at(quantity); }
 
   std::size_t count() const { return totals_.size(); }
-  /// Of each batch, in drive periods.
+  /// Length of a batch in drive periods.
   std::int64_t periods() const { return periods_; }
-  /// What each whole batch has of a quantity.
+  /// Amount of a quantity in each complete batch.
   std::vector<double> amounts(std::size_t quantity) const {
     std::vector<double> each;
     double before = 0;

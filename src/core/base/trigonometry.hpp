@@ -14,7 +14,7 @@ struct SinCos {
   Real cos;
 };
 
-/// What a scalar's library has: `pi()` and `sin_cos(angle)`. base/wide_trigonometry.hpp
+/// Customisation point of a scalar: `pi()` and `sin_cos(angle)`. base/wide_trigonometry.hpp
 template <class Real>
 struct Trigonometry;
 
@@ -36,9 +36,9 @@ SinCos<Real> sin_cos(const Real& angle) {
 
 namespace detail {
 
-// These are inlined whatever else grows: the search of the SPEX takes them for every pose.
+// Always inlined: the wall search of the SPEX evaluates these functions for every pose.
 
-/// Two doubles that are worked on at once.
+/// A SIMD vector of two doubles.
 typedef double TwoDoubles __attribute__((vector_size(16)));
 
 /// Taylor polynomials of sin and cos on [-pi/4, pi/4], side by side, in Estrin order: short dependency
@@ -57,7 +57,8 @@ typedef double TwoDoubles __attribute__((vector_size(16)));
   return {x + x * (square * sum[0]), 1.0 - (0.5 * square - z2[1] * sum[1])};
 }
 
-/// Turned by quarters of a turn, without branches: the phase of a drive is in any of them.
+/// Adds a number of quarter turns to the angle, without branches: the phase of a drive can be in any
+/// quadrant.
 [[gnu::always_inline]] inline SinCos<double> quarter_turned(const SinCos<double>& v, int quarters) {
   const double s = (quarters & 1) ? v.cos : v.sin;
   const double c = (quarters & 1) ? v.sin : v.cos;
@@ -95,17 +96,17 @@ template <>
   return detail::quarter_turned(detail::sin_cos_kernel(6.283185307179586 * rest), quarters);
 }
 
-// An angle that has grown a little, without sines, which are expensive in wide scalars.
+// Updates of sine and cosine for a small increment of the angle, since sines are expensive in wide scalars.
 
-/// Turns [rad] up to which what double rounds off the cubic term, d^3 2^-53 / 6, and the quintic term,
-/// d^5 / 120, are below the rounding of 1 in a scalar of so many binary digits.
+/// Largest increment [rad] for which the rounding of the cubic term in double, d^3 2^-53 / 6, and the quintic
+/// term, d^5 / 120, are below the rounding of 1 in a scalar with this many binary digits.
 constexpr double longest_turn(int digits) {
   if (digits <= 113) return 0x1p-24;
   double turn = 1;
   for (int k = 0; k < (digits - 53) / 3; ++k) turn /= 2;
   return turn;
 }
-/// Whether speed times dt, which is x in double, is such a turn.
+/// True if speed times dt, which is x in double, is such a small increment.
 template <class Real>
 bool is_short_turn(const Real& speed, const Real& dt, double x) {
   if constexpr (std::is_same_v<Hint<Real>, double>) {
@@ -113,14 +114,14 @@ bool is_short_turn(const Real& speed, const Real& dt, double x) {
     return x <= longest && x >= -longest;
   } else {
     if (double_hints<Real>()) return std::abs(x) <= longest_turn(binary_digits<Real>());
-    // Double may have no number so small: the cubic term itself is below the rounding.
+    // The increment may underflow in double: require that even the cubic term is below the rounding.
     const Real turn = speed * dt;
     return dt == 0 || exponent_of(turn) < -binary_digits<Real>() / 3 - 1;
   }
 }
 
-/// sin and cos of an angle that has grown by `more`. In the Taylor polynomials the last terms are far below
-/// the first ones and so left to double.
+/// Updates sin and cos of an angle that increases by `more`. The last terms of the Taylor polynomials are so
+/// small that they are computed in double.
 template <class Real>
 void turn(Real& sine, Real& cosine, const Real& more) {
   const double d = static_cast<double>(more);

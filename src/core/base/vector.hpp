@@ -34,15 +34,15 @@ inline Vec3<To> vector_cast(const Vec3<From>& a) {
   return {static_cast<To>(a[0]), static_cast<To>(a[1]), static_cast<To>(a[2])};
 }
 
-/// A right-handed frame: where its origin and its axes are, seen from outside.
+/// A right-handed frame, given by its origin and axes in the coordinates of an outer frame.
 template <class Real>
 struct Frame {
   Vec3<Real> origin;   ///< [m]
   Vec3<Real> x, y, z;  ///< unit
 
-  /// A point given in this frame, seen from outside.
+  /// Outer coordinates of a point of this frame.
   Vec3<Real> outside(const Vec3<Real>& p) const { return origin + (x * p[0] + y * p[1] + z * p[2]); }
-  /// A point given outside, seen in this frame.
+  /// Coordinates in this frame of a point of the outer frame.
   Vec3<Real> inside(const Vec3<Real>& p) const {
     const Vec3<Real> d = p - origin;
     return {dot<Real>(d, x), dot<Real>(d, y), dot<Real>(d, z)};
@@ -51,7 +51,7 @@ struct Frame {
   void archive(auto& a) { a(origin, x, y, z); }
 };
 
-/// With the axes of the frame outside.
+/// A frame with the axes of the outer frame.
 template <class Real>
 Frame<Real> frame_at(const Vec3<Real>& origin) {
   return {origin, Vec3<Real>::UnitX(), Vec3<Real>::UnitY(), Vec3<Real>::UnitZ()};

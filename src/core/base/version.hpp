@@ -1,4 +1,4 @@
-// What this build is.
+// Version, commit, compiler and optional parts of this build.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@ namespace edmill {
 std::string version();   ///< "0.1.0"
 std::string commit();    ///< short commit, "-dirty" when files were changed, "unknown" outside a checkout
 std::string compiler();  ///< "GNU 12.2.0, Release"
-/// What was found of that edmill can do without: "MPI"
+/// Optional dependencies that were found for this build: "MPI"
 std::string optional_parts();
 
 }  // namespace edmill

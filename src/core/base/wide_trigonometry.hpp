@@ -12,8 +12,8 @@ namespace edmill::numerics {
 
 namespace detail {
 
-/// Sine and cosine by additions and multiplications alone. The angle is a multiple of pi/32, of which a table
-/// has sine and cosine, and a rest, for which Taylor's polynomials are short.
+/// Sine and cosine by additions and multiplications alone. The angle is split into a multiple of pi/32, whose
+/// sine and cosine are tabulated, and a remainder with short Taylor polynomials.
 template <class Real, int rest_degree, int table_degree>
 class SinCosTables {
  public:
@@ -56,7 +56,7 @@ class SinCosTables {
 
 }  // namespace detail
 
-/// Every binary128 rounds it alike.
+/// Uses only operations that every implementation of binary128 rounds in the same way.
 template <>
 struct Trigonometry<float128> {
   static float128 pi() {
@@ -77,7 +77,7 @@ struct Trigonometry<float128> {
   static float128 bits(std::uint64_t word, double unit) { return float128(word) * float128(unit); }
 };
 
-/// The same values with MPFR and without it, in about MPFR's time.
+/// Gives the same values with and without MPFR, in about MPFR's time.
 template <>
 struct Trigonometry<mpfr50> {
   static const mpfr50& pi() { return boost::math::constants::pi<mpfr50>(); }

@@ -1,4 +1,4 @@
-// Escalation: what one scalar cannot decide, the next wider one does, for the state as stored.
+// Escalation: a decision that one scalar cannot make is left to the next wider one, for the state as stored.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace edmill::dynamics {
 
-/// A predicted contact with what it was predicted from, so that a wider scalar can time it anew.
+/// A predicted contact with the flights it was predicted from, so that a wider scalar can recompute its time.
 template <class Real>
 struct Contact {
   bool with_wall;
@@ -21,19 +21,20 @@ struct Contact {
   int wall = -1;
 };
 
-/// The searches of one mill in one scalar, with the rung above them.
+/// The searches of one mill in one scalar, and the next rung of the ladder.
 template <class Real>
 class DecisionLadder {
  public:
   /// @param smallest_sum  least sum of two radii in the case [m]
-  /// @param top_speed     no ball is faster [m/s]; `raise_top_speed` mends it
+  /// @param top_speed     no ball is faster [m/s]; `raise_top_speed` increases it
   DecisionLadder(const model::Mill<Real>& mill, const Real& smallest_sum, const Real& top_speed);
   ~DecisionLadder();
   DecisionLadder(DecisionLadder&&) noexcept;
 
-  /// Certified answer for a wall query; `pose` is the vessel's at its begin, where the caller knows it.
-  /// @throws UndecidedError for a fault of the search: the widest scalar decides all; its text reproduces the
-  /// state
+  /// Certified answer to a wall query; `pose` is the vessel's pose at the begin of the window, if the caller
+  /// has it.
+  /// @throws UndecidedError only for a defect of the search, since the widest scalar decides every query; the
+  /// message contains the state that reproduces it
   WallAnswer<Real> wall(const model::AnyPose<Real>& pose, const WallQuery<Real>& query) {
     const auto answer = walls_.search(pose, query);
     return is_settled(answer) ? answer : wall_above(query);
@@ -55,12 +56,12 @@ class DecisionLadder {
     return is_settled(answer) ? answer : pair_above(i, j, now, radius_sum);
   }
 
-  /// Which of two contacts that share a ball comes first: negative `a`, positive `b`, zero when they come at
-  /// one time, or no rung of the ladder separates them.
+  /// Orders two contacts that share a ball: negative if `a` comes first, positive if `b` does, zero if they
+  /// are simultaneous or no rung of the ladder separates them.
   int order(const Contact<Real>& a, const Contact<Real>& b);
 
-  /// Contacts closer in time than this [s] are handed to `order`. Far more than rounding puts between most;
-  /// a contact whose time is not sharper than a quarter of it is timed by the next rung.
+  /// Contacts closer in time than this [s] are ordered by `order`. It is far above the rounding error of most
+  /// contact times; a time whose error exceeds a quarter of it is recomputed by the next rung.
   const Real& tie_window() const { return pairs_.tie_window(); }
 
   void raise_top_speed(const Real& speed);
@@ -69,24 +70,24 @@ class DecisionLadder {
   AnyWallSearch<Real>& walls() { return walls_; }
   const PairSearch<Real>& pairs() const { return pairs_; }
 
-  /// One entry for each wider scalar, narrowest first, and one for what a rule decides.
+  /// Decisions passed to each wider scalar, narrowest first, and last those made by a rule.
   std::vector<model::Escalations> escalations() const;
 
-  /// What it has counted. The rest follows from the mill and the top speed, which is the owner's.
+  /// Saves or loads the counters. All else follows from the mill and the top speed, which the owner stores.
   void archive(Archive& a);
 
  private:
   template <class Answer>
   bool is_settled(const Answer& answer) const {
     if (answer.verdict == Verdict::undecided) return false;
-    // The top has nothing above that knows a time better.
+    // The top rung accepts any time error, since no wider scalar can reduce it.
     return std::is_void_v<Wider<Real>> || answer.verdict == Verdict::none ||
            4 * answer.time_error <= tie_window();
   }
   WallAnswer<Real> wall_above(const WallQuery<Real>& query);
   PairAnswer<Real> pair_above(const Flight<Real>& i, const Flight<Real>& j, const Instant<Real>& now,
                               const Real& radius_sum);
-  /// What rounding a wider time to this scalar does to it at most [s].
+  /// Bound on the error of rounding a time from a wider scalar to this one [s].
   Real rounding() const { return 4 * epsilon<Real>() * pairs_.clock().period(); }
   struct Timed {
     Instant<Real> time;

@@ -85,7 +85,7 @@ WallAnswer<Real> DecisionLadder<Real>::wall_above(const WallQuery<Real>& query) 
     const auto begin = instant_cast<Wide>(query.begin);
     WallQuery<Wide> rest{flight_cast<Wide>(query.flight), Wide(query.radius), begin, length};
     auto wide = ladder.wall(rest);
-    // A border between regions may be closer to the begin than this scalar's clock can tell.
+    // A border between regions may be closer to the begin of the window than this scalar's clock resolves.
     const Wide least(64 * epsilon<Real>() * pairs_.clock().period());
     Wide proven = wide.searched;
     while (wide.verdict == Verdict::none && proven < least && proven < length) {
@@ -98,7 +98,7 @@ WallAnswer<Real> DecisionLadder<Real>::wall_above(const WallQuery<Real>& query) 
     if (wide.verdict == Verdict::contact && time < query.begin) time = query.begin;
     Real searched = static_cast<Real>(proven);
     if (Wide(searched) > proven) searched -= searched * epsilon<Real>();
-    // What is certainly at the begin of the window is at the same instant in both scalars.
+    // A contact that is certain at the begin of the window has the same time in both scalars.
     const bool at_once = wide.time_error == 0 && time == query.begin;
     return {.verdict = wide.verdict,
             .wall = wide.wall,
@@ -138,7 +138,7 @@ auto DecisionLadder<Real>::time_of(const Contact<Real>& contact) -> Timed {
     if (answer.verdict == Verdict::contact) return {clock.after(now, answer.delay), answer.time_error};
     return {contact.time, tie_window()};
   }
-  // A window that ends just after the predicted time holds the contact.
+  // A window that ends just after the predicted time contains the contact.
   const Real length = walls_.longest_window() / 64;
   auto begin = clock.after(contact.time, -length);
   if (begin < contact.flight.start) begin = contact.flight.start;
@@ -176,7 +176,8 @@ int DecisionLadder<Real>::order(const Contact<Real>& a, const Contact<Real>& b) 
   }
 }
 
-/// Zero also where a gap is no polynomial, so that no exact time is known.
+/// Orders contacts by exact arithmetic; the result is also zero if a gap is not a polynomial, so that no
+/// exact time is known.
 template <class Real>
 int DecisionLadder<Real>::order_by_exact_times(const Contact<Real>& a, const Contact<Real>& b) {
   const Real& period = pairs_.clock().period();
@@ -202,7 +203,7 @@ std::vector<model::Escalations> DecisionLadder<Real>::escalations() const {
       const auto more = above_->ladder.escalations();
       rows.insert(rows.end(), more.begin(), more.end());
     } else {
-      // Rungs that were never needed still stand in the report.
+      // Rungs that were never needed are reported, too.
       using Wide = Wider<Real>;
       if constexpr (!std::is_void_v<Wider<Wide>>) rows.push_back({scalar_name<Wider<Wide>>()});
       rows.push_back({"rule"});

@@ -11,7 +11,7 @@
 
 namespace edmill::dynamics {
 
-/// A gap, or a function with its sign: value + rate t + bend t^2, t from some instant on.
+/// A gap, or a function with the same sign, as value + rate t + bend t^2, where t starts at some instant.
 struct ExactGap {
   Dyadic value, rate, bend;
 };
@@ -37,7 +37,7 @@ struct ExactTime {
       below = below - below * step;
     return below;
   }
-  /// Sign of this time less the other one, which counts from `later` after the origin of this one.
+  /// Sign of this time minus `other`, whose origin is `later` after that of this time.
   int compare(const ExactTime& other, const Dyadic& later = {}) const {
     const Dyadic rational = p * other.q - other.p * q - later * q * other.q;
     return sign_of_sum(rational, s, square * other.q * other.q, -other.s, other.square * q * q);
@@ -70,7 +70,7 @@ Dyadic exact_elapsed(const Instant<Real>& from, const Instant<Real>& to, const R
          Dyadic::of(from.offset);
 }
 
-/// The squared distance of two balls less that of their contact, from `now` on [m^2].
+/// Squared distance of two balls minus its value at contact, from `now` on [m^2].
 template <class Real>
 ExactGap exact_gap(const Flight<Real>& i, const Flight<Real>& j, const Instant<Real>& now,
                    const Real& radius_sum, const Vec3<Real>& gravity, const Real& period) {
@@ -95,7 +95,7 @@ template <class Real>
 model::Joints<Real> joints_of(const model::ChainMotion<Real>& chain) {
   return chain.joints();
 }
-/// It is asked only whether angles swing: their unit does not matter.
+/// The joints are used only to test whether angles vary, so the unit of angles does not matter.
 template <class Real>
 model::Joints<Real> joints_of(const model::SpexMotion<Real>& spex) {
   return model::spex_joints<Real>(spex.arm(), spex.theta_max(), spex.gamma_max(), spex.period());
@@ -106,11 +106,11 @@ model::Joints<Real> joints_of(const model::AnyMotion<Real>& motion) {
   return motion.visit([](const auto& m) { return joints_of(m); });
 }
 
-/// A wall by the coordinates of which its gap is made.
+/// The shape of a wall, by the vessel coordinates that its gap depends on.
 template <class Real>
 struct Shape {
   enum Kind { other, plane, round } kind = other;
-  /// The normal inwards; one where the wall is round about the others.
+  /// For a plane its inward normal; for a round wall, one for each coordinate in the square of its radius.
   Vec3<Real> axes{Real(0), Real(0), Real(0)};
   Real distance{0};  ///< of the wall from the centre [m]
 };
@@ -134,14 +134,15 @@ Shape<Real> shape_of(const V& vessel, int wall) {
   }
 }
 
-/// A coordinate in the vessel that is one of the ground's, but for its sign and a constant: of it the ball's
-/// motion is that in free flight.
+/// A vessel coordinate that equals an inertial coordinate up to its sign and a constant, so that a ball in
+/// flight has a constant acceleration along it.
 struct StillCoordinate {
   int axis, sign;
   Dyadic offset;  ///< coordinate in the vessel = sign * coordinate in the ground - offset [m]
 };
 
-/// @param axis  of the vessel. Follows its direction from joint to joint down to the ground.
+/// Expresses a vessel coordinate in inertial ones, by following its axis from joint to joint to the ground;
+/// empty if a joint moves it. @param axis  of the vessel
 template <class Real>
 std::optional<StillCoordinate> still_coordinate(const model::Joints<Real>& joints, int axis) {
   StillCoordinate seen{axis, 1, {}};
@@ -155,7 +156,7 @@ std::optional<StillCoordinate> still_coordinate(const model::Joints<Real>& joint
       seen.offset = seen.sign > 0 ? seen.offset + shift : seen.offset - shift;
       continue;
     }
-    int about = -1;  // the axis of the turn; 3 where that is none of the three
+    int about = -1;  // the axis of rotation; 3 if it is not along x, y or z
     for (int k = 0; k < 3; ++k)
       if (along(k) != 0) about = about < 0 ? k : 3;
     if (about < 0 || about == seen.axis) continue;  // turns about the direction itself
@@ -171,7 +172,7 @@ std::optional<StillCoordinate> still_coordinate(const model::Joints<Real>& joint
   return seen;
 }
 
-/// One function for all mills of a scalar.
+/// The gap as a polynomial; one instance serves all motions and vessels of a scalar.
 template <class Real>
 std::optional<ExactGap> exact_gap(const model::Joints<Real>& joints, const Shape<Real>& shape,
                                   const Vec3<Real>& gravity, const WallQuery<Real>& query) {
@@ -198,7 +199,7 @@ std::optional<ExactGap> exact_gap(const model::Joints<Real>& joints, const Shape
 
 }  // namespace detail
 
-/// The gap to a wall from the begin of the window on [m]; nothing where it is no such polynomial.
+/// The gap to a wall from the begin of the window on [m]; empty if it is not such a polynomial.
 template <model::Motion M, model::Vessel V, class Real = typename M::Scalar>
 std::optional<ExactGap> exact_gap(const M& motion, const V& vessel, const Vec3<Real>& gravity,
                                   const WallQuery<Real>& query, int wall) {

@@ -1,5 +1,5 @@
-// Free flight of a ball between impacts (2.1), what is asked of a search for its first contact with a wall,
-// and what that answers.
+// Free flight of a ball between impacts (2.1), and queries and answers of the search for its first contact
+// with a wall.
 #pragma once
 
 #include <optional>
@@ -74,12 +74,14 @@ struct NoPose {
   void archive(Archive&) {}
 };
 
-/// The vessel's pose at a contact goes with the contact in wide scalars, where sines are expensive.
+/// Pose of the vessel at a contact. Wide scalars store it with the contact, because sines are expensive
+/// there.
 template <class Real>
 using ContactPose =
     std::conditional_t<std::is_same_v<Real, double>, NoPose, std::optional<model::AnyPose<Real>>>;
 
-/// The answer of a search over (begin, begin + length]; `none` may hold for a shorter window than was asked.
+/// The answer of a search over (begin, begin + length]; `none` may be proven for a shorter window than
+/// requested.
 template <class Real>
 struct WallAnswer {
   Verdict verdict = Verdict::none;
@@ -87,8 +89,8 @@ struct WallAnswer {
   Instant<Real> time{};  ///< of a contact: the non-penetrating end of the bracket
   bool by_rule = false;  ///< no precision decides it: two walls at one time, of which the lower id was taken,
                          ///< or a gap that cannot be distinguished from zero
-  Real searched{0};      ///< of none: proven from begin for this long [s]
-  Real time_error{0};    ///< of a contact: how far off rounding may put its time [s]
+  Real searched{0};      ///< if none: length of the proven window from begin [s]
+  Real time_error{0};    ///< of a contact: bound on the rounding error of its time [s]
   [[no_unique_address]] ContactPose<Real> pose{};  ///< of a contact, where the search knows it
 
   static WallAnswer none(const Real& searched) { return {Verdict::none, -1, {}, false, searched}; }
@@ -97,7 +99,7 @@ struct WallAnswer {
   }
 };
 
-/// One search: a ball's flight and the window that is asked about.
+/// A query of a wall search: a ball's flight and the window to be searched.
 template <class Real>
 struct WallQuery {
   Flight<Real> flight;
@@ -106,18 +108,18 @@ struct WallQuery {
   Real length;          ///< [s], at most WallSearch::longest_window()
 };
 
-/// What a search in double proves for a wider flight and mill that were rounded to double. Times are offsets
-/// [s] of the drive period in which the window begins.
+/// What a search in double proves about a wider flight and mill after rounding them to double. Times are
+/// offsets [s] in the drive period in which the window begins.
 struct RoughAnswer {
   Verdict verdict = Verdict::undecided;
   double until = 0;            ///< of none: no contact up to here
-  int wall = -1;               ///< of a contact: nothing is touched before `left`, and
-  double left = 0, right = 0;  ///< the wall's gap falls all the way from `left` to `right`, through zero
-  double root = 0;             ///< about where
+  int wall = -1;               ///< of a contact; no wall is touched before `left`
+  double left = 0, right = 0;  ///< its gap decreases throughout [left, right], through zero
+  double root = 0;             ///< estimate of the root
   double curvature = 0;        ///< second derivative of the gap there
   double curvature_error = 0;  ///< bound on its error
   double third = 0;            ///< bound on the third derivative
-  double error = 0;            ///< bound on the rounding of the gap in double, that of the state left aside
+  double error = 0;            ///< bound on the rounding of the gap in double, without that of the state
 };
 
 }  // namespace edmill::dynamics

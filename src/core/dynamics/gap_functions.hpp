@@ -1,5 +1,5 @@
-// The gaps of a flying ball to the walls of the moving vessel, their rates, how well a scalar knows them, and
-// bounds on their derivatives, which are what makes an exclusion a proof.
+// Gaps of a ball in flight to the walls of the moving vessel, their rates, their rounding errors, and bounds
+// on their derivatives, by which contacts are excluded with proof.
 // Equations: (2.17'), (2.19'), (2.21'), (2.22') of docs/theory.md; bounds: section 3.
 #pragma once
 
@@ -20,7 +20,7 @@ namespace edmill::dynamics {
 template <class V>
 using WallSet = typename V::template PerWall<bool>;
 
-/// Whether any wall from this id on is in the set.
+/// True if the set contains a wall with this id or a higher one.
 template <class Set>
 bool any_from(const Set& set, std::size_t wall) {
   bool any = false;
@@ -64,7 +64,7 @@ struct GapErrors {
   }
 };
 
-/// A vessel on its motion, with what all flights in it share.
+/// A vessel with its motion, and constants that all flights in it share.
 template <model::Motion M, model::Vessel V>
 struct MovingVessel {
   using Real = typename M::Scalar;
@@ -118,22 +118,22 @@ class GapFunctions {
 
   Instant<Real> instant(const Real& offset) const { return {period_, offset}; }
   Pose pose(const Real& offset) const { return mill_.motion.pose(instant(offset)); }
-  /// The pose within a moment of an offset at which it is known.
+  /// The pose at `offset`, from the pose at a nearby offset `known`.
   Pose pose_nearby(const Real& offset, const Pose& pose, const Real& known) const {
     return mill_.motion.pose_nearby(instant(offset), pose, instant(known));
   }
 
-  /// What the vessel leaves to the ball's centre.
+  /// The region that the ball's centre can reach.
   const V& room() const { return room_; }
 
   Sample operator()(const Real& offset) const { return (*this)(offset, pose(offset)); }
 
-  /// The gaps and their rates where the vessel is known to stand at `pose`.
+  /// The gaps and their rates at `offset`, where the vessel has this pose.
   Sample operator()(const Real& offset, const Pose& pose) const {
     return sample(offset, seen(offset, pose).state);
   }
 
-  /// The gap to one wall, within a moment of an offset where the pose is known.
+  /// The gap to one wall at `offset`, from the pose at a nearby offset `known`.
   Real gap_nearby(int wall, const Real& offset, const Pose& pose, const Real& known) const {
     const auto position = position_after(flight_, mill_.gravity, elapsed(offset));
     const Real own =
@@ -143,7 +143,7 @@ class GapFunctions {
     return own;
   }
 
-  /// The ball at `offset`, where the vessel stands at `pose`.
+  /// The ball at `offset`, where the vessel has this pose.
   SeenBall<Real> seen(const Real& offset, const Pose& pose) const {
     const Real dt = elapsed(offset);
     const auto velocity = velocity_after(flight_, mill_.gravity, dt);
@@ -151,7 +151,7 @@ class GapFunctions {
             mill_.motion.to_vessel_frame(pose, position_after(flight_, mill_.gravity, dt), velocity)};
   }
 
-  /// The start of a search at `offset`, where the vessel stands at `pose` and the ball is seen as `ball`.
+  /// The start of a search at `offset`, from the pose of the vessel and the state of the ball in it.
   Start start(const Real& offset, const Pose& pose, const SeenBall<Real>& ball) const {
     const auto second =
         mill_.motion.vessel_frame_acceleration(pose, ball.state, ball.velocity, mill_.gravity);
@@ -169,7 +169,7 @@ class GapFunctions {
     return start(offset, at, seen(offset, at));
   }
 
-  /// The sample that a state in the vessel frame gives.
+  /// The sample for a state in the vessel frame.
   Sample sample(const Real& offset, const model::VesselFrameState<Real>& state) const {
     auto sample = plain_sample(offset, state);
     for_each_piston(offset, [&](int wall, const auto& moved) {
@@ -181,7 +181,7 @@ class GapFunctions {
 
   /// Rounding bounds for every sample up to `elapsed` [s] after the start of the flight with inertial speeds
   /// up to `speed` [m/s].
-  /// @param walls  those whose bounds are asked for; the others' may be anything
+  /// @param walls  those whose bounds are needed; the other bounds are unspecified
   Errors errors(const Real& elapsed, const Real& speed, const Walls& walls) const {
     const Real u = epsilon<Real>() / 2;
     const auto flight = bounds(elapsed, speed);
@@ -191,8 +191,8 @@ class GapFunctions {
     return errors(elapsed, speed, model::per_wall(mill_.vessel, true));
   }
 
-  /// What rounding a wider flight, radius and mill to this scalar adds to these bounds, at offsets that
-  /// are the same numbers in both.
+  /// Additional errors from rounding a wider flight, radius and mill to this scalar, at offsets that are the
+  /// same numbers in both.
   Errors state_errors(const Real& elapsed, const Real& speed) const {
     const Real u = epsilon<Real>() / 2;
     const auto flight = bounds(elapsed, speed);
@@ -200,7 +200,7 @@ class GapFunctions {
   }
 
  private:
-  /// With every wall at its place in the vessel.
+  /// The sample without the displacement of pistons.
   Sample plain_sample(const Real& offset, const model::VesselFrameState<Real>& state) const {
     return {offset, room_.gaps(state.position), room_.rates(state.position, state.velocity)};
   }
@@ -218,9 +218,9 @@ class GapFunctions {
     return flight;
   }
 
-  /// Bounds for walls from those on a coordinate in the vessel frame. A sample lies inside the vessel or as
-  /// far outside as a flight gets that is searched beyond its contact, which is for an eighth of a period at
-  /// most.
+  /// Converts bounds on a coordinate in the vessel frame to bounds for each wall. A sample is inside the
+  /// vessel, or outside by at most the distance that a flight covers when it is searched beyond its contact,
+  /// for an eighth of a period at most.
   Errors spread(const Real& u, const model::ErrorBounds<Real>& coordinate,
                 const model::FlightBounds<Real>& flight, const Walls& walls) const {
     const auto none = model::per_wall(mill_.vessel, Real(0));
@@ -309,7 +309,7 @@ class BoundsTable {
     int column = 0;  // counted without branches: windows are of any length
     for (int j = 1; j < lengths; ++j) column += length <= longest_ / (1 << j);
     auto& bounds = rows_[row * lengths + column];
-    // Wide scalars, which decide seldom, need few of them.
+    // Wide scalars decide seldom and compute rows on demand.
     if constexpr (!std::is_same_v<Real, double>)
       if (!bounds) bounds = made(row * lengths + column);
     return value_of(bounds);

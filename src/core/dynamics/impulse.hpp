@@ -1,4 +1,4 @@
-// What an impact does: new velocities and spins, milling dose, wall work.
+// Collision rules: velocities and spins after an impact, milling dose, wall work.
 // Equations: (2.23'), (2.28'), (2.30'), (2.34'), (2.35), (2.36'), (A.82) of docs/theory.md.
 #pragma once
 
@@ -18,7 +18,7 @@ struct ImpactOutcome {
   Real slip_speed{};              ///< |g_t| before the impact [m/s]
   Real restitution_tangential{};  ///< e_t
   bool least_separation{};        ///< the least separation speed, and not the restitution, decided g.n
-  bool in_stall{};                ///< friction rested
+  bool in_stall{};                ///< frictionless by the stall rule
   Real normal_impulse{};          ///< [N s]
   Real tangential_impulse{};      ///< [N s]
   Real milling_dose{};            ///< [J], (2.30') or (2.36'); never negative
@@ -66,7 +66,7 @@ ImpulseParts<Real> impulse_by(const Law& law, const Real& least_separation, cons
   const Real by_restitution = model::restitution_of(law, approach, bodies) * approach;
   const Real separation = by_restitution < least_separation ? least_separation : by_restitution;
   out.least_separation = separation > by_restitution && separation > normal_speed;
-  // Bodies that separate by rounding, and faster than they would leave, go on as they are.
+  // Bodies that already separate faster than the law requires, because of rounding, keep their velocities.
   out.separation_speed = separation > normal_speed ? separation : normal_speed;
   const Real change = out.separation_speed - normal_speed;
   out.in_stall = in_stall;
@@ -104,7 +104,7 @@ ImpulseParts<Real> impulse_parts(const Vec3<Real>& normal, const Vec3<Real>& con
 
 /// Impact of two balls. (2.28'), (2.30')
 /// @param normal    contact normal, unit, from ball j to ball i
-/// @param in_stall  friction rests (theory.md, section 6)
+/// @param in_stall  the impact is frictionless (theory.md, section 6)
 template <class Real>
 ImpactOutcome<Real> collide_balls(const Vec3<Real>& normal, const model::BallProperties<Real>& ball_i,
                                   const model::BallProperties<Real>& ball_j, Vec3<Real>& velocity_i,
@@ -129,7 +129,7 @@ ImpactOutcome<Real> collide_balls(const Vec3<Real>& normal, const model::BallPro
 /// Impact of a ball with a wall that moves with `wall_velocity` at the contact point. (2.34'), (2.35),
 /// (2.36')
 /// @param normal    contact normal, unit, from the wall to the ball
-/// @param in_stall  friction rests (theory.md, section 6)
+/// @param in_stall  the impact is frictionless (theory.md, section 6)
 template <class Real>
 ImpactOutcome<Real> collide_with_wall(const Vec3<Real>& normal, const model::BallProperties<Real>& ball,
                                       const Vec3<Real>& wall_velocity, Vec3<Real>& velocity, Vec3<Real>& spin,

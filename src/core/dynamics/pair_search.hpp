@@ -10,30 +10,31 @@ template <class Real>
 struct PairAnswer {
   Verdict verdict = Verdict::none;
   Real delay{0};       ///< of a contact: time from now [s], >= 0
-  Real time_error{0};  ///< of a contact: bound on what rounding does to the delay [s]
+  Real time_error{0};  ///< of a contact: bound on the rounding error of the delay [s]
 };
 
-/// Constants of the filter that proves, for nearly all pairs, that they never meet; they hold for a whole
-/// run.
+/// Constants of the filter that proves, for nearly all pairs, that they never meet. They are valid for a
+/// whole run.
 template <class Real>
 struct PairFilter {
   Vec3<Real> gravity;
   Real period;                               ///< of the drive [s]
   Real relative, slowest_squared, touching;  ///< see PairSearch::raise_top_speed
-  Real grazing;  ///< a discriminant must be larger by this for a sharp time [m^4/s^2]
+  Real grazing;  ///< a contact time is accurate if the discriminant is larger by this [m^4/s^2]
 
   bool may_meet(const Real& b, const Real& c, const Real& v2, const Real& r2) const {
     // No branch: whether two balls approach cannot be predicted by the processor.
     const Real error = relative * (v2 * r2);
     const bool moving = v2 > slowest_squared;
     const bool apart = (c > touching) & ((b >= 0) | (b * b - v2 * c < -error));
-    const bool separating = (b > 0) & (b * b > error);  // touching or not, as two that have just collided
+    const bool separating = (b > 0) & (b * b > error);  // even in contact, as just after a collision
     return !(moving & (apart | separating));
   }
 };
 
-/// Both balls fall alike, so their relative motion is a straight line and the time is closed:
-/// with r = r_i - r_j, v = v_i - v_j, b = r.v < 0, c = r.r - R^2:  dt = c / (-b + sqrt(b^2 - v.v c)). (3.1)
+/// First contact of two balls in flight. Both have the same acceleration, so their relative motion is uniform
+/// and the contact time has a closed form: with r = r_i - r_j, v = v_i - v_j, b = r.v < 0, c = r.r - R^2:  dt
+/// = c / (-b + sqrt(b^2 - v.v c)). (3.1)
 /// Balls that overlap by rounding collide at once if they approach and never if they separate.
 template <class Real>
 class PairSearch {
@@ -54,8 +55,8 @@ class PairSearch {
   }
 
   const Real& top_speed() const { return top_speed_; }
-  /// Two contacts farther apart in time [s] are in the order of their predicted times: a time is stored only
-  /// with an error below a quarter of it.
+  /// Two contacts that differ in time by more than this [s] occur in the order of their predicted times: a
+  /// time is stored only if its error is below a quarter of it.
   const Real& tie_window() const { return tie_window_; }
   const DriveClock<Real>& clock() const { return clock_; }
 
@@ -68,16 +69,16 @@ class PairSearch {
     filter_.slowest_squared = slowest * slowest;
     filter_.touching = 16 * position_error_ * smallest_sum_;
 
-    // Long enough for contacts at the least separation speed to be sharp, and so short that no two balls come
-    // from cells that are not adjacent to contact within it.
+    // Long enough to resolve contacts at the least separation speed, and so short that two balls of cells
+    // that are not adjacent cannot meet within it.
     using std::sqrt;
     tie_window_ = sqrt(epsilon<Real>()) * clock_.period();
     if (least_separation_ > 0 && 64 * position_error_ > tie_window_ * least_separation_)
       tie_window_ = 64 * position_error_ / least_separation_;
     const Real unseen = smallest_sum_ / (4096 * top_speed_);
     if (unseen < tie_window_) tie_window_ = unseen;
-    // `time_error` for any two balls in the vessel: a flight that bends by no more than twice the reach gains
-    // no more speed than this.
+    // An upper bound on `time_error` for any two balls in the vessel: a flight whose deflection is at most
+    // twice the reach gains at most this speed.
     const Real fall = 4 * sqrt(reach_ * gravity_size_);
     const Real displaced = position_error_ + u * (640 * reach_ + 12 * clock_.period() * fall);
     const Real least_root =
@@ -85,7 +86,7 @@ class PairSearch {
     filter_.grazing = least_root * least_root;
   }
 
-  /// A flight at one instant, for questions about many partners.
+  /// State of a ball at one instant, for queries with many partners.
   struct State {
     Vec3<Real> position;  ///< now [m]
     Vec3<Real> velocity;  ///< at the start of the flight [m/s]
@@ -97,8 +98,8 @@ class PairSearch {
     return {position_after(flight, gravity_, age), flight.velocity, age};
   }
 
-  /// The filter: false when the two are proven never to meet, as nearly all are, by bounds that hold for the
-  /// whole run. No branch but the last.
+  /// The filter, with bounds that are valid for the whole run: false if the two balls provably never meet, as
+  /// is the case for nearly all pairs. It contains no branch.
   bool may_meet(const State& i, const Flight<Real>& j, const Instant<Real>& now,
                 const Real& radius_sum) const {
     const Relative s = relative(i, j, now, radius_sum);
@@ -131,7 +132,7 @@ class PairSearch {
   };
   Relative relative(const State& i, const Flight<Real>& j, const Instant<Real>& now,
                     const Real& radius_sum) const {
-    // As DriveClock::elapsed, without its branch.
+    // Equals DriveClock::elapsed, without its branch.
     const Real age =
         static_cast<Real>(now.period - j.start.period) * clock_.period() + (now.offset - j.start.offset);
     const Vec3<Real> r = i.position - position_after(j, gravity_, age);
@@ -158,7 +159,7 @@ class PairSearch {
     return 4 * u * speed + (s.dt == 0 ? Real(0) : Real(12 * u * gravity_size_ * (age + clock_.period())));
   }
 
-  /// What rounding does to (r.r - R^2)/2 at the computed time, twice over: the path is displaced by
+  /// Twice a bound on the rounding error of (r.r - R^2)/2 at the computed time: the path is displaced by
   /// `displaced`, and the sums of (3.1) are rounded. theory.md, section 4
   /// @param b_delay  |r.v| times the delay
   static Real contact_error(const Real& r2, const Real& radius_sum, const Real& displaced,
@@ -175,12 +176,12 @@ class PairSearch {
            4 * epsilon<Real>() * (delay + clock_.period());
   }
 
-  /// Decides with bounds made for this pair: touching, grazing or slow ones.
+  /// Decides with bounds computed for this pair, if the balls touch, graze each other or move slowly.
   PairAnswer<Real> close(const Relative& s, const Real& age, const Real& radius_sum) const {
     using std::sqrt;
     const Real u = epsilon<Real>() / 2;
     const auto& [b, c, v2, r2, dt, age_of_j] = s;
-    if (v2 == 0 && (dt == 0 || gravity_size_ == 0)) return {};  // at rest to each other, exactly
+    if (v2 == 0 && (dt == 0 || gravity_size_ == 0)) return {};  // exactly at rest relative to each other
     const Real speed = sqrt(v2), distance = sqrt(r2);
     const Real dr = position_error(age), dv = velocity_error(s, speed, age);
     const Real c_error = 4 * distance * dr + 8 * u * (r2 + radius_sum * radius_sum);
@@ -197,7 +198,7 @@ class PairSearch {
     if (discriminant < -error) return {};
     if (discriminant > error && b < -b_error) {
       const Real root = sqrt(discriminant);
-      // Touching within rounding: the contact is now, or so much later.
+      // Touching within rounding: the contact is now or after this delay.
       const Real delay = c <= 0 ? Real(0) : Real(c / (root - b));
       return {Verdict::contact, delay, time_error(s, delay, root, radius_sum, age)};
     }

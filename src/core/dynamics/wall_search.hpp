@@ -19,7 +19,7 @@ namespace edmill::dynamics {
 template <class Real>
 class AnyWallSearch;  // which a search in a wide scalar needs
 
-/// What a wide scalar asks first, and double does not need.
+/// An empty RoughSearch for double, which has no narrower scalar.
 struct NoSearch {
   template <class... Args>
   explicit NoSearch(const Args&...) {}
@@ -27,9 +27,9 @@ struct NoSearch {
 template <class Real>
 using RoughSearch = std::conditional_t<std::is_same_v<Real, double>, NoSearch, AnyWallSearch<double>>;
 
-/// Decides for a flight as stored: the first time in the window at which a gap is zero or negative and
-/// falling. A ball that starts within rounding of a wall and leaves it is not in contact until it returns;
-/// one that starts overlapped by rounding and approaches is in contact at once. Equations: theory.md
+/// Finds the first time in the window at which a gap is zero or negative and decreasing, for the flight as
+/// stored. A ball that starts within rounding of a wall and leaves it is not in contact until it returns; one
+/// that overlaps by rounding at the start and approaches is in contact at once. Equations: theory.md
 /// (2.17')-(2.22'); source: Barahona 2011, (2.17)-(2.22), corrected.
 template <model::Motion M, model::Vessel V>
 class WallSearch {
@@ -46,7 +46,8 @@ class WallSearch {
 
   const Real& longest_window() const { return bounds_.longest_window(); }
 
-  /// In a wide scalar double decides what it can prove for the wide flight too; the rest is searched in full.
+  /// The answer to a query. In a wide scalar, double first decides what it can prove for the wide flight too;
+  /// all else is searched in the wide scalar.
   /// @pre the ball is inside the vessel at `begin`, up to rounding
   WallAnswer<Real> operator()(const WallQuery<Real>& query) const {
     if constexpr (is_wide) {
@@ -56,8 +57,8 @@ class WallSearch {
     return search(query);
   }
 
-  /// Whether a ball at `position` in the vessel can reach each wall in a window of `length` [s] at any
-  /// velocity below `speed` [m/s], whatever its direction. No is a proof, without rates or curvatures.
+  /// For each wall, whether a ball at `position` in the vessel can reach it in a window of `length` [s] with
+  /// a velocity below `speed` [m/s] in any direction. False is a proof, which needs no rates or curvatures.
   /// theory.md, section 3
   Walls within_reach(const Functions& functions, const Vec3<Real>& position, const Real& speed,
                      const Real& length) const;
@@ -69,11 +70,12 @@ class WallSearch {
   /// The search in this scalar where the caller knows the vessel's pose at the window's begin.
   WallAnswer<Real> search(const Pose& pose, const WallQuery<Real>& query) const;
 
-  /// The search in double, with only the root found in this scalar; undecided is what double cannot prove.
-  /// It may see, and answer for, a few roundings of double more than the window.
+  /// The search in double, with only the root computed in this scalar; undecided if double cannot prove the
+  /// result. The window searched may be a few roundings of double longer than requested.
   WallAnswer<Real> search_by_double(const WallQuery<Real>& query) const;
 
-  /// The search for a wider flight, radius and mill that were rounded to this scalar, which is double.
+  /// The search on behalf of a wider scalar whose flight, radius and mill were rounded to this one, which is
+  /// double.
   RoughAnswer rough(const WallQuery<Real>& query) const;
 
   const MovingVessel<M, V>& mill() const { return mill_; }
@@ -93,13 +95,13 @@ class WallSearch {
     Point at(const Real& t) const { return of(functions(t)); }
     Point of(const Sample& s) const { return {s.offset, s.gap[wall], s.rate[wall]}; }
   };
-  /// A root is in [left, right]; left == right when it is at once.
+  /// The root is in [left, right]; left == right if the contact is at this time.
   struct Bracket {
     Verdict verdict;
     Point left{}, right{};
     Real time_error{0};  ///< of a contact at once whose time does not follow from the gap's slope [s]
-    Real guess{0};  ///< of the one root where the gap rises at first and bends downwards all along, else zero
-    bool at_once = false;  ///< certainly at the begin of the window
+    Real guess{0};  ///< the only root, if the gap rises at first and is concave throughout; otherwise zero
+    bool at_once = false;  ///< the contact is certain, at the begin of the window
     bool by_rule = false;  ///< no precision decides; see isolate_by_rule
   };
   [[gnu::noinline]] Bracket isolate_exactly(const Curve& curve, const WallQuery<Real>& query,
@@ -108,7 +110,7 @@ class WallSearch {
                                                    int other, bool other_at_once) const;
   [[gnu::noinline]] bool has_exact_gap(int wall) const;
 
-  /// With `rounded` every bound covers the rounding of the flight and the mill, and `rough` is filled.
+  /// If `rounded`, every bound includes the rounding of the flight and the mill, and `rough` is filled.
   template <bool rounded>
   WallAnswer<Real> first_contact(const Functions& functions, const Start& first, Walls reachable,
                                  const Real& speed, const WallQuery<Real>& query, RoughAnswer* rough) const;
@@ -116,7 +118,8 @@ class WallSearch {
   bool drop_clear(const Start& first, const CurveOf& curve_of, Walls& reachable, Real& length,
                   const DerivativeBounds<V>& derivatives) const;
   void require_length(const WallQuery<Real>& query) const;
-  /// The window cut to what all active gap functions are smooth for; the query itself where they always are.
+  /// The query with its window shortened so that all active gap functions are smooth in it; unchanged if they
+  /// always are.
   decltype(auto) smooth(const WallQuery<Real>& query, const Functions& functions, const Vec3<Real>& position,
                         const Real& speed) const;
   Real top_speed(const Vec3<Real>& velocity, const Real& length) const {
@@ -140,14 +143,14 @@ class WallSearch {
   Bracket follow_overlap(const Curve& curve, const Point& left, const Point& right) const;
   Sample sample_of_end(const Functions& functions, const Walls& reachable, const Errors& errors,
                        const Real& from, Real& end) const;
-  /// A root and how well the scalar knows its time: the gap's rounding error over its slope.
+  /// A root and the uncertainty of its time: the gap's rounding error over its slope.
   struct Root {
     Real t;
     Real time_error;
     [[no_unique_address]] ContactPose<Real> pose{};
     bool at_once = false;  ///< see Bracket
   };
-  /// What is known of a falling gap beside its root.
+  /// Data of a decreasing gap for Newton's iteration.
   struct Approach {
     Real guess;  ///< of the root
     double curvature, curvature_error, third;
@@ -158,15 +161,16 @@ class WallSearch {
   std::optional<Root> polish(const Curve& curve, const Bracket& bracket) const;
   std::optional<Root> close_in(const Functions& functions, int wall, const Real& from, const Real& to,
                                const Approach& approach, const Real& value_error) const;
-  /// Whether a bracket of a root is narrow enough: less than the resolution. toms748 begins with a bracket of
-  /// one resolution, so that a first step which cuts an eighth off is its last.
+  /// Termination criterion for the bracket of a root: 7/8 of the resolution. toms748 begins with a bracket of
+  /// one resolution, so that a first step which removes an eighth of it is the last.
   auto closed() const {
     return [this](const Real& low, const Real& high) {
       const Real middle = low + (high - low) / 2;
       return high - low <= resolution() * 7 / 8 || middle <= low || middle >= high;
     };
   }
-  /// Well above the rounding of a computed gap over its slope, or toms748 would follow noise.
+  /// Time resolution of a root [s]: well above the rounding of a computed gap over its slope, otherwise
+  /// toms748 would follow noise.
   Real resolution() const { return 8 * epsilon<Real>() * mill_.clock.period(); }
 
   MovingVessel<M, V> mill_;
@@ -174,17 +178,17 @@ class WallSearch {
   [[no_unique_address]] RoughSearch<Real> rough_;
 };
 
-/// The wall search of a run, whose motion and vessel are chosen when the case is read.
-/// In double a cylinder has searches of its own, for the SPEX and for a chain, in which everything is
-/// inlined; all else goes through one that asks the motion and the vessel what they are at every step. They
-/// give the same bits.
+/// The wall search of a run, whose motion and vessel are known only when the case is read. In double there
+/// are specialised searches with everything inlined for a cylinder on a SPEX and on a chain. All other
+/// combinations use a general search that selects the types of motion and vessel at every step. All give the
+/// same bits.
 template <class Real>
 class AnyWallSearch {
  public:
   using Spex = WallSearch<model::SpexMotion<Real>, model::CylinderVessel<Real>>;
   using OnChain = WallSearch<model::ChainMotion<Real>, model::CylinderVessel<Real>>;
   using General = WallSearch<model::AnyMotion<Real>, model::AnyVessel<Real>>;
-  /// Another search in the place of these, given the vessel's pose at the window's begin.
+  /// A search that replaces these; it receives the vessel's pose at the begin of the window.
   using Policy = std::function<WallAnswer<Real>(const model::AnyPose<Real>&, const WallQuery<Real>&)>;
 
   AnyWallSearch(const model::AnyMotion<Real>& motion, const model::AnyVessel<Real>& vessel,
@@ -214,7 +218,7 @@ class AnyWallSearch {
       return search.search(model::pose_of<M>(pose), query);
     });
   }
-  /// From here on a policy of the caller's own decides, which nothing certifies.
+  /// Replaces the search by a policy of the caller, whose answers are not certified.
   void replace(Policy policy) {
     search_ = with([](const auto& own) {
       const auto& mill = own.mill();
@@ -258,7 +262,7 @@ class AnyWallSearch {
   Real longest_window_, reach_;
 };
 
-// Their inline functions come from where they are optimised.
+// Instantiated in the sources that are compiled with all optimisations.
 extern template class WallSearch<model::SpexMotion<double>, model::CylinderVessel<double>>;
 extern template class WallSearch<model::ChainMotion<double>, model::CylinderVessel<double>>;
 extern template class WallSearch<model::AnyMotion<double>, model::AnyVessel<double>>;

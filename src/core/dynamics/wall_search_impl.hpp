@@ -66,9 +66,9 @@ auto WallSearch<M, V>::search(const Pose& pose, const WallQuery<Real>& query) co
                               smooth(query, functions, ball.state.position, speed), nullptr);
 }
 
-/// For most walls the state at the start alone shows that they are not hit within `length`: these are
-/// dropped.
-/// @return whether any wall is left; `length` is then what there is to search
+/// Removes the walls that are provably not hit within `length`; for most walls the state at the start
+/// suffices for this.
+/// @return true if any wall is left; `length` is then shortened to the window that must be searched
 template <model::Motion M, model::Vessel V>
 template <class CurveOf>
 bool WallSearch<M, V>::drop_clear(const Start& first, const CurveOf& curve_of, Walls& reachable, Real& length,
@@ -82,8 +82,8 @@ bool WallSearch<M, V>::drop_clear(const Start& first, const CurveOf& curve_of, W
     reachable[wall] = !numerics::proven_clear(start, first.curvature[wall], whole, curve.bounds);
     if (!reachable[wall]) continue;
     any = true;
-    // A little beyond the first possible contact there is nothing to look for; but so far beyond that
-    // rounding does not hide the contact of a ball that touches the wall.
+    // The window can end a little after the first possible contact, but not so early that rounding hides the
+    // contact of a ball that touches the wall.
     Point hinted = start;
     if (start.slope < 0 && start.value < 8 * curve.bounds.value_error)
       hinted.value += 4 * curve.bounds.value_error;
@@ -126,7 +126,7 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
       found = isolate_further(curve, first, last, query, end, found);
     by_rule |= found.by_rule;
     if (found.verdict == Verdict::none) continue;
-    // Only a start that is outside for certain makes the bracket hold the wide root too.
+    // The bracket also contains the root of the wide gap only if the gap is certainly positive at the start.
     const bool doubtful = rounded && !(found.left.value > curve.bounds.value_error);
     if (found.verdict == Verdict::undecided || doubtful) return {Verdict::undecided};
     auto root = polish(curve, found);
@@ -160,13 +160,14 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
   answer.by_rule = by_rule;
   if constexpr (model::HasRegions<V>)
     if (answer.verdict == Verdict::contact && answer.wall >= mill_.vessel.wall_count())
-      return WallAnswer<Real>::none(best.t - begin);  // another region: to be asked again
+      return WallAnswer<Real>::none(best.t - begin);  // another region: must be searched again
   return answer;
 }
 
-/// The gaps at the end of a window. A gap that is zero within rounding there would leave the window
-/// undecided in every scalar: the end is moved towards `from`, and what is left is for the next window. A gap
-/// that is zero at two ends in a row is zero for long: a shorter window does not help.
+/// Samples the gaps at the end of a window. A gap that is zero within rounding there would leave the window
+/// undecided in every scalar: the end is moved towards `from`, and the rest of the window is left to the next
+/// one. A gap that is zero at two successive ends stays zero for long, so that a shorter window does not
+/// help.
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::sample_of_end(const Functions& functions, const Walls& reachable, const Errors& errors,
                                      const Real& from, Real& end) const -> Sample {
@@ -193,7 +194,7 @@ auto WallSearch<M, V>::sample_of_end(const Functions& functions, const Walls& re
   return sample;
 }
 
-/// The first part of a window, where the second derivative is known too.
+/// Isolates a root in the first part of a window, where the second derivative is known too.
 template <model::Motion M, model::Vessel V>
 template <bool rounded>
 auto WallSearch<M, V>::isolate_from_start(const Curve& curve, const Start& first, const Sample& last) const
@@ -221,8 +222,8 @@ auto WallSearch<M, V>::isolate_rising(const Curve& curve, const Point& start, co
   return t < right.t ? isolate(curve, curve.at(t), right) : Bracket{Verdict::none};
 }
 
-/// A ball that has just left, and whose gap is proven to bend downwards all along the window: the gap rises
-/// to one peak and has one root after it.
+/// Isolates the root for a ball that has just left the wall and whose gap is provably concave throughout the
+/// window: the gap has one maximum and one root after it.
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::isolate_hop(const Curve& curve, const Point& left, const Real& curvature,
                                    const Point& right) const -> std::optional<Bracket> {
@@ -251,7 +252,7 @@ auto WallSearch<M, V>::isolate(const Curve& curve, Point left, const Point& righ
   }
   if (numerics::can_depart(left, b)) {
     if (numerics::proven_departure(left, right, b)) return {Verdict::none};
-    // A window that another wall has cut short may end before the gap is seen to open.
+    // A window that another wall has shortened may end before the gap is provably open.
     if (numerics::proven_increasing(left, right, b)) return {Verdict::none};
     return isolate_outside(curve, left, right, true);
   }
@@ -260,12 +261,12 @@ auto WallSearch<M, V>::isolate(const Curve& curve, Point left, const Point& righ
 }
 
 /// Walks the window from the left over intervals that are proven free of contact, splitting where the proof
-/// fails, up to one that holds exactly one sign change.
+/// fails, up to one that contains exactly one sign change.
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::isolate_outside(const Curve& curve, Point left, const Point& right,
                                        bool departing) const -> Bracket {
   constexpr int deepest = 64;
-  std::array<Point, deepest> ends;  // right ends of intervals still to be looked at, nearest last
+  std::array<Point, deepest> ends;  // right ends of intervals still to be searched, nearest last
   int count = 0;
   ends[count++] = right;
   const Bounds& b = curve.bounds;
@@ -301,7 +302,7 @@ auto WallSearch<M, V>::isolate_outside(const Curve& curve, Point left, const Poi
           fraction = root > 2 * margin ? root - margin : root / 2;
       }
     }
-    // A cut within rounding of a root would decide nothing: move off it.
+    // A cut at which the gap is zero within rounding decides nothing: move it.
     Point cut = curve.at(left.t + static_cast<Real>(fraction) * s);
     for (int tries = 0; tries < 4 && cut.value <= b.value_error && cut.value >= -b.value_error; ++tries) {
       fraction = fraction * 3 / 4;
@@ -314,12 +315,12 @@ auto WallSearch<M, V>::isolate_outside(const Curve& curve, Point left, const Poi
   return {Verdict::none};
 }
 
-/// The start is zero within rounding and falling: the contact is at the start or within rounding after it,
-/// once the gap is seen to become negative while it falls.
+/// The gap is zero within rounding and falling at the start: the contact is at the start or within rounding
+/// after it, provided that the gap provably falls to a negative value.
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::isolate_touching(const Curve& curve, const Point& left, Point right) const -> Bracket {
   const Bounds& b = curve.bounds;
-  // Where another wall has cut the window short, behind the time at which this gap is certainly negative.
+  // If another wall has shortened the window, extend it to where this gap is certainly negative.
   if (const Real s = 16 * resolution() - 8 * b.value_error / left.slope; right.t - left.t < s)
     right = curve.at(left.t + s);
   while (!numerics::proven_decreasing(left, right, b)) {
@@ -328,23 +329,24 @@ auto WallSearch<M, V>::isolate_touching(const Curve& curve, const Point& left, P
     right = curve.at(left.t + s);
   }
   if (!(right.value < -b.value_error)) return {Verdict::undecided};
-  // The widest scalar takes what is zero within its rounding for zero.
+  // The widest scalar treats a value that is zero within rounding as zero.
   if (is_widest || left.value <= 0) return {Verdict::contact, left, left};
   return {Verdict::contact, left, right};
 }
 
-/// The start touches and neither falls nor rises, within rounding: the second derivative decides. A ball that
-/// is pressed on the wall is in contact at once. For one that accelerates away it remains open whether it
-/// approaches at first; the widest scalar counts what is zero within rounding as zero, so that it leaves.
+/// The gap is zero within rounding at the start and neither falls nor rises: the second derivative decides. A
+/// ball that is pressed against the wall is in contact at once. For one that accelerates away it is unknown
+/// whether it approaches at first; the widest scalar treats values within rounding as zero, so that the ball
+/// leaves.
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::isolate_resting(const Curve& curve, const Point& left, const Real& curvature,
                                        const Point& right) const -> Bracket {
   using std::sqrt;
   const Bounds& b = curve.bounds;
-  if (b.second == 0 && b.slope_error == 0) return {Verdict::none};  // at rest to the wall for good
+  if (b.second == 0 && b.slope_error == 0) return {Verdict::none};  // at rest relative to the wall forever
   const Real bend = (magnitude(curvature) - b.curvature_error) / 2;
   if (!(bend > 0)) return {Verdict::undecided};
-  // While |f''| > bend, bend s^2/2 exceeds what value and slope may be by rounding from this time on.
+  // While |f''| > bend, bend s^2/2 exceeds the rounding errors of value and slope from this time on.
   const bool overlaps = left.value < -b.value_error;
   const Real slope = magnitude(left.slope) + b.slope_error,
              value = overlaps ? Real(0) : Real(magnitude(left.value) + b.value_error);
@@ -355,8 +357,9 @@ auto WallSearch<M, V>::isolate_resting(const Curve& curve, const Point& left, co
   return isolate_rising(curve, left, curvature, right);
 }
 
-/// The start is overlapped for certain, by rounding, and leaves. Either the gap opens, and the search goes on
-/// outside, or the ball turns back before: the contact is where it begins to approach.
+/// Follows a ball that certainly overlaps the wall at the start, by rounding, and moves away. Either the gap
+/// opens, and the search continues from outside, or the ball turns back before: the contact is where it
+/// begins to approach.
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::follow_overlap(const Curve& curve, const Point& start, const Point& right) const
     -> Bracket {
@@ -366,7 +369,7 @@ auto WallSearch<M, V>::follow_overlap(const Curve& curve, const Point& start, co
   Point left = start;
   Real step = left.slope / (2 * b.second);
   bool rose = false;
-  int setbacks = 0;  // of a gap that hardly changes, steps neither grow nor shrink
+  int setbacks = 0;  // if the gap hardly changes, steps neither grow nor shrink
   Real before = step;
   for (int k = 0; k < 5 * curve.most_steps && setbacks < 16; ++k) {
     if constexpr (is_wide) Interruption::check();
@@ -397,8 +400,8 @@ auto WallSearch<M, V>::follow_overlap(const Curve& curve, const Point& start, co
   return {Verdict::undecided};
 }
 
-/// The bracket's root to the last digit of the scalar: the end of the last bracket where the gap is not
-/// negative.
+/// Refines the root in the bracket to the last digit of the scalar; the result is the end of the final
+/// bracket at which the gap is not negative.
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::polish(const Curve& curve, const Bracket& bracket) const -> std::optional<Root> {
   const Point &left = bracket.left, &right = bracket.right;
@@ -435,7 +438,8 @@ auto WallSearch<M, V>::polish(const Curve& curve, const Bracket& bracket) const 
   return Root{root.first, time_error_at(end.slope)};
 }
 
-/// The digits of Newton's iteration from a root of double on, where there are many.
+/// Sets the digits for a step of Newton's iteration that starts from a root in double, in scalars with many
+/// digits.
 template <class Real>
 auto digits_of_step(int step) {
   ChosenDigits<Real> digits;
@@ -446,9 +450,9 @@ auto digits_of_step(int step) {
   return digits.use();
 }
 
-/// The root of a gap that is proven to fall through zero in (from, to): Newton's iteration, which knows the
-/// curvature, up to where one step more would change nothing; then toms748 on the gap itself, in a bracket of
-/// a few units of the clock. Nothing when rounding does not let the signs at such a bracket be seen.
+/// Finds the root of a gap that provably falls through zero in (from, to): with Newton's iteration and the
+/// curvature until another step would change nothing, then with toms748 on the gap itself, in a bracket of a
+/// few units of the clock. Empty if rounding hides the signs at the ends of such a bracket.
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::close_in(const Functions& functions, int wall, const Real& from, const Real& to,
                                 const Approach& approach, const Real& value_error) const
@@ -465,7 +469,7 @@ auto WallSearch<M, V>::close_in(const Functions& functions, int wall, const Real
   const int steps = few_digits ? 8 : 40;  // each doubles the digits
   for (int step = 0; step < steps; ++step) {
     if (!(t > from && t < to)) return std::nullopt;
-    // A step that finds twice the digits that the last one left needs no more of them.
+    // A step that doubles the correct digits needs no more digits than these.
     [[maybe_unused]] const auto few = digits_of_step<Real>(step);
     if (!few_digits) pose = functions.pose(t);
     const auto sample = functions(t, pose);
@@ -473,7 +477,7 @@ auto WallSearch<M, V>::close_in(const Functions& functions, int wall, const Real
     const double flatness = static_cast<double>(slope);
     if (!(flatness < 0)) return std::nullopt;
     const Real newton = -sample.gap[wall] / slope;
-    // The curvature's part of the step, and whether one more would change the time.
+    // The contribution of the curvature to the step, and whether another step would change the time.
     const auto bent = [&](const auto& size) -> std::pair<Real, bool> {
       using Size = std::decay_t<decltype(size)>;
       const Size square = size * size;
@@ -490,7 +494,7 @@ auto WallSearch<M, V>::close_in(const Functions& functions, int wall, const Real
     }
     const auto gap = [&](const Real& time) { return functions.gap_nearby(wall, time, pose, t); };
     const Real time_error = -value_error / slope;
-    // Rounding moves the place where the computed gap changes its sign: step on until both signs are seen.
+    // Rounding shifts the sign change of the computed gap: widen until both signs occur.
     Real low = centre - 4 * unit, high = centre + 4 * unit, at_low = gap(low), at_high = gap(high);
     for (Real reach = 16 * unit; !(at_low >= 0 && at_high <= 0); reach = 4 * reach) {
       if (reach > 32 * (unit + time_error)) return std::nullopt;
@@ -547,16 +551,16 @@ auto WallSearch<M, V>::rough(const WallQuery<Real>& query) const -> RoughAnswer 
   }
 }
 
-/// The wide gap is evaluated at the rough root, an error of double away from the root, so that one step of
-/// Newton's iteration with the curvature as double knows it gives nearly three times the digits of double.
-/// That the root found is the bracket's needs no more: the gap falls all along it.
+/// Evaluates the wide gap at the root found in double. The error of this root is of the order of double's
+/// rounding, so that one step of Newton's iteration with the curvature in double yields nearly three times
+/// the digits of double. The result is the root in the bracket, because the gap falls throughout it.
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::search_by_double(const WallQuery<Real>& query) const -> WallAnswer<Real> {
   if constexpr (!is_wide) {
     return search(query);
   } else {
     EDMILL_REQUIRE(query.length > 0, "window length out of range");
-    // The window is rounded outwards, so that nothing of it is left to be asked about again.
+    // The window is rounded outwards, so that no part of it must be searched again.
     const auto begin_down = rounded_down<double>(query.begin);
     const double length = static_cast<double>(query.length);
     const auto rough =
@@ -588,18 +592,18 @@ auto WallSearch<M, V>::search_by_double(const WallQuery<Real>& query) const -> W
   }
 }
 
-// What the bounds do not decide, exactly or by a rule.
+// Decisions that bounds cannot make: by exact arithmetic or by a rule.
 
-/// The first contact with one wall up to `end` where bounds do not decide, and in the widest scalar where the
-/// ball touches: in exact arithmetic, else in the widest scalar by a rule.
-/// @param found  by bounds
+/// Finds the first contact with one wall up to `end` if the bounds do not decide, or, in the widest scalar,
+/// if the ball touches: in exact arithmetic where it applies, otherwise, in the widest scalar, by a rule.
+/// @param found  result by bounds
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::isolate_further(const Curve& curve, const Start& first, const Sample& last,
                                        const WallQuery<Real>& query, const Real& end,
                                        const Bracket& found) const -> Bracket {
   const Point start = curve.of(first);
   const bool undecided = found.verdict == Verdict::undecided;
-  // What exact arithmetic knows needs no rule for what is zero within rounding.
+  // Exact arithmetic needs no rule for values that are zero within rounding.
   if (undecided || start.value <= curve.bounds.value_error) {
     const auto exact = isolate_exactly(curve, query, end);
     if (exact.verdict != Verdict::undecided) return exact;
@@ -609,9 +613,9 @@ auto WallSearch<M, V>::isolate_further(const Curve& curve, const Start& first, c
   return found;
 }
 
-/// Whether a wall is hit before another one. At one time within rounding exact arithmetic decides, or a wider
-/// scalar: then nothing. The other one comes first, by the rule, where they are equal or the widest scalar
-/// does not separate them.
+/// True if `wall` is hit before `other`. If the times agree within rounding, exact arithmetic decides; if it
+/// does not apply, the result is empty and a wider scalar must decide. If the times are equal, or the widest
+/// scalar does not separate them, the rule puts `other` first.
 template <model::Motion M, model::Vessel V>
 template <bool rounded>
 std::optional<bool> WallSearch<M, V>::comes_first(const WallQuery<Real>& query, int wall, const Root& root,
@@ -667,7 +671,7 @@ bool WallSearch<M, V>::has_exact_gap(int wall) const {
   return exact_gap(mill_.motion, mill_.vessel, mill_.gravity, any, wall).has_value();
 }
 
-/// Up to `end`, in exact arithmetic. Undecided where the gap is no polynomial.
+/// Isolates the first contact up to `end` in exact arithmetic. Undecided if the gap is not a polynomial.
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::isolate_exactly(const Curve& curve, const WallQuery<Real>& query,
                                        const Real& end) const -> Bracket {
@@ -686,8 +690,8 @@ auto WallSearch<M, V>::isolate_exactly(const Curve& curve, const WallQuery<Real>
           .at_once = time->compare({}) == 0};
 }
 
-/// Which of two walls is hit first, by exact arithmetic: negative `one`, positive `other`, zero at one time.
-/// Nothing where it does not know the time of one of them.
+/// Orders the contacts with two walls by exact arithmetic: negative if `one` is hit first, positive if
+/// `other` is, zero if both are hit at one time. Empty if the exact time of one of them is unknown.
 template <model::Motion M, model::Vessel V>
 std::optional<int> WallSearch<M, V>::exact_order(const WallQuery<Real>& query, int one, bool one_at_once,
                                                  int other, bool other_at_once) const {

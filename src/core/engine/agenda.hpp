@@ -1,4 +1,4 @@
-// What is kept of each ball beside its flight: what it expects next, and what events need of it.
+// The data of each ball besides its flight: its predicted events, and what all events need.
 #pragma once
 
 #include <array>
@@ -13,9 +13,9 @@
 
 namespace edmill::engine {
 
-/// What one ball expects. Its pair contacts are those that it predicted itself, in any order; one is void
-/// once the partner has had an impact since, and for a pair that both predicted the later prediction is the
-/// valid one. Which entry is the earliest cannot be predicted by the processor, so it is found without
+/// The predicted events of one ball. The pair contacts are those predicted for this ball, in any order. One
+/// becomes void when the partner has an impact; if both balls have predicted the same contact, the later
+/// prediction is valid. The processor cannot predict which entry is the earliest, so it is found without
 /// branches.
 template <class Real>
 struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Agenda {
@@ -23,13 +23,13 @@ struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Agenda {
   static constexpr int wall_entry = 0, crossing_entry = 1, first_pair = 2;
   std::array<Instant<Real>, first_pair + capacity> times;  ///< of wall, crossing, pairs; never() where free
   [[no_unique_address]] dynamics::ContactPose<Real> wall_pose;  ///< at the wall's time
-  Instant<Real> forgotten_from;  ///< contacts from this time on found no room; never() when all are kept
+  Instant<Real> forgotten_from;  ///< contacts from this time on found no room; never() if all are stored
   std::array<int, capacity> partners{};
-  std::array<std::uint32_t, capacity> known;  ///< number of the latest impact of all, when predicted
+  std::array<std::uint32_t, capacity> known;  ///< latest impact of any ball when the contact was predicted
   std::uint32_t last_impact = 0;              ///< number of the ball's latest
   std::int8_t pair_count = 0;
-  /// A wall id, or -1 when the wall's time only ends what has been searched; `tied` more when another wall
-  /// is hit at the same time.
+  /// A wall id, plus `tied` if another wall is hit at the same time; -1 if the wall's time is only the end of
+  /// the window searched so far.
   std::int8_t wall = -1;
   std::int8_t crossing_face = 0;  ///< twice the axis, and 1 more when upwards
   std::int8_t next = wall_entry;  ///< the entry that was queued
@@ -81,7 +81,7 @@ struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Agenda {
     forgotten_from = Instant<Real>::never();
   }
 
-  /// Whether its numbers are some that a run of so many balls and walls can have.
+  /// True if its values are possible in a run with this many balls and walls.
   bool is_sound(int balls, int walls, std::uint32_t latest_impact) const {
     bool sound = pair_count >= 0 && pair_count <= capacity && crossing_face >= 0 && crossing_face < 6 &&
                  wall >= -1 && (wall < walls || (wall >= tied && wall < tied + walls)) &&
@@ -119,7 +119,7 @@ class Agendas {
     return agendas_[a.partner_at(pair_entry)].last_impact <= a.known[pair_entry - Agenda<Real>::first_pair];
   }
 
-  /// The next impact is that of these balls, which may be one and the same.
+  /// Numbers the next impact. @param partner  equals `ball` for an impact with a wall
   void number_impact(int ball, int partner) {
     if (latest_impact_ == 1 << 20) renumber_impacts();
     agendas_[ball].last_impact = agendas_[partner].last_impact = ++latest_impact_;
@@ -127,7 +127,7 @@ class Agendas {
   /// Number of the latest impact of all.
   std::uint32_t latest_impact() const { return latest_impact_; }
 
-  /// Makes the numbers of impacts small again. Pair contacts that hold go on holding, and no others do.
+  /// Makes the numbers of impacts small again. Valid pair contacts remain valid, void ones remain void.
   [[gnu::noinline]] void renumber_impacts() {
     for (auto& a : agendas_)
       for (int k = 0; k < a.pair_count; ++k) a.known[k] = still_holds(a, Agenda<Real>::first_pair + k);
@@ -142,12 +142,12 @@ class Agendas {
   std::uint32_t latest_impact_ = 0;
 };
 
-/// What events need of a ball besides. In double it is one cache line.
+/// Further data of a ball that events need. In double it is one cache line.
 template <class Real>
 struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Body {
   Vec3<Real> spin;  ///< [rad/s]
   RecentImpacts<Real> recent;
-  std::int16_t unmoved = 0;  ///< impacts in a row that came without time to move, up to where friction rests
+  std::int16_t unmoved = 0;  ///< consecutive impacts without time to move, up to the limit of the stall rule
   CellOfBall cell;
 
   void archive(Archive& a) { a(spin, recent, unmoved, cell); }

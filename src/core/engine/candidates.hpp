@@ -1,4 +1,5 @@
-// Which balls a ball may meet: neighbouring cells or all balls, sifted by the pair filter.
+// Candidate partners of a ball: those balls of neighbouring cells, or of all balls, that pass the pair
+// filter.
 #pragma once
 
 #include <optional>
@@ -32,7 +33,7 @@ class Candidates {
 
   /// @return the cell that the ball begins in
   CellOfBall insert(int ball);
-  /// The ball has a new flight.
+  /// Must be called when a ball has a new flight.
   void update(int ball) {
     if constexpr (!is_double) double_flights_[ball] = dynamics::flight_cast<double>((*flights_)[ball]);
     if (columns_) columns_->set(ball, flights()[ball], radii_[ball * stride_]);
@@ -43,15 +44,15 @@ class Candidates {
     return pairs_.state(flights()[ball], dynamics::instant_cast<double>(now));
   }
 
-  /// The ball leaves `cell`, which becomes the adjacent one; finds the balls of cells that are new to it.
+  /// Moves a ball to the adjacent cell, updates `cell`, and finds the balls of its new neighbouring cells.
   void cross(int ball, CellOfBall& cell, int axis, int step, FoundBalls& near) {
     grid_.move(ball, cell, axis, step);
     grid_.new_neighbours(cell, axis, step, near);
   }
 
-  /// Finds the candidates among all balls that the ball may meet.
-  /// @param near  of `neighbours`
-  /// @return how many there are
+  /// Finds the candidates for a contact with the ball.
+  /// @param near  result of `neighbours`
+  /// @return the number of candidates
   int find(int ball, const DoubleState& state, const Instant<Real>& now, FoundBalls& near) {
     if (columns_) return columns_->filter(query(ball, state, now), result_);
     return find_among(ball, state, now, near);
@@ -89,7 +90,7 @@ class Candidates {
   dynamics::PairSearch<double> pairs_;
   LargeVector<dynamics::Flight<double>> double_flights_;  ///< empty when the scalar is double
   std::vector<double> radii_;                             ///< rounded too
-  int stride_;  ///< 0 when all balls are alike: then the first radius serves for every ball
+  int stride_;  ///< 0 if all balls are identical: then the first radius is used for every ball
   CellGrid grid_;
   std::optional<FlightColumns> columns_;  ///< instead of the grid when that has one cell
   PairFilterResult result_;               ///< scratch

@@ -32,19 +32,19 @@ struct CellOfBall {
   void archive(Archive& a) { a(at); }
 };
 
-/// Balls that a look at the cells found; its room only grows.
+/// The balls found in a search of cells. The capacity only grows.
 struct FoundBalls {
   std::vector<int> balls;
   int count = 0;
 };
 
-/// The grid knows which balls each cell holds. Which cell a ball is in, its owner keeps beside what else an
-/// event needs of the ball, where it costs no cache line of its own.
+/// A grid that stores which balls each cell contains. The cell of each ball is stored by the owner, next to
+/// the other data that an event needs of the ball, where it costs no cache line of its own.
 ///
-/// Cells are never thinner than the largest ball plus a margin that dwarfs the rounding of crossing times, so
-/// a crossing that is late by rounding hides no contact; that is why double serves every scalar. The
-/// outermost cells are open to the outside. Around them lies a layer of cells that stay empty, so that every
-/// cell with balls has neighbours on all sides.
+/// Cells are never thinner than the largest ball plus a margin far above the rounding of crossing times, so
+/// that a crossing that is late by rounding hides no contact; this is why double suffices for every scalar.
+/// The outermost cells are unbounded. A layer of cells that stay empty surrounds them, so that every cell
+/// with balls has neighbours on all sides.
 class CellGrid {
  public:
   /// @param low, high  corners of the region that the balls' centres sweep [m]
@@ -87,7 +87,7 @@ class CellGrid {
   }
 
   /// The ball leaves `cell`, which becomes the adjacent one.
-  /// @throws ContractError where there is none, as only a saved state from elsewhere can ask for
+  /// @throws ContractError if there is none, which only a saved state from elsewhere can cause
   void move(int ball, CellOfBall& cell, int axis, int step) {
     const int next = cell.at[axis] + step;
     EDMILL_REQUIRE(next >= 0 && next < cells_[axis], "a crossing into a cell of the grid");
@@ -96,7 +96,7 @@ class CellGrid {
     link(ball, cell);
   }
 
-  /// When a ball in `cell`, now at `position` with `velocity`, leaves it.
+  /// Finds when, and through which face, a ball in `cell`, now at `position` with `velocity`, leaves it.
   Crossing crossing(const CellOfBall& cell, const Vec3<double>& position, const Vec3<double>& velocity,
                     const Vec3<double>& gravity) const {
     std::array<Passage, 3> by_axis;
@@ -114,7 +114,7 @@ class CellGrid {
     return {by_axis[first].delay, first, by_axis[first].step};
   }
 
-  /// Asks memory for the cells that `neighbours` reads: those at the corners lie in all of their bricks.
+  /// Prefetches the cells that `neighbours` reads. The cells at the corners cover all of the bricks.
   void fetch_cells(const CellOfBall& cell) const {
     const auto [x, y, z] = cell.at;
     for (const int w : {0, 2})
@@ -147,7 +147,7 @@ class CellGrid {
     collect<1>(&layer, &at_[one][cell.at[one]], &at_[other][cell.at[other]], found);
   }
 
-  /// Which balls each cell holds, and their order: it is that of the searches.
+  /// Saves or loads the balls of each cell in their order, because searches use this order.
   void archive(Archive& a) {
     std::vector<std::pair<std::size_t, Cell>> occupied;  // most are empty
     for (std::size_t at = 0; at < content_.size(); ++at)
@@ -161,7 +161,7 @@ class CellGrid {
       content_[at] = cell;
     }
   }
-  /// Whether each ball is once in the grid, in the cell that `cell_of(ball)` says; after loading.
+  /// True if each ball is in the grid exactly once, in the cell `cell_of(ball)`; for use after loading.
   template <class CellOf>
   bool holds_all(const CellOf& cell_of) const {
     std::vector<bool> seen(next_.size());
@@ -190,7 +190,7 @@ class CellGrid {
   }
 
  private:
-  static constexpr double far_off = 1e30;  ///< of the outermost faces [m]; as a delay [s], never
+  static constexpr double far_off = 1e30;  ///< of the outermost faces [m]; as a delay [s] it means never
 
   using Faces = std::array<double, 2>;  ///< lower and upper of a cell along an axis [m]
 
@@ -199,9 +199,9 @@ class CellGrid {
   /// The two other axes.
   static std::array<int, 2> across(int axis) { return {axis == 0 ? 1 : 0, axis == 2 ? 1 : 2}; }
 
-  // What is selected below is a coin toss, so selections are look-ups: a branch would be mispredicted.
+  // The selections below are unpredictable and therefore table look-ups: a branch would be mispredicted.
 
-  /// Through one of the two faces across an axis.
+  /// Passage through one of the two faces across an axis.
   struct Passage {
     double delay;
     int step;
@@ -230,9 +230,9 @@ class CellGrid {
     return {denominator > 0 ? delay : far_off, back ? -step : step};
   }
 
-  /// A cell holds up to two balls; those of a crowded one, which is rare, are chained to its first. What
-  /// is in the place of the second ball gives how many there are: its two highest bits are, as a signed
-  /// number, how many more than two.
+  /// A cell stores up to two balls; in a crowded cell, which is rare, they form a list that begins with its
+  /// first ball. `second` also encodes the number of balls: its two highest bits, as a signed number, are the
+  /// number of balls minus two.
   struct Cell {
     static constexpr std::uint32_t single = 3u << 30, empty = 2u << 30, crowded = empty | 1u << 29;
     std::uint32_t first = 0, second = empty;
@@ -249,9 +249,9 @@ class CellGrid {
     return at_[0][cell.at[0] + 1] + at_[1][cell.at[1] + 1] + at_[2][cell.at[2] + 1];
   }
 
-  /// Finds the balls of the cells whose parts of the index are given along each axis, by threes in y and z.
-  /// Copies whole cells without asking how full they are: a branch for each of 27 mostly empty ones costs
-  /// more.
+  /// Finds the balls in a block of cells, given by the parts of their index along each axis, three cells in y
+  /// and in z. Copies whole cells without testing how full they are: a branch for each of 27 mostly empty
+  /// ones costs more.
   template <int nx>
   void collect(const int* x, const int* y, const int* z, FoundBalls& found) const {
     constexpr int rows = 9, cells = nx * rows;
@@ -341,7 +341,7 @@ class CellGrid {
   /// empty. Two by two by two cells are a brick that fills a cache line.
   std::array<std::vector<int>, 3> at_;
   LargeVector<Cell> content_;
-  LargeVector<int> next_;  ///< of each ball: another one in the same crowded cell
+  LargeVector<int> next_;  ///< for each ball: the next one in the same crowded cell
 };
 
 }  // namespace edmill::engine

@@ -1,4 +1,4 @@
-// Beside these searches that of the SPEX would be inlined less.
+// Separate from double.cpp, because next to these searches that of the SPEX would be inlined less.
 #include "engine/instances.hpp"
 
 EDMILL_GENERAL_SEARCH(template, double)

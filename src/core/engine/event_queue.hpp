@@ -1,4 +1,4 @@
-// What can happen next, and the queue of next events: one entry for each ball, the earliest on top.
+// Events, and the queue of the next event of each ball, with the earliest on top.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ enum class EventKind {
   pair_contact,
   void_contact,   ///< a pair contact whose partner has had an impact since it was predicted
   cell_crossing,  ///< a ball leaves its cell of the grid
-  wall_horizon,   ///< up to here walls are proven out of reach; then the search continues
+  wall_horizon,   ///< end of the window proven free of walls; the search continues here
 };
 
 template <class Real>
@@ -40,7 +40,7 @@ struct Event {
     return (ball == other.ball && partner == other.partner) ||
            (kind == EventKind::pair_contact && ball == other.partner && partner == other.ball);
   }
-  /// The rule for contacts at one time: a wall goes before a ball, then the lower numbers.
+  /// The order of simultaneous contacts: walls before balls, then lower numbers first.
   bool goes_before(const Event& other) const {
     const auto place = [](const Event& e) {
       const bool pair = e.kind == EventKind::pair_contact;
@@ -51,13 +51,13 @@ struct Event {
   }
 };
 
-/// A calendar: each drive period is cut into days so short that few hold more than one event. Days up to the
-/// horizon, which is three to four weeks ahead, have a list each; what is later is put off: noted for its
-/// week, without order, and put into lists when the horizon gets there. So taking the first event and
-/// setting one cost the same for any number of balls, and the lists fit into the near caches. A day that
-/// holds many events all the same, since balls share an instant, is put into a heap when it comes. Equal
-/// times go to the lower ball, so the order of events does not depend on history. (Brown 1988; Tang, Goh and
-/// Thng 2005)
+/// A calendar queue: each drive period is divided into days so short that few contain more than one event.
+/// Days up to the horizon, which is three to four weeks ahead, have a list each. Later events are put off:
+/// they are noted for their week, without order, and put into lists when the horizon reaches it. Therefore
+/// taking the first event and setting one cost the same for any number of balls, and the lists fit into the
+/// near caches. A day that still contains many events, since balls share an instant, is turned into a heap
+/// when it comes. Equal times are ordered by the ball's number, so the order of events does not depend on
+/// history. (Brown 1988; Tang, Goh and Thng 2005)
 template <class Real>
 class EventQueue {
  public:
@@ -90,8 +90,8 @@ class EventQueue {
 
   const Instant<Real>& time(int ball) const { return entries_[ball].time; }
 
-  /// The balls of the next three events after that of the last `top`, most likely: a look at what may be
-  /// fetched early, not an answer.
+  /// The balls that most likely have the next three events after that of the last `top`; only a guess, for
+  /// prefetching.
   std::array<int, 3> upcoming() const {
     std::array<int, 3> balls{top_, top_, top_};
     std::int64_t day = today_;
@@ -104,7 +104,7 @@ class EventQueue {
     return balls;
   }
 
-  /// Asks memory for what is kept of a ball.
+  /// Prefetches the entry of a ball.
   void fetch_entry(int ball) const { fetch(&entries_[ball]); }
 
   void set(int ball, const Instant<Real>& time) {
@@ -113,7 +113,7 @@ class EventQueue {
     put(ball);
   }
 
-  /// All balls with an event up to `limit`, lower ones first.
+  /// Finds all balls with an event up to `limit`, in ascending order.
   void due_until(const Instant<Real>& limit, std::vector<int>& balls) const {
     balls.clear();
     const std::int64_t last = std::max(day_of(limit), today_);
@@ -152,8 +152,8 @@ class EventQueue {
   }
 
  private:
-  static constexpr int none = -1, put_off = -2, in_heap = -3;     ///< instead of a list's next ball
-  static constexpr int crowd = 32;                                ///< events of a day that are worth a heap
+  static constexpr int none = -1, put_off = -2, in_heap = -3;     ///< special values of `Entry::next`
+  static constexpr int crowd = 32;                                ///< a day with more events becomes a heap
   static constexpr int weeks = 256;                               ///< for which notes are kept
   static constexpr std::int64_t far_off = std::int64_t{1} << 30;  ///< [periods], in no run
   static constexpr std::int64_t no_day = std::int64_t{1} << 62;
@@ -163,17 +163,19 @@ class EventQueue {
     Instant<Real> time = Instant<Real>::never();
     std::int64_t day = no_day;
     int next = put_off;
-    /// Or, of one that is put off, whose notes have the latest one; others are void. Or the place in the
-    /// heap.
+    /// The previous ball of the list. For a ball that is put off: the place of the week whose note is valid;
+    /// older notes are void. For a ball in the heap: its place there.
     int previous = none;
   };
 
-  /// Nearly all events of few balls lie before the horizon, and most of many within the weeks.
+  /// Number of lists. With few balls nearly all events are before the horizon; with many, most are within the
+  /// weeks.
   static std::size_t list_count(std::size_t balls) {
     return std::bit_ceil(std::max(std::clamp<std::size_t>(8 * balls, 1024, 16384), balls / 8));
   }
 
-  /// Never later for an earlier time: `today` may be emptied before tomorrow is looked at.
+  /// The day of a time. It never decreases with time, so that today can be emptied before tomorrow is
+  /// searched.
   std::int64_t day_of(const Instant<Real>& time) const {
     if (time.period >= far_off) return no_day;
     const double place = static_cast<double>(time.offset) * days_per_second_;
@@ -185,8 +187,8 @@ class EventQueue {
   std::size_t list_of(std::int64_t day) const { return static_cast<std::size_t>(day) & (heads_.size() - 1); }
   int head(std::int64_t day) const { return heads_[list_of(day)]; }
 
-  /// The first day from `day` on whose list is not empty, or the horizon: a word of marks at a time, since a
-  /// loop over empty lists would end by surprise each time.
+  /// The first day from `day` on whose list is not empty, or the horizon. Tests a word of marks at a time,
+  /// since the end of a loop over empty lists would always be mispredicted.
   std::int64_t next_occupied(std::int64_t day) const {
     for (; day < horizon_; day = (day | 63) + 1) {
       const std::size_t at = list_of(day);
@@ -196,7 +198,7 @@ class EventQueue {
     return horizon_;
   }
 
-  /// @pre today holds an event
+  /// @pre today has an event
   int first_today() {
     if (!heap_.empty()) return heap_.front();
     int best = none, count = 0;
@@ -230,12 +232,12 @@ class EventQueue {
     else
       note(ball);
   }
-  /// Not inlined, as what follows: it would crowd the common case out of its registers.
+  /// Not inlined, like the functions below: it would use registers that the common case needs.
   [[gnu::noinline]] void note(int ball) {
     Entry& e = entries_[ball];
     e.next = put_off;
     if (e.day == no_day) return;
-    // What is later than all weeks is looked at again in the last.
+    // Events beyond all weeks are noted in the last one and sorted again when it comes.
     const auto week = std::min(week_of(e.day), week_of(horizon_) + (weeks - 2));
     e.previous = place_of(week);
     notes_[e.previous].push_back(ball);
@@ -264,8 +266,8 @@ class EventQueue {
     marks_[list / 64] &= ~(std::uint64_t{e.next == none} << (list % 64));
   }
 
-  // The heap of today's events: the earliest first, each entry with its place. The day's mark stays while it
-  // holds any.
+  // The heap of today's events: the earliest is first, and each entry stores its place. The day's mark
+  // remains set while the heap is not empty.
 
   [[gnu::noinline]] void fill_heap() {
     for (int i = head(today_), next; i != none; i = next) {
@@ -292,7 +294,7 @@ class EventQueue {
     heap_[at] = ball;
     entries_[ball].previous = static_cast<int>(at);
   }
-  /// @return where the ball is then
+  /// @return the new place of the ball
   std::size_t rise(std::size_t at, int ball) {
     for (; at > 0 && before(ball, heap_[(at - 1) / 2]); at = (at - 1) / 2) set_place(at, heap_[(at - 1) / 2]);
     set_place(at, ball);
@@ -346,7 +348,7 @@ class EventQueue {
     return std::min_element(entries_.begin(), entries_.end(), earlier)->day;
   }
 
-  /// Days get longer when most are empty and shorter when many events share one.
+  /// Adapts the length of days: longer if most days are empty, shorter if many events share one.
   void review() {
     const std::int64_t events = taken_, days = days_passed_, before = days_per_period_;
     taken_ = days_passed_ = 0;
@@ -373,7 +375,7 @@ class EventQueue {
   std::int64_t today_ = 0, horizon_ = 0;  ///< days, the latter the first of a week
   int top_ = none;
   std::int64_t taken_ = 0, days_passed_ = 0;  ///< since the last review
-  std::int64_t review_ = 64;                  ///< after so many events; soon at first, when nothing is known
+  std::int64_t review_ = 64;                  ///< after this many events; soon at first
 };
 
 }  // namespace edmill::engine

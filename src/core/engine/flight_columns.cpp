@@ -11,8 +11,8 @@ namespace edmill::engine {
 #else
 #define EDMILL_FOR_SEVERAL_CPUS
 #endif
-// For what the clones call: compiled by itself it would be for the oldest CPU. The clones themselves must not
-// end in a call: GCC 12 then leaves out vzeroupper, and all SSE code after it is slow.
+// For functions that the clones call: compiled separately, they would be for the oldest CPU. The clones
+// themselves must not end in a call: GCC 12 then omits vzeroupper, and all SSE code after it is slow.
 #define EDMILL_INTO_CLONES [[gnu::always_inline]] static inline
 
 namespace {
@@ -27,7 +27,7 @@ static_assert(sizeof(dynamics::Flight<double>) == 2 * sizeof(Four));
 EDMILL_INTO_CLONES void load(const double* from, Four& four) { std::memcpy(&four, from, sizeof four); }
 EDMILL_INTO_CLONES void store(double* to, const Four& four) { std::memcpy(to, &four, sizeof four); }
 
-/// Turns flights into columns: four flights are two rows each.
+/// Transposes flights into columns, four at a time: each flight is two vectors of four doubles.
 /// @param balls  with room for a multiple of four
 EDMILL_INTO_CLONES void gather(const dynamics::Flight<double>* flights, const double* radii, int stride,
                                const int* balls, int count, FlightBatch& batch) {
@@ -65,10 +65,10 @@ EDMILL_INTO_CLONES void gather(const dynamics::Flight<double>* flights, const do
   }
 }
 
-/// Times since the starts.
+/// Computes the times since the starts of the flights [s].
 EDMILL_INTO_CLONES void find_ages(const FlightBatch& batch, const PairFilterQuery& query, int count,
                                   Column& ages) {
-  // Whole periods, below 2^51: as the low bits of a double they need no conversion.
+  // Whole periods are below 2^51: as the low bits of a double they need no conversion.
   constexpr double shift = 6755399441055744.0;  // 1.5 x 2^52
   constexpr std::int64_t bits_of_shift = 0x4338000000000000;
   const double drive = query.filter.period, now = query.now.offset;
@@ -89,7 +89,7 @@ EDMILL_INTO_CLONES void find_motion(const FlightBatch& batch, const PairFilterQu
   const double position = query.state.position[axis], velocity = query.state.velocity[axis];
   const double gravity = query.filter.gravity[axis];
   Four x, u, age;
-  if (gravity == 0) {  // which changes no bit of a contact
+  if (gravity == 0) {  // omitting it changes no bit of a contact
     for (int k = 0; k < count; k += 4) {
       load(batch.position[axis] + k, x);
       load(batch.velocity[axis] + k, u);
@@ -108,7 +108,7 @@ EDMILL_INTO_CLONES void find_motion(const FlightBatch& batch, const PairFilterQu
   }
 }
 
-/// Squares of the distances at which the balls touch; the first four when they are alike.
+/// Computes the squared contact distances; only the first four if all balls are alike.
 EDMILL_INTO_CLONES void find_squares(const FlightBatch& batch, double radius, bool alike, int count,
                                      Column& squares) {
   if (alike) {
@@ -123,7 +123,7 @@ EDMILL_INTO_CLONES void find_squares(const FlightBatch& batch, double radius, bo
   }
 }
 
-/// Lanes that are -1, as the bits of a number.
+/// A bit mask of the lanes that are -1.
 EDMILL_INTO_CLONES unsigned bits_of(const FourIntegers& lanes) {
 #ifdef __SSE2__
   typedef double Two __attribute__((vector_size(16)));
@@ -136,7 +136,7 @@ EDMILL_INTO_CLONES unsigned bits_of(const FourIntegers& lanes) {
 #endif
 }
 
-/// Which of four lanes have their bits set, by these bits; and how many, in four bits each.
+/// The indices of the lanes that are set in each bit mask, and their number, in four bits each.
 constexpr auto lanes_by_bits = [] {
   std::array<std::array<int, 4>, 16> table{};
   for (int bits = 0; bits < 16; ++bits)
@@ -146,11 +146,11 @@ constexpr auto lanes_by_bits = [] {
 }();
 constexpr std::uint64_t counts_by_bits = 0x4332322132212110;
 
-/// The pair filter, see PairFilter, for balls `first` and on of those filtered. Each step is a short chain
-/// of operations, so that the processor works on several fours at once; one chain of all would leave it
-/// waiting. A ball in the very same place is the query's own.
-/// @param found  how many candidates there are before
-/// @return how many there are then
+/// Applies the pair filter, see PairFilter, to a batch whose first ball has the place `first`. Each step is a
+/// short chain of operations, so that the processor overlaps several vectors; in a single loop they would
+/// wait for each other. A ball at exactly the same place is the query's own.
+/// @param found  number of candidates so far
+/// @return the number including this batch
 EDMILL_INTO_CLONES int filter_batch(const FlightBatch& batch, const PairFilterQuery& query, bool alike,
                                     int first, int count, PairFilterResult& result, int found) {
   alignas(64) Column ages, rx, ry, rz, vx, vy, vz, squares;
@@ -186,7 +186,7 @@ EDMILL_INTO_CLONES int filter_batch(const FlightBatch& batch, const PairFilterQu
     store(approach + k, b);
     store(gap + k, c);
     store(discriminants + k, (clear & (discriminant > error + grazing)) ? discriminant : Four{} - 1.0);
-    // Without branches: which of them is one is anybody's guess.
+    // Without branches: which lanes are candidates is unpredictable.
     const unsigned bits = bits_of(meets);
     FourPlaces places;
     std::memcpy(&places, &lanes_by_bits[bits], sizeof places);
@@ -226,7 +226,7 @@ EDMILL_FOR_SEVERAL_CPUS int filter_all_pairs(const FlightBatch* batches, int bal
 int FlightColumns::filter(const PairFilterQuery& query, PairFilterResult& result) const {
   result.make_room(balls_);
   int found = filter_all_pairs(batches_.data(), balls_, alike_, query, result);
-  if (balls_ % 4 != 0)  // the last four of a batch are not all balls
+  if (balls_ % 4 != 0)  // the last four places of a batch are not all balls
     while (found > 0 && result.candidates()[found - 1] >= balls_) --found;
   return found;
 }

@@ -9,7 +9,7 @@
 
 namespace edmill::engine {
 
-/// One ball as seen now, and what would make another one a candidate.
+/// A query of the pair filter: the state of one ball now, and the constants of the filter.
 struct PairFilterQuery {
   const dynamics::PairSearch<double>::State& state;
   double radius;
@@ -17,26 +17,25 @@ struct PairFilterQuery {
   const dynamics::PairFilter<double>& filter;
 };
 
-/// Some flights by columns.
+/// A batch of flights, stored in columns.
 struct alignas(64) FlightBatch {
   static constexpr int capacity = 64;
   double position[3][capacity], velocity[3][capacity];  ///< at the start, by axis
   std::int64_t period[capacity];                        ///< of the start
   double offset[capacity];                              ///< of the start
-  double radius[capacity];                              ///< the first one serves for all when they are alike
+  double radius[capacity];                              ///< only the first is used if all balls are alike
 };
 
-/// What the filter found of each ball, and which of them are left: the candidates. Room only grows.
+/// The results of the filter for each ball, and the list of candidates. The capacity only grows.
 class PairFilterResult {
  public:
-  /// For so many balls, rounded up to a multiple of four.
+  /// Makes room for this many balls, rounded up to a multiple of four.
   void make_room(int count) {
     if (count > room_) [[unlikely]]
       grow(count);
   }
 
-  /// Until the contact with the k-th ball filtered [s]; negative where only the search itself can decide.
-  /// (3.1)
+  /// Time until the contact with the k-th ball filtered [s]; negative if only a pair search can decide. (3.1)
   double delay(int k) const {
     return discriminant_[k] < 0 ? -1.0 : gap_[k] / (std::sqrt(discriminant_[k]) - approach_[k]);
   }
@@ -44,7 +43,7 @@ class PairFilterResult {
   int* candidates() { return candidates_.data(); }  ///< places of the candidates among the balls filtered
   double* approach() { return approach_.data(); }   ///< b = r.v of (3.1)
   double* gap() { return gap_.data(); }             ///< c = r.r - R^2
-  double* discriminant() { return discriminant_.data(); }  ///< b^2 - v.v c; -1 where its sign is open
+  double* discriminant() { return discriminant_.data(); }  ///< b^2 - v.v c; -1 if its sign is uncertain
 
  private:
   void grow(int count);
@@ -54,12 +53,12 @@ class PairFilterResult {
   std::vector<double> approach_, gap_, discriminant_;
 };
 
-/// Looks at a list of balls and finds the candidates among them. Compiled for several instruction sets, all
-/// with the same bits since nothing is contracted.
+/// Finds the candidates in a list of balls. Compiled for several instruction sets, which all give the same
+/// bits since no operations are contracted.
 /// @param flights, radii  of all balls; ball i has radius radii[i * stride]
 /// @param self            the ball of the query, which is never a candidate
 /// @param balls, result    with room for three more than `count`
-/// @return how many candidates there are
+/// @return the number of candidates
 int filter_pairs(const dynamics::Flight<double>* flights, const double* radii, int stride,
                  const PairFilterQuery& query, int self, int* balls, int count, PairFilterResult& result);
 
@@ -68,7 +67,7 @@ int filter_pairs(const dynamics::Flight<double>* flights, const double* radii, i
 int filter_all_pairs(const FlightBatch* batches, int balls, bool alike, const PairFilterQuery& query,
                      PairFilterResult& result);
 
-/// The flights of all balls. Where cells do not help, the filter looks at every ball here.
+/// The flights of all balls, for the filter to test every ball where cells do not help.
 class FlightColumns {
  public:
   /// @param alike  whether all balls have one radius

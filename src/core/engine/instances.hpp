@@ -1,4 +1,5 @@
-// What solves, compiled once for each scalar; included by the instantiation files only.
+// Implementations of the engine and the searches, compiled once for each scalar; included by the
+// instantiation files only.
 #pragma once
 
 #include "base/wide_trigonometry.hpp"

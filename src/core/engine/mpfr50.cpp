@@ -1,4 +1,4 @@
-// The top of the decision ladder, which no run is in.
+// The top of the decision ladder; no run uses this scalar.
 #include "engine/instances.hpp"
 
 EDMILL_LADDER(template, edmill::mpfr50)

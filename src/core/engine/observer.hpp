@@ -1,4 +1,4 @@
-// What an observer of a run receives.
+// Interface for observers inside edmill, and the impacts that they receive.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct Impact {
   Vec3<Real> velocity_before[2];  ///< of the ball and, for balls, the partner [m/s]
   Vec3<Real> spin_before[2];      ///< [rad/s]
   Real flight_time[2];            ///< since the body's last impact, or the start of the run [s]
-  Vec3<Real> wall_velocity;       ///< of the wall at the contact point; of no account between balls [m/s]
+  Vec3<Real> wall_velocity;       ///< of the wall at the contact point; unused between balls [m/s]
 };
 
 template <class Real>
@@ -34,7 +34,7 @@ class Observer {
  public:
   virtual ~Observer() = default;
   virtual void on_impact(const Impact<Real>& impact, Simulation<Real>& simulation) = 0;
-  /// What it has gathered, for a checkpoint.
+  /// Saves or loads its state, for a checkpoint.
   virtual void archive(Archive&) {}
 };
 

@@ -10,15 +10,16 @@
 
 namespace edmill::engine {
 
-/// Nothing here changes a result: without it a run has the same bits and takes longer.
+/// Prefetches data for the next events. It changes no result: without it a run has the same bits and takes
+/// longer.
 ///
-/// Memory takes about ten lines at a time and lets the next ones wait, so there should be other work between
-/// two portions. An event is begun three events early with its ball, whose agenda says two events early what
-/// else it needs, and its partner's agenda one event early whether the contact is void.
+/// The memory system handles about ten cache lines at a time, so there should be other work between two
+/// portions. The ball of an event is prefetched three events ahead. Two events ahead its agenda shows what
+/// else is needed, and one event ahead the partner's agenda shows whether the contact is void.
 template <class Real>
 class Prefetcher {
  public:
-  static constexpr int worthwhile = 1024;  ///< more balls than the near caches hold
+  static constexpr int worthwhile = 1024;  ///< number of balls above which the near caches are too small
 
   Prefetcher(const EventQueue<Real>& queue, const Agendas<Real>& agendas,
              const LargeVector<dynamics::Flight<Real>>& flights, const LargeVector<Body<Real>>& bodies,
@@ -27,13 +28,13 @@ class Prefetcher {
 
   void enable(bool yes) { enabled_ = yes; }
 
-  /// From here to `finish` what the next events need is fetched in portions.
+  /// Starts prefetching for the next events, in portions; `finish` fetches the remaining ones.
   void begin() {
     if (!enabled_) return;
     upcoming_ = queue_.upcoming();
     portion_ = 0;
   }
-  /// The next portion, if there is one: for places where other work lies behind and ahead.
+  /// Fetches the next portion, if there is one; to be called between other work.
   void more() {
     if (portion_ < portions) prefetch_next();
   }
@@ -74,7 +75,7 @@ class Prefetcher {
     }
   }
 
-  /// What every event of a ball needs.
+  /// Prefetches the data that every event of a ball needs.
   void fetch_ball(int ball) const {
     const char* agenda = reinterpret_cast<const char*>(&agendas_[ball]);
     for (std::size_t line = 0; line < sizeof(Agenda<Real>); line += 64) fetch(agenda + line);
@@ -90,7 +91,7 @@ class Prefetcher {
   const Candidates<Real>& candidates_;
   bool enabled_ = false;
   std::array<int, 3> upcoming_{};  ///< balls of the next events, most likely
-  int portion_ = portions;         ///< of what they need, the next one
+  int portion_ = portions;         ///< the next portion to be fetched
 };
 
 }  // namespace edmill::engine

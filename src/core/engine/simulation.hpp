@@ -1,4 +1,4 @@
-// The event-driven simulation: next event, propagate, collide, tell, predict.
+// The event-driven simulation: next event, propagate, collide, notify observers, predict.
 #pragma once
 
 #include <atomic>
@@ -21,7 +21,7 @@ namespace edmill::engine {
 
 using model::EndReason;
 
-/// What the engine counts about itself.
+/// Counters of the engine.
 template <class Real>
 struct EngineCounts {
   std::uint64_t impacts = 0;
@@ -55,32 +55,33 @@ class Simulation {
   /// and stalls, or when `interrupt` becomes true. Can be called again with a later end.
   EndReason run_until(const Instant<Real>& end, const std::atomic<bool>* interrupt = nullptr);
 
-  /// Whether what the next events need is prefetched; changes no result. By default with many
-  /// balls.
+  /// Enables or disables prefetching for the next events, which changes no result (default: enabled with many
+  /// balls).
   void prefetch(bool yes) { prefetcher_.enable(yes && candidates_.uses_cells()); }
 
-  /// Lets another search find wall contacts from here on, without certificates: for comparisons.
+  /// Replaces the wall search by another one, which is not certified: for comparisons.
   void replace_wall_search(typename dynamics::AnyWallSearch<Real>::Policy policy) {
     ladder_.walls().replace(std::move(policy));
   }
 
   /// Asks the loop to return after the present impact.
   void request_stop(EndReason reason) { stop_ = reason; }
-  /// Asks it to return for a pause; any other reason goes before.
+  /// Asks the loop to return for a pause; any other reason takes precedence.
   void request_pause() {
     if (!stop_) stop_ = EndReason::paused;
   }
 
-  /// Everything that changes in a run, so that another simulation of the same case goes on with the same
-  /// bits.
+  /// Saves or loads everything that changes in a run, so that another simulation of the same case continues
+  /// with the same bits.
   /// @pre no event is being processed
-  /// @throws InputError when what is loaded can be no state of this case
+  /// @throws InputError when the loaded data cannot be a state of this case
   void archive(Archive& a);
 
   const Instant<Real>& now() const { return now_; }
   Real seconds() const { return clock_.seconds(now_); }
   const DriveClock<Real>& clock() const { return clock_; }
-  /// The instant of a record at `time` [s]; what is now but for the rounding of seconds is now.
+  /// The instant of a record at `time` [s]. A time that equals the current one up to the rounding of seconds
+  /// gives the current instant.
   Instant<Real> instant_of(const Real& time) const {
     const Real off = time - seconds(), unit = 8 * epsilon<Real>() * (time + clock_.period());
     return off <= unit && off >= -unit ? now_ : clock_.at(time);
@@ -144,8 +145,7 @@ class Simulation {
   model::Mill<Real> mill_;
   DriveClock<Real> clock_;
   std::vector<model::BallProperties<Real>> balls_;
-  int stride_;  ///< 0 when all balls are alike: then the first entry, which stays in the cache, serves for
-                ///< all
+  int stride_;  ///< 0 if all balls are identical: then the first entry, which stays in the cache, is used
   LargeVector<dynamics::Flight<Real>> flights_;
   LargeVector<Body<Real>> bodies_;
   Agendas<Real> agendas_;
@@ -155,7 +155,7 @@ class Simulation {
   Prefetcher<Real> prefetcher_;
   CollapseWatch<Real> collapse_watch_;
   bool may_collapse_;  ///< a law lets bodies separate at any speed
-  Real slow_;          ///< approach of bodies that acceleration brings together over the smallest path [m/s]
+  Real slow_;          ///< largest approach speed that acceleration gives over the smallest path [m/s]
   StallWatch<Real> stall_watch_;
   std::vector<Observer<Real>*> observers_;
   EngineCounts<Real> counts_;
@@ -163,9 +163,9 @@ class Simulation {
   std::optional<model::Stall<Real>> stall_;
   std::optional<EndReason> stop_;
   Instant<Real> now_;
-  Real tolerated_overlap_;  ///< far above rounding and given states, far below a missed impact [m]
-  Real fall_;               ///< that a flight adds to a ball's speed at most [m/s]
-  Real top_speed_;          ///< of any ball at any time; it grows
+  Real tolerated_overlap_;  ///< far above rounding and errors of given states, far below a missed impact [m]
+  Real fall_;               ///< the most that gravity adds to a ball's speed in one flight [m/s]
+  Real top_speed_;          ///< of any ball at any time, at most [m/s]; it grows
   // Scratch, valid during one event.
   FoundBalls near_, near_partner_;  ///< balls of the adjacent cells
   model::AnyPose<Real> pose_;       ///< now
@@ -174,7 +174,7 @@ class Simulation {
   std::vector<Event<Real>> rivals_;  ///< contacts that may be first
 };
 
-// Its inline functions come from where they are optimised.
+// Instantiated in the source that is compiled with all optimisations.
 extern template class Simulation<double>;
 
 }  // namespace edmill::engine

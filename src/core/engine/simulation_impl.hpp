@@ -12,7 +12,7 @@
 
 namespace edmill::engine {
 
-// Bounds that hold for every ball of a run.
+// Bounds that are valid for every ball of a run.
 
 template <class Real>
 bool all_alike(const std::vector<model::BallProperties<Real>>& balls) {
@@ -25,8 +25,8 @@ Real smallest_radius(const std::vector<model::BallProperties<Real>>& balls) {
   return std::min_element(balls.begin(), balls.end(), smaller)->radius;
 }
 
-/// The most that gravity adds to a ball's speed in one flight: one that stays within `reach` of the origin
-/// bends by g t^2/8 < 2 reach [m/s].
+/// The most that gravity adds to a ball's speed in one flight [m/s]: the deflection g t^2/8 of a flight that
+/// stays within `reach` of the origin is below 2 reach.
 template <class Real>
 Real largest_fall(const model::Mill<Real>& mill) {
   using std::sqrt;
@@ -34,7 +34,7 @@ Real largest_fall(const model::Mill<Real>& mill) {
   return 4 * sqrt(reach * norm<Real>(mill.gravity));
 }
 
-/// Speed of two bodies that the accelerations of walls and gravity bring together over a path [m/s].
+/// Relative speed that two bodies gain over a path by the accelerations of walls and gravity [m/s].
 template <class Real>
 Real speed_over(const Real& path, const model::Mill<Real>& mill) {
   using std::sqrt;
@@ -44,16 +44,16 @@ Real speed_over(const Real& path, const model::Mill<Real>& mill) {
   return sqrt(2 * acceleration * path);
 }
 
-/// A clock that advances by less hardly advances: no ball has time to move, or rounding is all that moves it
-/// [s].
+/// Shortest significant advance of the clock [s]: in less time no ball can move, or only rounding moves the
+/// clock.
 template <class Real>
 Real shortest_advance(const model::Mill<Real>& mill) {
   const Real by_rule = mill.least_separations().second / mill.stall.acceleration;
   return std::max(by_rule, Real(1000000 * epsilon<Real>() * mill.motion.period()));
 }
 
-/// Largest speed of a ball until impacts make one faster than twice the fastest ball or wall at the start
-/// [m/s].
+/// Bound on the speed of all balls [m/s], valid until impacts make one faster than twice the fastest ball or
+/// wall at the start.
 template <class Real>
 Real largest_speed(const std::vector<model::BallState<Real>>& states, const model::Mill<Real>& mill) {
   Real largest{1};
@@ -68,8 +68,8 @@ Real largest_speed(const std::vector<model::BallState<Real>>& states, const mode
 
 namespace detail {
 
-/// The region that the vessel sweeps, cut into cells that hold about one ball but are thicker than the
-/// largest.
+/// Divides the region that the vessel sweeps into cells that contain about one ball each but are thicker than
+/// the largest.
 template <class Real>
 CellGrid make_grid(const model::Mill<Real>& mill, const std::vector<model::BallProperties<Real>>& balls) {
   const auto region = mill.motion.swept(mill.vessel.half_sizes(), mill.vessel.reach());
@@ -165,7 +165,8 @@ void Simulation<Real>::archive(Archive& a) {
   }
 }
 
-/// Saved states can come from elsewhere: what the loop would take on trust is looked at once.
+/// True if a loaded state is possible. It can come from elsewhere, so everything that the loop relies on is
+/// checked once.
 template <class Real>
 bool Simulation<Real>::is_sound() const {
   using std::isfinite;
@@ -207,8 +208,7 @@ model::Energy<Real> Simulation<Real>::energy_at(const Instant<Real>& when) const
   return energy;
 }
 
-// The loop: the next event, which of contacts that are close in time is first, impacts, and what comes next
-// for a ball.
+// The loop: the next event, the order of contacts that are close in time, impacts, and predictions.
 
 /// Processes every event up to `end`.
 template <class Real>
@@ -217,7 +217,7 @@ EndReason Simulation<Real>::run_until(const Instant<Real>& end, const std::atomi
   stop_.reset();
   for (int next = queue_.top(); queue_.time(next) <= end; next = queue_.top()) {
     if (interrupt && interrupt->load(std::memory_order_relaxed)) return EndReason::interrupted;
-    const auto event = event_of(next);  // of near ties the first
+    const auto event = event_of(next);  // or an earlier one that nearly ties with it
     prefetcher_.begin();
     now_ = event.time;
     switch (event.kind) {
@@ -246,8 +246,8 @@ EndReason Simulation<Real>::run_until(const Instant<Real>& end, const std::atomi
   return EndReason::interrupted;
 }
 
-/// What happens next, where `ball` is the first in the queue: what was queued for it, unless that is a
-/// contact and another one is as early within rounding.
+/// The next event, where `ball` is the first in the queue: the queued event of this ball, unless that is a
+/// contact and another one is simultaneous within rounding.
 template <class Real>
 auto Simulation<Real>::event_of(int ball) -> Event<Real> {
   auto event = queued_event(ball);
@@ -258,7 +258,7 @@ auto Simulation<Real>::event_of(int ball) -> Event<Real> {
   return event;
 }
 
-/// What was queued for a ball.
+/// The queued event of a ball.
 template <class Real>
 auto Simulation<Real>::queued_event(int ball) const -> Event<Real> {
   const Agenda<Real>& a = agendas_[ball];
@@ -279,7 +279,7 @@ void Simulation<Real>::requeue(int ball) {
   queue_.set(ball, a.times[a.next]);
 }
 
-/// The next pair contact takes the place of the nearest one, which is void.
+/// Drops the nearest pair contact of a ball, which is void; the next one takes its place.
 template <class Real>
 void Simulation<Real>::drop_void_contact(int ball) {
   ++counts_.stale_events;
@@ -295,7 +295,7 @@ void Simulation<Real>::drop_void_contact(int ball) {
   requeue(ball);
 }
 
-/// The ball may meet the balls of the cells that are new to it.
+/// Moves a ball to the next cell and predicts its contacts with the balls of new neighbouring cells.
 template <class Real>
 void Simulation<Real>::cross_cell(int ball) {
   ++counts_.cell_crossings;
@@ -309,7 +309,7 @@ void Simulation<Real>::cross_cell(int ball) {
   requeue(ball);
 }
 
-/// Whether anything else is due so soon after a contact that it may be first. Rarely.
+/// True if another event follows a contact so soon that it may be first, which is rare.
 template <class Real>
 bool Simulation<Real>::has_rivals(const Event<Real>& event) const {
   const Instant<Real> limit = clock_.after(event.time, ladder_.tie_window());
@@ -319,12 +319,12 @@ bool Simulation<Real>::has_rivals(const Event<Real>& event) const {
   return due > 1 || queue_.runner_up(limit) >= 0;  // one is the event itself
 }
 
-/// Finds the first of the contacts that share a ball and are so close in time that rounding may have put them
-/// in the wrong order: wider scalars time them anew. What no scalar can separate is ordered by a rule,
-/// and marked.
+/// Finds the first of the contacts that share a ball and are so close in time that rounding may have reversed
+/// their order: wider scalars recompute their times. Contacts that no scalar can separate are ordered by a
+/// rule and marked.
 template <class Real>
 auto Simulation<Real>::settle_ties(Event<Real> event) -> Event<Real> {
-  std::vector<Event<Real>> passed;  // that went after another one
+  std::vector<Event<Real>> passed;  // contacts that come after another one
   for (;;) {
     const Instant<Real> limit = clock_.after(event.time, ladder_.tie_window());
     finish_wall_searches(event, limit);
@@ -347,7 +347,7 @@ auto Simulation<Real>::settle_ties(Event<Real> event) -> Event<Real> {
   }
 }
 
-/// A search that ends so soon may end just before a contact.
+/// Continues wall searches whose windows end before `limit`: a contact may follow immediately.
 template <class Real>
 void Simulation<Real>::finish_wall_searches(const Event<Real>& event, const Instant<Real>& limit) {
   const auto finish = [&](int ball) {
@@ -378,12 +378,12 @@ void Simulation<Real>::find_rivals(const Event<Real>& event, const Instant<Real>
   }
 }
 
-/// Fills `due_` with balls that have an event up to `limit`, all that may share one with a ball of `event`
-/// among them.
+/// Fills `due_` with balls that have an event up to `limit`, including all that may share an event with a
+/// ball of `event`.
 template <class Real>
 void Simulation<Real>::find_due(const Event<Real>& event, const Instant<Real>& limit) {
   if (!candidates_.uses_cells()) return queue_.due_until(limit, due_);
-  // However many others have events at the same time.
+  // Only balls nearby, however many others have events at the same time.
   due_.clear();
   add_near(event.ball, due_);
   if (event.kind == EventKind::pair_contact) add_near(event.partner, due_);
@@ -403,7 +403,7 @@ void Simulation<Real>::add_near(int ball, std::vector<int>& balls) {
   balls.insert(balls.end(), near_due_.balls.begin(), near_due_.balls.begin() + near_due_.count);
 }
 
-/// Contacts that the ball's agenda had no room for are predicted anew.
+/// Adds the contacts that did not fit into the ball's agenda, by predicting them again.
 template <class Real>
 void Simulation<Real>::add_rivals_of_full_agenda(int ball, const Event<Real>& event,
                                                  const Instant<Real>& limit) {
@@ -544,8 +544,8 @@ Impact<Real> Simulation<Real>::collide_pair(const Event<Real>& event) {
   return impact;
 }
 
-/// Counts the ball's impacts that came without time to move. @return whether there were so many in a row
-/// before this one that friction rests
+/// Counts the ball's consecutive impacts without time to move. @return true if there were so many before this
+/// one that it is frictionless
 template <class Real>
 bool Simulation<Real>::friction_rests(int ball, const Real& flight_time, const model::ContactLaw<Real>& law) {
   auto& unmoved = bodies_[ball].unmoved;
@@ -558,7 +558,7 @@ bool Simulation<Real>::friction_rests(int ball, const Real& flight_time, const m
   return false;
 }
 
-/// Bounds that grow with the speed of the fastest ball follow the ball's new velocity.
+/// Raises the bounds that depend on the speed of the fastest ball if the ball's new velocity requires it.
 template <class Real>
 void Simulation<Real>::raise_top_speed(int ball) {
   const Real fastest = top_speed_ - fall_;
@@ -570,8 +570,8 @@ void Simulation<Real>::raise_top_speed(int ball) {
   candidates_.raise_top_speed(top_speed_);
 }
 
-/// Whether the impact is one of infinitely many in finite time, or of many while time does not advance; all
-/// observers are notified then.
+/// Tests whether the impact is one of infinitely many in finite time, or of many while time does not advance;
+/// then notifies all observers.
 template <class Real>
 void Simulation<Real>::notify(const Impact<Real>& impact) {
   if (may_collapse_) {
@@ -601,7 +601,7 @@ void Simulation<Real>::note_collapse(const Impact<Real>& impact, int ball, int p
   stop_ = EndReason::inelastic_collapse;
 }
 
-/// What comes next for the balls of an impact.
+/// Predicts the next events of the balls of an impact.
 template <class Real>
 void Simulation<Real>::predict(const Impact<Real>& impact) {
   if (impact.with_wall) return predict_all(impact.ball, -1, pose_, near_);
@@ -619,7 +619,7 @@ void Simulation<Real>::predict_all(int ball, int already_done, const model::AnyP
   const auto state = candidates_.state(ball, now_);
   agendas_[ball].drop_pairs();
   const int found = candidates_.find(ball, state, now_, near);
-  // Before the candidates: how many there are is known late, and the processor can do this meanwhile.
+  // Before the candidates are used: their number is known late, and the processor can do this meanwhile.
   predict_crossing(ball, state);
   predict_pairs(ball, already_done, state, found, near);
   prefetcher_.more();
@@ -679,8 +679,8 @@ void Simulation<Real>::predict_crossing(int ball, const DoubleState& state) {
       crossing.delay < Crossing::never ? clock_.after(now_, Real(crossing.delay)) : Instant<Real>::never();
 }
 
-/// How far a wall search from `begin` need look: to a little past the ball's nearest pair contact, so that
-/// a wall contact which may be first is known.
+/// Length of the window for a wall search from `begin` [s]: up to a little after the ball's nearest pair
+/// contact, so that every wall contact that may come first is found.
 template <class Real>
 Real Simulation<Real>::search_length(int ball, const Instant<Real>& begin) const {
   const Real& longest = ladder_.walls().longest_window();
@@ -726,7 +726,7 @@ void Simulation<Real>::take_wall_answer(int ball, const dynamics::WallAnswer<Rea
     a.times[Agenda<Real>::wall_entry] = answer.time;
     a.wall_pose = answer.pose;
   } else {
-    // The next search begins where this one's proof still holds, whatever the sum is rounded to.
+    // The next search begins where this proof is still valid, however the sum is rounded.
     a.wall = -1;
     a.times[Agenda<Real>::wall_entry] =
         clock_.after(begin, answer.searched - 4 * epsilon<Real>() * clock_.period());

@@ -1,5 +1,5 @@
-// Recognise runs that cannot go on: by inelastic collapse, infinitely many impacts of a ball in finite time,
-// or because time no longer advances.
+// Detects runs that cannot continue: because of inelastic collapse, infinitely many impacts of a ball in
+// finite time, or because time no longer advances.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace edmill::engine {
 
-/// What is kept of a ball's recent impacts.
+/// Data about the recent impacts of a ball.
 template <class Real>
 struct RecentImpacts {
   Instant<Real> last = Instant<Real>::long_ago();
@@ -23,20 +23,23 @@ struct RecentImpacts {
   void archive(Archive& a) { a(last, accumulation, partner, burst); }
 };
 
-/// Follows the balls' recent impacts by laws without a least separation speed. A ball is in collapse whose
-/// last `enough` impacts each came after a path shorter than `smallest_path`, a length well above rounding,
-/// and so slowly that the bodies' acceleration brought them together again, or that nothing but rounding is
-/// left of their approach. Faster impacts without a path are those of bodies that touch: a sequence of them
+/// Detects inelastic collapse, for laws without a least separation speed. A ball is in collapse if each of
+/// its last `enough` impacts came after a path shorter than `smallest_path`, a length well above rounding,
+/// and was so slow that acceleration alone brought the bodies together again, or that its approach speed is
+/// mere rounding. Faster impacts after such short paths are those of bodies that touch: a sequence of them
 /// comes to an end.
-/// The accumulation time extrapolates the first of these impacts, where rounding matters least: intervals
-/// with one partner shrink by the restitution e, so the rest of them sums to dt e / (1 - e).
+/// The accumulation time is extrapolated from the first of these impacts, where rounding matters least:
+/// intervals with one partner shrink by the restitution e, so the remaining ones sum to dt e / (1 - e).
 template <class Real>
 class CollapseWatch {
  public:
   explicit CollapseWatch(const Real& smallest_path) : smallest_path_(smallest_path) {}
 
-  /// Takes note of an impact. @param key identifies the partner, @return true when the ball is in collapse
-  /// @param slow  of approach speeds by acceleration over the smallest path, or by rounding [m/s]
+  /// Records an impact.
+  /// @param key   identifies the partner
+  /// @param slow  approach speeds below this are due to acceleration over the smallest path, or to rounding
+  /// [m/s]
+  /// @return true if the ball is in collapse
   bool note(RecentImpacts<Real>& r, int key, const Instant<Real>& now, const Real& approach_speed,
             const Real& slow, const Real& restitution, const DriveClock<Real>& clock) const {
     const Real interval = clock.elapsed(r.last, now);
@@ -67,14 +70,14 @@ class CollapseWatch {
   Real smallest_path_;
 };
 
-/// Counts the impacts of all balls against the clock. A run is stalled when so many come while the clock
-/// hardly advances that the bodies can only be jammed: where any motion parts them all, impacts without
-/// friction find it sooner (theory.md, section 6).
+/// Detects stalled runs, by counting the impacts of all balls against the clock. A run is stalled when so
+/// many impacts come while the clock hardly advances that the bodies must be jammed: if any motion separated
+/// them all, frictionless impacts would have found it before (theory.md, section 6).
 template <class Real>
 class StallWatch {
  public:
   /// @param balls  how many there are: each may have impacts of its own at one instant
-  /// @param brief  the clock has hardly advanced when by less than this [s]
+  /// @param brief  an advance of the clock by less than this does not count [s]
   StallWatch(std::size_t balls, const Instant<Real>& start, Real brief)
       : most_(std::int64_t{100000} + 100 * static_cast<std::int64_t>(balls)),
         left_(most_),
@@ -88,10 +91,10 @@ class StallWatch {
     return look(now, clock, ball, with_wall, partner);
   }
 
-  /// The bodies that hit each other then.
+  /// The bodies that hit each other in the stall.
   const model::Stall<Real>& found() const { return found_; }
 
-  /// Whether what was loaded can be of a run of so many balls and walls.
+  /// True if the loaded state is possible in a run with this many balls and walls.
   bool is_sound(int balls, int walls) const {
     const auto are_below = [](const std::vector<int>& bodies, int count) {
       return std::all_of(bodies.begin(), bodies.end(), [&](int b) { return b >= 0 && b < count; });
@@ -103,7 +106,7 @@ class StallWatch {
   void archive(Archive& a) { a(left_, begin_, found_); }
 
  private:
-  /// Enough further impacts that each of the bodies takes part.
+  /// Number of further impacts after which each of the bodies has taken part in one.
   static constexpr std::int64_t sample = 10000;
 
   [[gnu::noinline]] bool look(const Instant<Real>& now, const DriveClock<Real>& clock, int ball,
@@ -125,7 +128,7 @@ class StallWatch {
     if (place == bodies.end() || *place != body) bodies.insert(place, body);
   }
 
-  std::int64_t most_, left_;  ///< impacts since `begin_`: how many are enough, and how many are left to that
+  std::int64_t most_, left_;  ///< impacts since `begin_`: enough for a stall, and remaining until then
   Instant<Real> begin_;
   Real brief_;
   model::Stall<Real> found_;

@@ -1,4 +1,4 @@
-// Milling balls: what does not change during a run, their states, and two bodies that meet.
+// Milling balls: their constant properties, their states, and the two bodies of an impact.
 #pragma once
 
 #include "base/vector.hpp"
@@ -23,7 +23,7 @@ struct BallState {
   Vec3<Real> spin;      ///< [rad/s]
 };
 
-/// What a contact law may ask of the two bodies of an impact: a ball with another one, or with a wall.
+/// Data of the two bodies of an impact that a contact law can use: two balls, or a ball and a wall.
 template <class Real>
 struct ContactBodies {
   Real effective_mass;    ///< M = m_i m_j / (m_i + m_j), for a wall m_i [kg]

@@ -11,12 +11,12 @@
 
 namespace edmill::model {
 
-/// Gentle impacts may not work the powder (thesis, section 6): a dose may count only above a limit, and only
-/// its part along the normal.
+/// Which part of the dose counts. Gentle impacts may not work the powder (thesis, section 6), so counting can
+/// be restricted to doses from a limit on, and to the part along the normal.
 template <class Number>
 struct CountedDose {
   bool normal_only = false;
-  Number least{0};  ///< dose of an impact, or its normal part, from which on it counts [J]
+  Number least{0};  ///< smallest dose of an impact, or of its normal part, that counts [J]
 
   bool all() const { return !normal_only && !(least > 0); }
   /// @param outcome  of an impact  @return [J]

@@ -1,4 +1,5 @@
-// Contact laws: how fast two bodies leave an impact, and how much of their slip is left. (2.23'), (2.24')
+// Contact laws: the separation speed of two bodies after an impact, and the part of their slip that remains.
+// (2.23'), (2.24')
 #pragma once
 
 #include <memory>
@@ -25,8 +26,8 @@ using NamedLaws = std::variant<WaltonBraun<Number>,          //
                                ElasticPlastic<Number>,       //
                                PowderLoad<Number>>;
 
-/// A law that a program brings along. It has no name in case files. In another scalar it is empty: searches,
-/// which are what the ladder does in wider scalars, ask no law.
+/// A law defined by a program. It has no name in case files. Converted to another scalar it is empty: the
+/// ladder uses wider scalars only for searches, which need no law.
 template <class Real>
 struct LawOfProgram {
   static constexpr const char* name = "custom";
@@ -43,8 +44,8 @@ struct LawOfProgram {
                        "): found " + to_text<Real>(e) + ", expected 0 to 1");
     return e;
   }
-  /// Measured contacts may reverse a little more than the slip; whether an impact gains energy by that is
-  /// checked when all of it is known.
+  /// Values a little below -1 are allowed, since measured contacts may reverse more than the slip; whether
+  /// the impact gains energy by that is checked when all of it is known.
   /// @throws InputError unless the program's answer is in [-1.5, 1]
   Real restitution_of_slip(const Real& normal_change, const Real& slip_speed, const Real& compliance) const {
     const Real e = law->restitution_of_slip(normal_change, slip_speed, compliance);
@@ -56,7 +57,7 @@ struct LawOfProgram {
   }
 };
 
-/// e_n of one law, of those that ask for the bodies and those that do not.
+/// e_n of one law, which may or may not depend on the bodies.
 template <class Law, class Number>
 Number restitution_of(const Law& law, const Number& approach_speed, const ContactBodies<Number>& bodies) {
   if constexpr (requires { law.restitution(approach_speed, bodies); })
@@ -85,7 +86,7 @@ struct ContactLaw {
   }
 
   /// e_n in [0, 1]. @param approach_speed  |g_n| >= 0 [m/s]
-  /// @param bodies  those that meet
+  /// @param bodies  the two bodies of the impact
   Number restitution(const Number& approach_speed, const ContactBodies<Number>& bodies) const {
     return std::visit([&](const auto& l) { return Number(restitution_of(l, approach_speed, bodies)); }, law);
   }

@@ -1,4 +1,4 @@
-// What logs say of an impact: the one list of its quantities and of its vectors, and one impact of a log.
+// Impacts in logs: the one list of their quantities, that of their vectors, and one impact of a log.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace edmill::model {
 
-/// A quantity of an impact that logs hold and judges compare; SI.
+/// Quantities of an impact that logs contain and comparisons use; SI.
 enum Logged : std::size_t { time, approach_speed, slip_speed, milling_dose, wall_work, logged_count };
 
 struct LoggedQuantity {
@@ -25,7 +25,7 @@ inline constexpr std::array<LoggedQuantity, logged_count> logged_quantities{{
     {"wall_work", "J", "work of the wall on the ball"},
 }};
 
-/// A vector of a body of an impact, in the inertial frame; the partner's are not known of a wall.
+/// A logged vector of one body of an impact, in the inertial frame. A wall as partner has none.
 struct LoggedVector {
   std::string_view name, unit;
   std::string_view letter, when;  ///< of its columns in a CSV file: "v" and "_before" of "vx_before"
@@ -38,7 +38,8 @@ inline constexpr std::array<LoggedVector, 5> logged_vectors{{
     {"spin_after", "rad/s", "w", "_after"},
 }};
 
-/// Calls `use` with the names "x" to "wz_after" and "partner_x" to "partner_wz_after", as columns come.
+/// Calls `use` with the names "x" to "wz_after" and "partner_x" to "partner_wz_after", in the order of the
+/// columns.
 void for_logged_vectors(auto&& use) {
   for (const std::string body : {"", "partner_"})
     for (const auto& vector : logged_vectors)
@@ -46,20 +47,20 @@ void for_logged_vectors(auto&& use) {
         use(body + std::string(vector.letter) + axis + std::string(vector.when));
 }
 
-/// One impact as a log has it, or a run beside a log.
+/// One impact of a log, or of a run that is compared with a log.
 template <class Number>
 struct ImpactRecord {
   int ball = 0;
   bool with_wall = false;
   int partner = 0;                                                             ///< ball or wall id
   Number time{}, approach_speed{}, slip_speed{}, milling_dose{}, wall_work{};  ///< nan where a log has none
-  std::uint64_t line = 0;  ///< of the file, from 1; 0 of a run
+  std::uint64_t line = 0;  ///< in the file, from 1; 0 for an impact of a run
   bool by_rule = false;    ///< another contact has the same time, and a rule put this one first
 
   Number& operator[](std::size_t quantity) { return this->*members[quantity]; }
   const Number& operator[](std::size_t quantity) const { return this->*members[quantity]; }
 
-  /// Of two balls the lower number first.
+  /// Swaps two balls if necessary, so that the lower number comes first.
   void put_in_order() {
     if (!with_wall && partner < ball) std::swap(ball, partner);
   }

@@ -1,4 +1,4 @@
-// The physical model without the balls: a vessel on its motion, gravity and what contacts do.
+// The physical model without the balls: the vessel and its motion, gravity, and contact laws.
 #pragma once
 
 #include <algorithm>
@@ -15,27 +15,27 @@
 
 namespace edmill::model {
 
-/// When friction rests. (docs/theory.md, section 6)
+/// The stall rule: when impacts are frictionless. (docs/theory.md, section 6)
 ///
-/// The least separation speed v_s bounds the impacts of a pair that nothing else touches. In a wedge of
-/// several bodies friction can pass the energy that v_s supplies from pair to pair without end, at one
-/// instant. So friction rests in a stall: after `impacts` impacts in a row that each came without time to
-/// move, those that follow are frictionless until the ball moves again.
+/// The least separation speed v_s bounds the number of impacts of a pair that nothing else touches. In a
+/// wedge of several bodies friction can pass the energy that v_s supplies from pair to pair without end, at
+/// one instant. Therefore, after `impacts` consecutive impacts of a ball that each came without time to move,
+/// the following ones are frictionless until the ball moves again.
 ///
-/// A ball has had no time to move when its flight was shorter than v_s / `acceleration`. Bodies that are
-/// pressed together by less than that acceleration part for longer, by 2 v_s / a.
+/// A ball has had no time to move if its flight was shorter than v_s / `acceleration`. Bodies that are
+/// pressed together by less than that acceleration separate for longer, for 2 v_s / a.
 struct StallRule {
   int impacts = 32;
   int acceleration = 30000;  ///< far above that of any mill [m/s^2]
 
-  /// @param least_separation  v_s of the law of the impact [m/s]; without one no flight is too short
+  /// @param least_separation  v_s of the law of the impact [m/s]; if it is zero, no flight is too short
   template <class Real>
   bool has_moved(const Real& flight_time, const Real& least_separation) const {
     return !(flight_time * acceleration < least_separation);
   }
 };
 
-/// Contact laws by materials. Empty where a case names no pairs of them.
+/// Contact laws by material. Empty if the case defines no pairs of materials.
 template <class Real>
 struct PairLaws {
   std::vector<ContactLaw<Real>> laws;
@@ -98,8 +98,8 @@ Mill<To> mill_cast(const Mill<From>& m) {
           .stall = m.stall};
 }
 
-/// Calls f(motion, vessel): in double with the SPEX and the cylinder as what they are, so that f is compiled
-/// for them, with everything else as it is given.
+/// Calls f(motion, vessel). In double, a SPEX with a cylinder is passed with its concrete types, so that f is
+/// compiled for them; everything else is passed as it is given.
 template <class Real, class F>
 [[gnu::always_inline]] inline decltype(auto) with_parts(const AnyMotion<Real>& motion,
                                                         const AnyVessel<Real>& vessel, F&& f) {
@@ -112,7 +112,7 @@ template <class Real, class F>
   return f(motion, vessel);
 }
 
-/// A pose as M has it.
+/// The pose as the type that motion M uses.
 template <class M>
 const typename M::Pose& pose_of(const AnyPose<typename M::Scalar>& pose) {
   if constexpr (std::is_same_v<typename M::Pose, AnyPose<typename M::Scalar>>)

@@ -1,4 +1,4 @@
-// The motion of a vessel: what every motion provides, and one that is any of them.
+// The motion of a vessel: the concept, and a type that can be any motion.
 #pragma once
 
 #include <concepts>
@@ -10,23 +10,25 @@
 
 namespace edmill::model {
 
-/// A rigid motion of the vessel frame, periodic or not, and bounds on it that hold at all times. A search
-/// asks for the pose once for each instant and for everything else by that pose.
+/// A rigid motion of the vessel frame, periodic or not, with bounds that are valid at all times. A search
+/// computes the pose once for each instant and everything else from that pose.
 ///
-/// - `pose(when)`; `pose_nearby(when, pose, known)`, the same at less cost within a moment of a known one, if
-///   the motion can; `position_nearby(when, pose, known, position)`, what `position_in_vessel` gives for that
+/// - `pose(when)`; `pose_nearby(when, pose, known)`, the same from the pose at a nearby instant `known`, at
+///   less cost if the motion supports it; `position_nearby(when, pose, known, position)`, the corresponding
+///   `position_in_vessel`
 /// - `to_inertial`, `direction_to_inertial`, `position_in_vessel`, `to_vessel_frame` and
-///   `vessel_frame_acceleration`: places, velocities and accelerations of free bodies between the frames
-/// - `wall_velocity`, `wall_acceleration`: inertial, of the vessel's material point at an inertial place
-/// - `middle()`: where pictures look for the vessel [m]
-/// - `reach(r)` [m]: bound on the distance from the origin of what is within r of the vessel's centre
-/// - `wall_speed(r)`, `speed_within(d)`, `acceleration_within(d)`: bounds on the vessel's points within r of
+///   `vessel_frame_acceleration`: positions, velocities and accelerations of free bodies in the other frame
+/// - `wall_velocity`, `wall_acceleration`: inertial, of the vessel's material point at an inertial position
+/// - `middle()`: the point at which pictures are centred [m]
+/// - `reach(r)` [m]: bound on the distance from the origin of all points within r of the vessel's centre
+/// - `wall_speed(r)`, `speed_within(d)`, `acceleration_within(d)`: bounds for the vessel's points within r of
 ///   its centre, or within d of the origin
 /// - `swept(sizes, r)`: the box that the vessel sweeps
-/// - `coordinate_bounds`: majorants of a ball's coordinates in the vessel frame, what makes an exclusion a
-///   proof, for windows up to `longest_window()` [s]
-/// - `speed_in_vessel`, `acceleration_in_vessel`: bounds on a ball in the vessel frame, which the bounds of a
-///   flight then have for `coordinate_errors` and `state_errors`, on the rounding of its coordinates
+/// - `coordinate_bounds`: majorants of a ball's coordinates in the vessel frame, by which contacts are
+///   excluded with proof, for windows up to `longest_window()` [s]
+/// - `speed_in_vessel`, `acceleration_in_vessel`: bounds on a ball in the vessel frame, which are stored in
+///   the flight's bounds for `coordinate_errors` and `state_errors`, the bounds on the rounding of its
+///   coordinates
 template <class M, class Real = typename M::Scalar>
 concept Motion = requires(const M& motion, const typename M::Pose& pose, const Instant<Real>& when,
                           const Vec3<Real>& v, const Real& x, const VesselFrameState<Real>& state,
@@ -94,7 +96,7 @@ class AnyMotion {
     return visit([](const auto& m) { return AnyMotion<To>(m.template cast<To>()); });
   }
 
-  /// The motion when it is an M, else none.
+  /// The motion if it is an M, otherwise null.
   template <class M>
   const M* get_if() const {
     return std::get_if<M>(&motion_);
@@ -119,8 +121,9 @@ class AnyMotion {
               [&](const auto& m, const auto& own) { return m.position_nearby(when, own, known, position); });
   }
 
-// The concept says what these take. Results are named: to ask whether this is a Motion then needs no bodies,
-// which every source would instantiate again. First those of a pose, then those of the motion.
+// The concept documents the parameters. Return types are explicit: testing whether this is a Motion then
+// needs no function bodies, which every source would instantiate again. First the functions of a pose, then
+// those of the motion.
 #define EDMILL_BY_POSE(Result, name)                                                    \
   Result name(const Pose& pose, const auto&... a) const {                               \
     return at(pose, [&](const auto& m, const auto& own) { return m.name(own, a...); }); \

@@ -28,12 +28,12 @@ enum class EndReason {
   first_stop_rule  ///< and so on, in the order of StopRuleList
 };
 
-/// The reason of an end by the rule at this place of StopRuleList.
+/// The end reason for the stop rule at this place of StopRuleList.
 inline constexpr EndReason reason_of_rule(std::size_t place) {
   return static_cast<EndReason>(static_cast<std::size_t>(EndReason::first_stop_rule) + place);
 }
 
-/// By their numbers.
+/// Names of the end reasons, by their numbers.
 inline constexpr auto end_reason_names = [] {
   std::array<std::string_view, static_cast<std::size_t>(EndReason::first_stop_rule) + stop_rule_count> names{
       "end_time", "max_cpu_time", "inelastic_collapse", "stalled", "undecided", "interrupted",
@@ -44,7 +44,7 @@ inline constexpr auto end_reason_names = [] {
   return names;
 }();
 
-/// As in `summary.json`.
+/// The name of an end reason, as in `summary.json`.
 inline constexpr std::string_view name(EndReason reason) {
   return end_reason_names[static_cast<std::size_t>(reason)];
 }
@@ -86,7 +86,7 @@ Energy<Real> energy_of(const std::vector<BallProperties<Real>>& balls,
   return total;
 }
 
-/// Where a run could not go on: the exact model has a Zeno point here. (docs/theory.md, section 6)
+/// Why a run could not continue: the exact model has a Zeno point at this time. (docs/theory.md, section 6)
 template <class Real>
 struct InelasticCollapse {
   int ball = -1;
@@ -95,17 +95,17 @@ struct InelasticCollapse {
   Real accumulation_time{};  ///< when the impacts accumulate [s]
 };
 
-/// Where a run could not go on since its clock stood still. (docs/theory.md, section 6)
+/// Why a run could not continue: its clock no longer advanced. (docs/theory.md, section 6)
 template <class Real>
 struct Stall {
   Real time{};                    ///< [s]
   std::vector<int> balls, walls;  ///< that hit each other at this instant, by id
-  std::uint64_t impacts = 0;      ///< they had, at least
+  std::uint64_t impacts = 0;      ///< lower bound on the number of their impacts
 
   void archive(Archive& a) { a(time, balls, walls, impacts); }
 };
 
-/// Decisions that were passed up to one wider scalar.
+/// Numbers of decisions that were passed to one wider scalar.
 struct Escalations {
   std::string scalar;
   std::uint64_t wall = 0;

@@ -1,4 +1,4 @@
-// The rules beside the end time that can end a run.
+// Stop rules: conditions besides the end time that end a run.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace edmill::model {
 
-/// A number of impacts.
+/// Ends a run after a number of impacts.
 struct MaxCollisions {
   static constexpr Parameter key{"max_collisions", Dimension::none, "the run ends after this many impacts",
                                  Range::count};
@@ -28,7 +28,7 @@ struct MaxCollisions {
   };
 };
 
-/// A milling dose since the start of the run.
+/// Ends a run at a milling dose since its start.
 struct MaxMillingDose {
   static constexpr Parameter key{"max_milling_dose", Dimension::energy,
                                  "the run ends when this much has been dissipated since it began",
@@ -47,7 +47,7 @@ struct MaxMillingDose {
   };
 };
 
-/// A speed of a ball just after an impact.
+/// Ends a run when a ball exceeds a speed just after an impact.
 struct MaxBallSpeed {
   static constexpr Parameter key{"max_ball_speed", Dimension::speed,
                                  "the run ends when a ball is faster after an impact", Range::positive};
@@ -66,15 +66,15 @@ struct MaxBallSpeed {
   };
 };
 
-/// A dose rate that is known well enough.
+/// Ends a run when the dose rate is known precisely enough.
 struct DoseRatePrecision {
   static constexpr Parameter key{"dose_rate_precision", Dimension::none,
                                  "the run ends when the half-width of the 95 % interval of the dose rate is "
                                  "this part of it; tried first after 40 drive periods of statistics",
                                  Range(0.0001, 1)};
 
-  /// Few looks at the interval, each after a time that the one before predicts, so that a run does not end
-  /// because its interval is narrow by chance. (docs/theory.md, section 8)
+  /// Tests the interval only a few times, each after a time that the previous test predicts, so that a run
+  /// does not end because its interval is narrow by chance. (docs/theory.md, section 8)
   template <class Real>
   struct Watch {
     Real limit;
@@ -115,9 +115,10 @@ struct DoseRatePrecision {
   };
 };
 
-/// A rule has a key of [run], whose value is its limit and whose name is the reason of the end, and a Watch:
-/// the limit in the run's scalar, `is_met(impact, simulation)` after each impact, `archive` of what changes,
-/// and `begin(case)` where it needs the case. A new one is a class above and its place here.
+/// All stop rules. A rule has a key of [run], whose value is its limit and whose name is the end reason, and
+/// a Watch: the limit in the run's scalar, `is_met(impact, simulation)`, called after each impact, `archive`
+/// for its state, and `begin(case)` if it needs the case. To add a rule, write a class above and list it
+/// here.
 using StopRuleList = std::tuple<MaxCollisions, MaxMillingDose, MaxBallSpeed, DoseRatePrecision>;
 
 inline constexpr std::size_t stop_rule_count = std::tuple_size_v<StopRuleList>;
@@ -130,7 +131,7 @@ constexpr void for_each_stop_rule(auto&& f) {
   (std::make_index_sequence<stop_rule_count>{});
 }
 
-/// Limits in the order of the list, of the rules that are in force.
+/// Limits in the order of the list; empty for rules that the case does not set.
 template <class Number>
 using StopLimits = std::array<std::optional<Number>, stop_rule_count>;
 

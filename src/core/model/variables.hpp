@@ -34,7 +34,7 @@ inline constexpr std::array impact_variables{
 #undef EDMILL_COUNT
 #undef EDMILL_VARIABLE
 
-/// Place in a list of variables of a name, ours or the thesis's.
+/// Index of a variable in a list, by its name here or in the thesis.
 std::optional<int> find_in(const auto& variables, std::string_view name) {
   for (int k = 0; k < static_cast<int>(variables.size()); ++k)
     if (!name.empty() && (variables[k].name == name || variables[k].thesis == name)) return k;
@@ -54,7 +54,7 @@ inline constexpr std::array ball_variables{
 
 inline std::optional<int> find_ball_variable(std::string_view name) { return find_in(ball_variables, name); }
 
-/// One ball as the rows of ball_variables.def see it.
+/// One ball, for the formulas in ball_variables.def.
 template <class Real>
 struct BallFacts {
   const BallProperties<Real>& ball;

@@ -1,4 +1,4 @@
-// The vessel: what every shape provides, and one that is any of them.
+// The vessel: the concept, and a type that can be any vessel.
 #pragma once
 
 #include <boost/container/static_vector.hpp>
@@ -17,30 +17,30 @@
 
 namespace edmill::model {
 
-/// A closed convex shape in the vessel frame, its walls numbered from 0. A search asks for gaps as smooth
-/// functions of the place of a ball's centre: positive inside, zero at contact. They need not be lengths. The
-/// centre of a ball of radius R is in the vessel that is `inset(R)`, whose gaps are the ball's.
+/// A closed convex shape in the vessel frame, its walls numbered from 0. Gaps are smooth functions of the
+/// position of a ball's centre: positive inside, zero at contact. They need not be lengths. The region of the
+/// centre of a ball of radius R is the vessel `inset(R)`, whose gaps are those of the ball.
 ///
-/// - `wall_count()`; `walls()`: their names; `surfaces()`: for maps and pictures, none where there are no
-/// such; `PerWall<T>`: one T for each
+/// - `wall_count()`; `walls()`: their names; `surfaces()`: for maps and pictures, empty if they have no
+///   coordinates; `PerWall<T>`: one T for each
 /// - `reach()` [m]: from the centre to the farthest point; `extent()`, no less and without a root;
 ///   `half_sizes()`: bounds on the coordinates; `volume()` [m3]; `widest_ball()`: diameter of the largest
-///   that fits [m]
-/// - `inset(R)`; `is_empty()`, also where a ball just fits and cannot move; `contains(p)`; if places in the
-///   box of `half_sizes()` are not to do, `place(drawn)`: uniform in the vessel, from three numbers that are
-///   uniform in [-1, 1], or nothing when these must be drawn again
+///   ball that fits [m]
+/// - `inset(R)`; `is_empty()`, also if a ball just fits and cannot move; `contains(p)`; optionally
+///   `place(drawn)`: a uniform position in the vessel from three numbers that are uniform in [-1, 1], or
+///   nothing if new ones must be drawn (default: by rejection from the box of `half_sizes()`)
 /// - `gaps(p)`, `gap(wall, p)`; `rates(p, u)` and `curvatures(p, u, a)`, their derivatives where p' = u, u' =
-/// a
-/// - `within(p, way)`: of each wall, whether it may be within `way` [m] of p; `way` is beyond all rounding
+///   a
+/// - `within(p, way)`: for each wall, whether it may be within `way` [m] of p; `way` includes all rounding
 /// - `kind_of(wall)`: walls of one kind have the same `derivative_bounds(coordinates, k)`, on the k-th
 ///   derivatives of their gaps
-/// - `is_flat(wall)`: the gap is a coordinate up to sign and offset, and as sharp as one; of other walls
-///   `curved_errors` bounds the rounding from that of a coordinate, the speed and acceleration in the vessel
+/// - `is_flat(wall)`: the gap is a coordinate up to sign and offset, and as accurate as one; for other walls
+///   `curved_errors` bounds the rounding, from that of a coordinate, the speed and acceleration in the vessel
 ///   frame, and how far outside the ball may be [m]
-/// - where a wall's gap function holds in a region of places only, `function_count()`: the functions after
-///   those of the walls are the borders of the regions; `active(p)`: those to be watched from p on;
-///   `is_valid(wall, p)`: whether that wall's gap counts at p, to within rounding; `smooth_way(p)`: how far a
-///   ball at p may move while all active functions are smooth, or nothing for any way [m]
+/// - only if the gap functions of walls are valid in regions: `function_count()`: the functions after those
+///   of the walls are the borders of the regions; `active(p)`: those that must be searched from p on;
+///   `is_valid(wall, p)`: whether that wall's gap is valid at p, to within rounding; `smooth_way(p)`: how far
+///   a ball at p may move while all active functions are smooth [m], or nothing if there is no limit
 /// - `normal(wall, p)`: of a contact, unit, into the vessel; `overlap(wall, p)` [m], negative for a gap
 template <class V, class Real = typename V::Scalar>
 concept Vessel = requires(const V& vessel, int wall, const Vec3<Real>& p, const Real& x,
@@ -89,7 +89,7 @@ using VesselVariant = std::variant<CylinderVessel<Real>,    //
                                    PolyhedronVessel<Real>,  //
                                    AlgebraicVessel<Real>>;
 
-/// A vessel whose gap functions hold in regions.
+/// A vessel whose gap functions are valid only in regions.
 template <class V>
 concept HasRegions = requires(const V& vessel) {
   vessel.function_count();
@@ -144,11 +144,11 @@ class AnyVessel {
     return to;
   }
 
-  /// Walls that move; null where none does. They are no part of an inset.
+  /// Walls that move; null if there are none. An inset does not include them.
   const Pistons<Real>* pistons() const { return pistons_.get(); }
   void set(Pistons<Real> pistons) { pistons_ = std::make_shared<const Pistons<Real>>(std::move(pistons)); }
 
-  /// The vessel when it is a V, else none.
+  /// The vessel if it is a V, otherwise null.
   template <class V>
   const V* get_if() const {
     return std::get_if<V>(&vessel_);
@@ -191,8 +191,8 @@ class AnyVessel {
     return visit([&](const auto& v) { return AnyVessel(v.inset(by)); });
   }
 
-// The concept says what these take. Results are named, as those of AnyMotion. First single values, then one
-// for each wall or kind of wall.
+// The concept documents the parameters. Return types are explicit, as in AnyMotion. First single values, then
+// one for each wall or kind of wall.
 #define EDMILL_OF_VESSEL(Result, name)                         \
   Result name(const auto&... a) const {                        \
     return visit([&](const auto& v) { return v.name(a...); }); \

@@ -10,8 +10,9 @@
 
 namespace edmill::tangent {
 
-/// value + slope e with e^2 = 0: forward-mode differentiation, along one direction, of what is a template of
-/// its scalar. Comparisons are those of the values: a branch is that of the motion itself.
+/// A dual number value + slope e with e^2 = 0, for forward-mode differentiation along one direction of code
+/// that is a template of its scalar. Comparisons use the values, so that branches are those of the motion
+/// itself.
 struct Dual {
   double value = 0, slope = 0;
 
@@ -45,7 +46,8 @@ struct Dual {
   friend bool operator==(const Dual& a, const Dual& b) { return a.value == b.value; }
 };
 
-/// Of zero the root has no slope; where edmill takes one, of a slip, what it is multiplied with is zero, too.
+/// The root has no derivative at zero, and the slope is 0 there. edmill takes it only for a slip, whose
+/// factor is zero, too.
 inline Dual sqrt(const Dual& x) {
   const double root = std::sqrt(x.value);
   return {root, root > 0 ? x.slope / (2 * root) : 0};
@@ -63,7 +65,7 @@ inline bool isfinite(const Dual& x) { return std::isfinite(x.value) && std::isfi
 
 }  // namespace edmill::tangent
 
-/// The digits of the value.
+/// The limits are those of the value.
 template <>
 class std::numeric_limits<edmill::tangent::Dual> : public std::numeric_limits<double> {};
 
@@ -80,7 +82,7 @@ struct edmill::numerics::Trigonometry<edmill::tangent::Dual> {
   }
 };
 
-/// For messages.
+/// The value as text, for messages.
 template <>
 std::string edmill::to_text<edmill::tangent::Dual>(const tangent::Dual& number) {
   return to_text(number.value);
@@ -95,34 +97,35 @@ Vec3<Dual> with_slopes(const Vec3<double>& value, const Vec3<double>& slope) {
 }
 Vec3<double> slopes_of(const Vec3<Dual>& v) { return {v[0].slope, v[1].slope, v[2].slope}; }
 
-/// By how much later the motion nearby has its impact. Bodies that do not approach each other have it at
-/// once.
+/// Derivative of the time of an impact: how much later the neighbouring motion has it; zero for bodies that
+/// do not approach each other.
 double delay(const Vec3<double>& normal, const Vec3<double>& gap, double approach_speed) {
   return approach_speed > 0 ? dot<double>(normal, gap) / approach_speed : 0;
 }
 
-/// A body of the motion nearby.
+/// A body in the neighbouring motion.
 struct Nearby {
   Vec3<Dual> position, velocity, spin;
 
-  /// At its own impact, `delay` after the run's.
+  /// State at its own impact, `delay` after that of the run.
   Nearby(const Struck& body, const Tangent<double>& t, const Vec3<double>& gravity, double delay)
       : position(with_slopes(body.position, t.position + body.velocity * delay)),
         velocity(with_slopes(body.velocity, t.velocity + gravity * delay)),
         spin(with_slopes(body.spin, t.spin)) {}
-  /// Behind it, at the time of the run's.
+  /// Derivative after its impact, taken back to the time of the run's impact.
   Tangent<double> back(const Struck& body, const Vec3<double>& gravity, double delay) const {
     return {slopes_of(position) - body.velocity_after * delay, slopes_of(velocity) - gravity * delay,
             slopes_of(spin)};
   }
 };
 
-/// With the same bits on every machine.
+/// The natural logarithm, with the same bits on every machine.
 double logarithm(double x) {
   return x >= 1 ? numerics::log_of_one_plus<double>(x - 1) : -numerics::log_of_one_plus<double>(1 / x - 1);
 }
 
-/// Any start does: directions turn to where they grow. Equal numbers in every run (splitmix64).
+/// Pseudo-random numbers for the initial directions, the same in every run (splitmix64). Any start is
+/// suitable, since all directions turn towards those that grow.
 class Mixer {
  public:
   double next() {
@@ -232,8 +235,9 @@ void Spectrum::of_pair(const ImpactAt& impact, const Struck& one, const Struck& 
   count_impact(impact.time, one.ball, two.ball);
 }
 
-/// Directions turn into the first one by a factor of about e per collision of a ball, and those that impacts
-/// take away shrink by the restitution: sixteen digits last for many, but not for a ball that hops.
+/// Counts an impact and orthonormalises the directions before they lose their digits. They turn into the
+/// first one by a factor of about e per collision of a ball, and those that impacts damp shrink by the
+/// restitution: sixteen digits suffice for many collisions, but not for a ball that hops.
 void Spectrum::count_impact(const Instant<double>& now, int ball, int partner) {
   constexpr std::int64_t most_of_ball = 8;
   auto& of_one = ++state_.of_ball[static_cast<std::size_t>(ball)];
@@ -269,7 +273,7 @@ void Spectrum::orthonormalise(const Instant<double>& now) {
   };
   for (std::size_t k = 0; k < count_; ++k) {
     const double before_size = std::sqrt(product(k, k));
-    for (int pass = 0; pass < 2; ++pass)  // the second one takes off what rounding has left
+    for (int pass = 0; pass < 2; ++pass)  // the second one removes what rounding has left
       for (std::size_t before = 0; before < k; ++before) add(k, before, -product(k, before));
     const double size = std::sqrt(product(k, k));
     if (!(size > rounding * before_size)) {  // nothing is left of it

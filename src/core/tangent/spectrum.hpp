@@ -1,5 +1,6 @@
-// What impacts do to motions infinitesimally close to a run's, and Lyapunov exponents: how fast these diverge
-// from the run's, direction by direction (Benettin et al. 1980). docs/theory.md, "Tangent dynamics"
+// The effect of impacts on motions infinitesimally close to a run, and Lyapunov exponents: the rates at which
+// these diverge from the run, direction by direction (Benettin et al. 1980). docs/theory.md, "Tangent
+// dynamics"
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,8 @@
 
 namespace edmill::tangent {
 
-/// By how much the state of a ball differs in a motion nearby, over how near that is: a derivative.
+/// Derivative of a ball's state: its difference in a neighbouring motion over the infinitesimal distance of
+/// that motion.
 template <class Real>
 struct Tangent {
   Vec3<Real> position{0, 0, 0}, velocity{0, 0, 0}, spin{0, 0, 0};
@@ -40,9 +42,9 @@ struct ImpactAt {
 
 using Balls = std::vector<model::BallProperties<double>>;
 
-/// The derivative of impacts in a mill. The motion nearby meets its partner a little earlier or later: its
-/// state is taken to its own impact, through it, and back to the time of the run's (the saltation of
-/// piecewise smooth systems).
+/// The derivative of impacts in a mill. In the neighbouring motion the impact is a little earlier or later:
+/// its state is moved to its own impact, through it, and back to the time of the run's impact (the saltation
+/// of piecewise smooth systems).
 class TangentMap {
  public:
   TangentMap(const model::Mill<double>& mill, const Balls& balls);
@@ -60,8 +62,8 @@ class TangentMap {
   std::unique_ptr<InDuals> mill_;
 };
 
-/// A set of directions that is carried along a run and kept orthonormal. What each grows by beyond the ones
-/// before it is summed: the sums over the time tend to the largest exponents, in order.
+/// A set of directions that evolves with a run and is kept orthonormal. The growth of each direction
+/// orthogonal to the previous ones is summed; the sums over the time tend to the largest exponents, in order.
 class Spectrum {
  public:
   /// @param directions  how many; at most nine for each ball
@@ -74,12 +76,12 @@ class Spectrum {
   /// Makes the directions orthonormal as they are at this instant, and adds to the sums what they grew by.
   void orthonormalise(const Instant<double>& now);
   /// Natural logarithms of the growth, direction by direction, up to the last call of `orthonormalise`; minus
-  /// infinity of directions that impacts at the least separation speed have taken away.
+  /// infinity for a direction that impacts at the least separation speed have annihilated.
   const std::vector<double>& growth() const { return state_.growth; }
 
   std::size_t directions() const { return count_; }
 
-  /// What changes during a run.
+  /// The state that changes during a run.
   struct State {
     std::vector<Tangent<double>> tangents;  ///< of ball 0 in each direction, of ball 1...
     std::vector<Instant<double>> since;     ///< instants at which they are known, by ball

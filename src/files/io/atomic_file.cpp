@@ -23,7 +23,8 @@ bool all_digits(const std::string& text) {
   return !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// Calls visit(path) for a path and for what links make of it, until it answers true or no link is left.
+/// Calls visit(path) for a path and for the target of each symbolic link in turn, until it returns true or
+/// the path is not a link.
 /// @return false when the links do not end
 bool follow(fs::path path, const auto& visit) {
   std::error_code error;
@@ -51,8 +52,9 @@ int open_for_writing(const fs::path& file, int more_flags) {
   return ::open(file.c_str(), O_WRONLY | O_CLOEXEC | more_flags, 0666);
 }
 
-/// The digest of `size` bytes of a file from `begin` on, which can go on; nothing where it is shorter.
-/// @param copy  where they are copied to, if anywhere
+/// The digest of `size` bytes of a file from `begin` on, to which more bytes can be added; nothing if the
+/// file is shorter.
+/// @param copy  file to which the bytes are copied; none when empty
 /// @throws std::runtime_error when the copy was not written
 std::optional<Sha256> digest_of(const fs::path& file, std::uint64_t begin, std::uint64_t size,
                                 const fs::path& copy = {}) {
@@ -189,7 +191,7 @@ Destination::~Destination() {
 int Destination::open_through() const {
   const auto number = descriptor_named(named);
   if (!number) return open_for_writing(named, 0);
-  // The descriptor itself: a file that is opened again would be written from its beginning.
+  // Duplicates the descriptor: a file that is opened again would be written from its beginning.
   if (*number == STDOUT_FILENO) std::fflush(stdout);
   return ::fcntl(*number, F_DUPFD_CLOEXEC, 3);
 }
@@ -261,7 +263,7 @@ void AtomicFile::complete() {
     prepend_others();
 }
 
-/// The rows of others, then its own, under the temporary name.
+/// Replaces the temporary file by one with the rows of others, followed by its own.
 void AtomicFile::prepend_others() {
   AtomicFile joined(destination_.place);
   for (const auto& part : {destination_.place, destination_.temporary}) {
@@ -276,7 +278,7 @@ void AtomicFile::commit() {
   complete();
   if (dropped_ || destination_.through) return;
   if (!append_ || !destination_.kept) return destination_.commit();
-  // The temporary file stays until the checkpoint goes: by it a resumed run sees that its rows are there.
+  // The temporary file is kept as long as the checkpoint. It shows a resumed run that its rows are in place.
   const Destination second(destination_.place);
   const auto& own = destination_.temporary;
   std::error_code no_links;
@@ -302,7 +304,9 @@ void AtomicFile::archive(Archive& a) {
   if (a.loading()) go_on_from(left, size, digest);
 }
 
-/// What a run left of the file: with the first `size` bytes, if it wrote them, as `left`.
+/// Finds the first `size` bytes of the file, as the ended process wrote them, and makes sure that they are in
+/// `left`.
+/// @return their digest; nothing if they are not found
 std::optional<Sha256> AtomicFile::found_beginning(const fs::path& left, std::uint64_t size,
                                                   const std::string& digest) const {
   const auto is = [](const std::optional<Sha256>& found, const std::string& expected) {

@@ -19,7 +19,7 @@ namespace edmill::io {
 /// @param error  errno; 0 when it is not known
 std::runtime_error not_written(const std::filesystem::path& place, int error = 0);
 
-/// Nobody reads a pipe any more. What was to be written there is not wanted.
+/// Thrown when nobody reads a pipe any more, so that the rest of the output is not wanted.
 class PipeClosed : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -27,7 +27,7 @@ class PipeClosed : public std::runtime_error {
 /// Throws PipeClosed, or what `not_written` returns.
 [[noreturn]] void throw_not_written(const std::filesystem::path& place, int error);
 
-/// Why it failed is known, and what was written is digested on the way.
+/// A buffer for writing to a descriptor. It keeps the error number of a failure and the digest of all bytes.
 class FileBuffer : public std::streambuf {
  public:
   FileBuffer() = default;
@@ -44,7 +44,7 @@ class FileBuffer : public std::streambuf {
   void drop();
 
   int error() const { return error_; }  ///< errno of the first failure
-  /// Number of all bytes that were flushed, those before it was opened among them.
+  /// Number of bytes flushed so far, including those that preceded `open`.
   std::uint64_t size() const { return size_; }
   std::string digest() const { return digest_.hex(); }
 
@@ -70,8 +70,8 @@ bool is_device(const std::filesystem::path& path);
 /// Whether a name ends as those of temporary files do.
 bool is_temporary(const std::string& name);
 
-/// Where a file goes, and the temporary name under which it is made. A device, a pipe or a socket is written
-/// through. Anything else, also what a symbolic link points to, is replaced by a complete file.
+/// The place of a file, and the temporary name under which it is written. A device, a pipe or a socket is
+/// written through. Anything else, including the target of a symbolic link, is replaced by a complete file.
 struct Destination {
   std::filesystem::path named, place;  ///< as given; with links followed
   bool through = false;
@@ -90,7 +90,7 @@ struct Destination {
   /// Moves the complete temporary file into place, or copies it through. @throws std::runtime_error
   void commit() const;
 
-  /// @throws InputError for what is written through: a resumed run could not continue it
+  /// @throws InputError if the place is a device, pipe or socket: a resumed run could not continue it
   void require_file() const;
   /// Saves the name of the temporary file. @return loading: the one that the run left, which may be gone
   /// @throws InputError unless it is such a name: no other file is opened, changed or removed for it
@@ -98,7 +98,7 @@ struct Destination {
   /// Continues with the file that a run left, in place of its own. @param is_kept  a checkpoint names it
   /// still
   void continue_with(const std::filesystem::path& left, bool is_kept);
-  /// For a file that a run left with other bytes than its checkpoint says.
+  /// The error for a file whose bytes differ from those in the checkpoint of its run.
   InputError another_file() const;
 
  private:
@@ -125,16 +125,16 @@ class AtomicFile : public WholeFile {
   explicit AtomicFile(const std::filesystem::path& place, bool append = false,
                       const std::filesystem::path& beside = {});
 
-  /// @throws std::runtime_error when anything was not written: a long run must not go on for nothing
+  /// @throws std::runtime_error when anything was not written: a long run must not continue in vain
   std::ostream& stream() {
     if (!stream_) fail();
     return stream_;
   }
 
-  /// Writes what is left: nothing can fail for lack of space after it, and nothing more can be written.
+  /// Writes the rest of the buffer. Afterwards nothing can fail for lack of space, and nothing can be added.
   /// @throws std::runtime_error when anything was not written
   void complete();
-  /// Completes it first.
+  /// Completes the file and puts it in place.
   void commit() override;
   std::filesystem::path place() const override {
     return append_ || destination_.through ? std::filesystem::path() : destination_.named;

@@ -23,8 +23,8 @@ std::from_chars_result read_number(std::string_view text, double& value) {
   return std::from_chars(text.data(), text.data() + text.size(), value);
 }
 #else
-/// libc++ reads no double before its version 20. What strtod takes beyond that, a sign and hexadecimal
-/// digits, is refused.
+/// Replaces std::from_chars for double, which libc++ lacks before version 20. A plus sign and hexadecimal
+/// digits, which strtod accepts in addition, are refused.
 std::from_chars_result read_number(std::string_view text, double& value) {
   const std::string copy(text);
   if (copy.empty() || copy.find_first_of("+xXpP") == 0 || copy.find_first_of("xX") != copy.npos)
@@ -58,7 +58,7 @@ char separator_of(std::string_view header) {
   return count(most) == 0 && trimmed(unquoted).find(' ') != std::string::npos ? ' ' : most;
 }
 
-/// Whether a text is a number with a comma where the point should be, which is no separator there.
+/// True if a text is a number with a decimal comma, and commas are not the separator.
 bool has_decimal_comma(std::string_view text, char separator) {
   std::string with_point(text);
   const auto comma = with_point.find(',');
@@ -153,7 +153,7 @@ std::optional<int> CsvReader::whole(std::size_t column, const std::string& expec
   return std::nullopt;
 }
 
-/// The fields of the row that begins in line_; lines after line ends in quotes are appended.
+/// Splits the row that begins in line_ into fields. If a line ends within quotes, the next one is appended.
 bool CsvReader::read_row() {
   constexpr std::size_t longest = 1 << 20;
   for (std::string more; !split(); ++further_lines_) {

@@ -14,7 +14,7 @@ namespace edmill::io {
 
 /// Text between quotes for a message, cut when long.
 std::string in_quotes(std::string_view text);
-/// Also with a sign before it, or with the exponent of Fortran; nan and infinity are numbers.
+/// Parses a number, also with a leading sign or an exponent of Fortran; nan and infinity are accepted.
 std::optional<double> number_in(std::string_view text);
 
 /// Fields are separated by commas, or by semicolons or tabs where the header is, and may be in quotes
@@ -32,7 +32,7 @@ class CsvReader {
 
   /// Index of a column; nothing when it is absent. A repeated name is a problem.
   std::optional<std::size_t> column(std::string_view name);
-  /// Index of a required column; that it is absent is a problem.
+  /// Index of a required column; its absence is a problem.
   std::optional<std::size_t> needed_column(std::string_view name);
 
   /// Moves to the next row that has as many fields as the header.

@@ -11,7 +11,7 @@ namespace edmill::io {
 
 namespace {
 
-/// Members of a file follow each other; zeros may fill it up.
+/// Decodes gzip. A file may have several members and may be padded with zeros.
 class GzipDecoder : public Decoder {
  public:
   GzipDecoder() {

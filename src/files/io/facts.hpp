@@ -13,15 +13,15 @@
 
 namespace edmill::io {
 
-/// A result as its JSON has it, in double for any scalar: values by the paths of their keys
-/// ("energy/closure"), in the order of the file.
+/// The fields of a result as in its JSON file, in double for runs of any scalar: values by the paths of their
+/// keys ("energy/closure"), in the order of the file.
 class Facts {
  public:
   using Texts = std::vector<std::string>;
   /// monostate is null, as nan and infinity are in the file.
   using Value = std::variant<std::monostate, bool, double, std::string, Texts, std::vector<double>>;
 
-  /// @param source  of messages: the file
+  /// @param source  name of the file, for messages
   explicit Facts(std::string source = {}) : source_(std::move(source)) {}
 
   /// Adds a value, or replaces that of the path.
@@ -39,7 +39,7 @@ class Facts {
   const Texts& texts(std::string_view path) const { return get<Texts>(path, "a list of texts"); }
   /// Nothing where there is no such field, or it is null. @throws InputError for anything but a number
   std::optional<double> find(std::string_view path) const;
-  /// Null where there are none.
+  /// A list of numbers; null if there is no such field.
   const std::vector<double>* numbers(std::string_view path) const {
     const auto* found = value(path);
     return found ? std::get_if<std::vector<double>>(found) : nullptr;

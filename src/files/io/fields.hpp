@@ -33,7 +33,7 @@ class JsonFields {
       for (const auto& item : list) group(std::invoke(name_of, item), "", [&] { fill(item); });
     });
   }
-  /// The same by number, from "1" on.
+  /// A group for each item of a list, named by its number, from "1" on.
   void numbered(std::string_view key, std::string_view, const auto& list, const auto& fill) {
     std::size_t number = 0;
     each(
@@ -44,21 +44,21 @@ class JsonFields {
     by_name(
         key, "", "", list, [&](const auto&) { return std::to_string(++number); }, std::identity());
   }
-  /// Values by names that are not those of fields.
+  /// A group of values whose names depend on the items of a list.
   void by_name(std::string_view key, std::string_view, std::string_view, const auto& list,
                const auto& name_of, const auto& value_of) {
     group(key, "", [&] {
       for (const auto& item : list) json_.add(std::invoke(name_of, item), std::invoke(value_of, item));
     });
   }
-  /// Whether to visit fields that a document may lack.
+  /// True if optional fields are to be visited.
   static bool has(bool present) { return present; }
 
  private:
   JsonText json_;
 };
 
-/// Rows of a table of keys, units and meanings, those of fields that a document may lack included.
+/// A table of keys, units and meanings, including those of optional fields.
 class KeyTable {
  public:
   static std::string of(const auto& fields) {

@@ -1,5 +1,5 @@
-// Parts of HDF5 files. They hold no dates: the same run makes the same bytes. Heavy: include it
-// in source files only.
+// Parts of HDF5 files. They contain no dates, so that equal runs give equal bytes. A heavy header: include
+// it in source files only.
 #pragma once
 
 #include <hdf5.h>
@@ -69,7 +69,7 @@ inline void hdf5_check(herr_t status) {
   if (status < 0) throw_hdf5_error();
 }
 
-/// Properties of something new, which holds no date.
+/// Creation properties of a new object without dates.
 inline Handle undated(hid_t kind) {
   Handle creation(H5Pcreate(kind), H5Pclose);
   hdf5_check(H5Pset_obj_track_times(creation, false));
@@ -83,7 +83,7 @@ inline Handle text_type(std::size_t width) {
   return type;
 }
 
-/// A text as an attribute, of variable length: readers then take it for a text and not for bytes.
+/// Writes a text as an attribute. It has variable length, so that readers return a text and not bytes.
 inline void note(hid_t object, const std::string& key, const std::string& value) {
   const Handle type = text_type(H5T_VARIABLE), space(H5Screate(H5S_SCALAR), H5Sclose);
   const Handle attribute(H5Acreate2(object, key.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
@@ -120,7 +120,7 @@ inline Handle make_set(hid_t group, const std::string& name, hid_t type, std::si
     hdf5_check(H5Pset_deflate(creation, 1));
   }
   const Handle space(H5Screate_simple(rank, size, largest), H5Sclose);
-  // Nothing is held back: a chunk is in the file when it is written.
+  // No cache: every chunk that is written goes to the file at once.
   const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
   hdf5_check(H5Pset_chunk_cache(access, 0, 0, 1));
   return {H5Dcreate2(group, name.c_str(), type, space, H5P_DEFAULT, creation, access), H5Dclose};

@@ -34,7 +34,7 @@ struct WaitInterrupted : InterruptedError {
   const char* what() const noexcept override { return "interrupted while it waited for input"; }
 };
 
-/// Until there is something to read, which files always have, or nothing will follow.
+/// Waits until there is input, or its end. Files never wait.
 void wait_for_input(int descriptor) {
   const auto* interrupted = waits_end.load();
   if (!interrupted) return;
@@ -57,18 +57,19 @@ ssize_t read_some(int descriptor, char* bytes, std::size_t size, std::optional<s
 
 /// @return -1 with errno
 int open_for_reading(const std::string& path) {
-  // A descriptor that is open goes on where it stands; a socket could not be opened by its name.
+  // An open descriptor is duplicated: reading continues at its position, and sockets cannot be opened by
+  // name.
   if (const auto number = descriptor_of(path)) return ::fcntl(*number, F_DUPFD_CLOEXEC, 3);
   struct stat file {};
   const bool fifo = ::stat(path.c_str(), &file) == 0 && S_ISFIFO(file.st_mode);
-  // Without waiting for a writer: that is done where it can be interrupted.
+  // Does not wait for a writer here; the wait comes later, where it can be interrupted.
   const bool waits = fifo && waits_end.load();
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | (waits ? O_NONBLOCK : 0));
   if (descriptor >= 0 && waits) ::fcntl(descriptor, F_SETFL, O_RDONLY);
   return descriptor;
 }
 
-/// What streams held, by their paths.
+/// Contents of streams in temporary files, by their paths.
 class Spooled {
  public:
   static Spooled& all() {
@@ -166,8 +167,8 @@ class InputFile::Buffer : public std::streambuf {
   }
 
  private:
-  /// Reads on as long as there are fewer bytes than the beginning that shows the format.
-  /// @return false when the system cannot
+  /// Reads more bytes, at least as many as are needed to recognise the format, unless the file ends before.
+  /// @return false when reading fails
   bool fill() {
     constexpr std::size_t beginning = 4;
     std::size_t size = 0;

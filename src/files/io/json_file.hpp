@@ -1,4 +1,4 @@
-// JSON that is read.
+// Reads JSON files.
 #pragma once
 
 #include <fmt/format.h>

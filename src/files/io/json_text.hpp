@@ -1,4 +1,4 @@
-// JSON for other programs, in order and with numbers of any precision, which common libraries do not write.
+// Writes JSON with keys in order and numbers of any precision, which common libraries cannot.
 #pragma once
 
 #include <fmt/format.h>
@@ -40,7 +40,8 @@ class JsonText {
     add(keys_and_values...);
     end();
   }
-  /// A text, flag, number, list of these, or null: for nothing, nan and infinity, which JSON does not have.
+  /// JSON text of a string, flag, number or list of these; null for an empty value, and for nan and infinity,
+  /// which JSON lacks.
   template <class T>
   static std::string of(const T& value) {
     using std::isfinite;

@@ -1,5 +1,5 @@
-// Folders that are written into: their locks, what killed processes have left there, and the record of what
-// edmill has put there.
+// Output folders: their locks, temporary files of killed processes, and the record of the files that edmill
+// has written.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,7 @@ void prepare_folder(const std::filesystem::path& folder);
 /// A lock on a folder; the system releases it when the process ends, however it ends.
 class FolderLock {
  public:
-  /// The lock of a run, which is alone in its folder, or of a file that somebody has named.
+  /// The exclusive lock of a run, or the shared lock of a single file that a user has named.
   enum class Kind { alone, shared };
 
   /// @throws InputError when another process holds a lock that excludes this one
@@ -61,7 +61,7 @@ void remove_temporaries(const std::filesystem::path& folder);
 /// Asks the system to write the contents of a file or a folder to disk. @throws std::runtime_error
 void sync_to_disk(const std::filesystem::path& place);
 
-/// The record: a later run takes away just what it names.
+/// Name of the record of written files; a later run removes only files in the record.
 inline constexpr const char* file_record_name = ".edmill-files";
 
 /// Adds files to the record of a folder; to be called before they are put in place. Files outside the folder
@@ -69,7 +69,7 @@ inline constexpr const char* file_record_name = ".edmill-files";
 /// @throws std::runtime_error when the record was not written
 void record_files(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files);
 
-/// Removes the recorded files that are not among these, and folders that are empty then. These become the
+/// Removes the recorded files that are not in `files`, and folders that become empty. `files` becomes the
 /// record.
 /// @throws std::runtime_error when the record was not written
 void remove_other_files(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files);

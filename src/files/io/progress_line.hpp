@@ -1,4 +1,4 @@
-// The live line of long work, on a terminal only.
+// A progress line for long work, on a terminal only.
 #pragma once
 
 #include <fmt/format.h>
@@ -13,10 +13,10 @@
 
 namespace edmill::io {
 
-/// The line of progress on standard error; it goes with this object.
+/// The progress line on standard error; the destructor removes it.
 class ProgressLine {
  public:
-  /// @param quiet  nobody wants it
+  /// @param quiet  true to show nothing
   explicit ProgressLine(bool quiet) : shows_(!quiet && ::isatty(STDERR_FILENO)) {}
   ~ProgressLine() { clear(); }
   ProgressLine(const ProgressLine&) = delete;
@@ -53,7 +53,7 @@ class ProgressLine {
     }
     show(line);
   }
-  /// Takes the line away.
+  /// Removes the line.
   void clear() {
     if (visible_) tell("{}", no_line);
     visible_ = false;
@@ -68,7 +68,7 @@ class ProgressLine {
     std::uint64_t collisions;
   };
   bool shows_, visible_ = false;
-  std::optional<Look> first_;  ///< a resumed run did not begin here
+  std::optional<Look> first_;  ///< the first call; a resumed run has begun before
   Clock::time_point shown_ = Clock::now();
 };
 

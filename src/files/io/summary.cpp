@@ -208,7 +208,7 @@ struct FieldList {
     return s.duration() > 0 ? std::optional<Real>(amount / s.duration()) : std::nullopt;
   }
   static double number(std::uint64_t count) { return static_cast<double>(count); }
-  /// 0 of nothing.
+  /// The share of a part in a whole; 0 if the whole is 0.
   template <class Number>
   static Number ratio(const Number& part, const Number& whole) {
     return whole > 0 ? Number(part / whole) : Number(0);

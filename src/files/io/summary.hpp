@@ -15,7 +15,7 @@
 
 namespace edmill::io {
 
-/// Where a run comes from.
+/// The origin of a run: case, settings and program.
 struct Provenance {
   std::string case_file, case_digest;
   std::vector<std::string> settings;  ///< over the case file
@@ -54,13 +54,13 @@ struct QuantilesByDose {
   std::optional<double> half, ninety;
 };
 
-/// Why a number of a run is not to be trusted.
+/// A reason to doubt a number of a run.
 struct Warning {
   std::string kind;  ///< "transient"
   std::string text;
 };
 
-/// How long it takes to mill the powder.
+/// The target dose, and the rate from which the milling time follows.
 template <class Real>
 struct TargetDose {
   Real dose;               ///< wanted [J/kg]
@@ -128,8 +128,8 @@ struct Summary {
   std::uint64_t impacts_counted() const {
     return std::accumulate(impacts.begin(), impacts.end(), std::uint64_t{0});
   }
-  /// What supplied energy and closure are measured against [J]: the dose, or the kinetic energy of the balls
-  /// at an end of the record where that is larger.
+  /// Reference for the supplied energy and the closure [J]: the dose, or the kinetic energy of the balls at
+  /// either end of the record if that is larger.
   Real energy_scale() const {
     return std::max({milling_dose, energy_at_start.kinetic, energy_at_end.kinetic});
   }
@@ -138,28 +138,28 @@ struct Summary {
 /// The fields of summary.json.
 template <class Real>
 Facts facts_of(const Summary<Real>& summary);
-/// @throws InputError when the field is none
+/// @throws InputError when the field is absent or not an end reason
 inline model::EndReason end_reason_of(const Facts& f) {
   constexpr const char *key = "end_reason", *expected = "why the run ended";
   const auto reason = model::end_reason_named(f.text(key, expected));
   if (!reason) throw f.wrong(key, expected);
   return *reason;
 }
-/// Of all balls at an end of the record, the larger one [J].
+/// Kinetic energy of all balls at the begin or the end of the record, whichever is larger [J].
 inline double kinetic_energy_of(const Facts& f) {
   return std::max(f.number("energy/kinetic_start"), f.number("energy/kinetic_end"));
 }
-/// What the shares of supplied energy and closure are of: "dose" or "kinetic energy".
+/// Name of the reference for the shares of supplied energy and closure: "dose" or "kinetic energy".
 inline const char* energy_scale_of(const Facts& f) {
   return f.number("milling_dose") < kinetic_energy_of(f) ? "kinetic energy" : "dose";
 }
-/// False where the dose is the rounding of elastic impacts.
+/// False if the dose consists of rounding errors only, as with elastic impacts.
 inline bool has_dose(const Facts& f) {
   const double dose = f.number("milling_dose");
   return dose * 1e9 > std::max(dose, kinetic_energy_of(f));
 }
 
-/// When a run stalled, which bodies, and what helps.
+/// Message about a stall: its time, the bodies, and how to avoid it.
 template <class Real>
 std::string stall_message(const Summary<Real>& summary);
 

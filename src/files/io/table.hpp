@@ -44,7 +44,7 @@ struct FileNote {
   bool long_text = false;
 };
 
-/// The value of a formula where there is one; nothing is an empty cell.
+/// The value of a formula if it is defined, otherwise nothing, which becomes an empty cell.
 template <class Formula>
 auto value_if(bool defined, const Formula& formula) {
   return defined ? std::optional(formula()) : std::nullopt;
@@ -56,7 +56,7 @@ class Table {
  public:
   using Texts = std::vector<std::string>;
   using Integers = std::vector<std::int64_t>;
-  using Numbers = std::vector<std::optional<Real>>;  ///< nothing where nothing defines a value
+  using Numbers = std::vector<std::optional<Real>>;  ///< nothing for an undefined value
   using Cells = std::variant<Texts, Integers, Numbers>;
 
   Table() = default;

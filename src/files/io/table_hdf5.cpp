@@ -61,7 +61,7 @@ Packed packed(const DoubleTable::Cells& cells) {
   return {Handle(H5Tcopy(H5T_IEEE_F64LE), H5Tclose), 8, bytes_of(doubles)};
 }
 
-/// The name of a dataset: none has a slash, and no two are the same.
+/// Makes a valid dataset name: without slashes, and different from those in `taken`.
 std::string dataset_name(std::string name, std::set<std::string>& taken) {
   std::replace(name.begin(), name.end(), '/', '_');
   if (name.empty() || name == ".") name = "column";

@@ -8,7 +8,7 @@
 
 namespace edmill::io {
 
-/// A column as HDF5 holds it: no number has more than 64 bits.
+/// A column as stored in HDF5, where numbers have at most 64 bits.
 struct StoredColumn {
   Column what;
   Table<double>::Cells cells;
@@ -35,7 +35,8 @@ Table<double>::Cells stored(const std::vector<std::optional<Real>>& numbers) {
   return doubles;
 }
 
-/// Bytes of an HDF5 file with a dataset for each column. No number is nan. Attributes of a dataset are its
+/// Bytes of an HDF5 file with a dataset for each column. A missing number is nan. Attributes of a dataset are
+/// its
 /// `title`, `unit` and `description`; those of the file are the notes, and the comments as `comment`.
 std::string hdf5_columns(const std::vector<StoredColumn>& columns, const std::vector<std::string>& comments,
                          const std::vector<FileNote>& notes);

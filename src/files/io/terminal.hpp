@@ -23,7 +23,7 @@ inline void print_text(std::string_view text) {
   errno = 0;
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) note_error();
 }
-/// Text for standard error. What cannot be written is lost: an error keeps its exit code.
+/// Prints text to standard error. Failures to do so are ignored, so that an error keeps its exit code.
 inline void tell_text(std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);
@@ -38,7 +38,7 @@ void tell(fmt::format_string<T...> format, T&&... values) {
   tell_text(fmt::format(format, std::forward<T>(values)...));
 }
 
-/// Writes what is left of standard output. @return errno of its first failure; 0 when everything was written
+/// Flushes standard output. @return errno of its first failure; 0 when everything was written
 inline int output_error() {
   errno = 0;
   if (std::fflush(stdout) != 0) note_error();

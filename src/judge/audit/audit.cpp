@@ -45,7 +45,7 @@ class Auditor : Judge {
         last_(case_.balls.size()),
         with_wall_(case_.mill.vessel.walls().size()) {}
 
-  /// The log begins with these states.
+  /// Starts the flights of all balls from their states at the beginning of the log.
   void begin(const std::vector<model::BallState<double>>& states, double time) {
     int ball = 0;
     for (const auto& [position, velocity, spin] : states)
@@ -104,7 +104,7 @@ class Auditor : Judge {
     }
   }
 
-  /// At the end of the log.
+  /// Completes the pending checks at the end of the log and makes the diagnoses.
   void finish() {
     flights_.finish();
     result_.undecided = flights_.undecided();
@@ -112,7 +112,7 @@ class Auditor : Judge {
   }
 
  private:
-  /// Walls that the log's code does not have, and other ways to number bodies and lines.
+  /// Diagnoses walls that are missing in the other code, and other conventions for numbers and lines.
   std::vector<Diagnosis> diagnoses() const {
     std::vector<Diagnosis> found;
     const auto add = [&](const char* name, std::uint64_t events, Kind kind, std::string text) {
@@ -164,7 +164,8 @@ class Auditor : Judge {
     findings_.add({event, kind, size, found, expected, note});
   }
 
-  /// Bodies that have separated cannot have the same impact again at the same time.
+  /// True if the event repeats the ball's last one: bodies that have separated cannot collide again in the
+  /// same way at the same time.
   bool is_repeated(const LoggedEvent& event) const {
     const LastEvent& last = last_[event.ball];
     if (last.time != event.time || last.other != other_of(event, 0)) return false;
@@ -177,8 +178,8 @@ class Auditor : Judge {
     return last.approach_speed == event.approach_speed && event.approach_speed > 0;
   }
 
-  /// A ball that is not at the end of its flight, but at the end of another ball's flight, has the wrong
-  /// number.
+  /// Reports and corrects wrong ball numbers: the logged state is not at the end of the named ball's flight
+  /// but at the end of another ball's flight.
   void find_wrong_balls(LoggedEvent& event) {
     for (std::size_t body = 0; body < event.count(); ++body) {
       if (!available_.body[body].position || !available_.body[body].velocity_before) continue;
@@ -191,7 +192,7 @@ class Auditor : Judge {
       const double own = off(named), speed = size(event.body[body].velocity_before);
       const double path = own >= 0 ? speed * (event.time - flights_.of(named).start) : 0;
       const double allowed = tolerances_.position(event.time, path, speed), radius = radius_of(named);
-      // Balls that may be half a radius away cannot be distinguished.
+      // Balls cannot be distinguished if the tolerance exceeds half a radius.
       if (own <= radius / 100 + allowed || allowed > radius / 2) continue;
       for (int k = 0; k < flights_.balls(); ++k) {
         const double theirs = off(k);
@@ -210,7 +211,7 @@ class Auditor : Judge {
     if (event.with_wall) ++with_wall_[event.partner];
     if (!available_.positions(event.with_wall)) return {};
     const double allowed = tolerances_.touch(event.time, event.with_wall);
-    // A wall that may be half a radius away cannot be distinguished from what is beside it.
+    // The touch cannot be checked if the position of the wall is uncertain by more than half a radius.
     if (event.with_wall && tolerances_.wall_places(event.time) > radius_of(event.ball) / 2) {
       findings_.unresolved(Check::touch);
       return {};
@@ -219,7 +220,7 @@ class Auditor : Judge {
     const double gap = gap_of(event, case_, frame);
     if (std::abs(gap) <= allowed) return {};
     if (event.with_wall && another_body_is_there(event, frame, allowed, std::abs(gap)))
-      return {false, event.with_wall};  // the state of another ball is not in the log
+      return {false, event.with_wall};  // the log lacks the state of the other ball, if it was one
     report(gap < 0 ? Kind::late_event : Kind::early_event, event, std::abs(gap), gap, 0);
     return {gap < 0, true};
   }
@@ -259,7 +260,7 @@ class Auditor : Judge {
     impact.in_stall = friction == Friction::rests;
     rows_.clear();
     const auto allowed = equations_.of_impact(impact, rows_);
-    if (friction == Friction::either) {  // whichever the impact obeys
+    if (friction == Friction::either) {  // choose the one that violates fewer equations
       std::vector<Row> rested;
       impact.in_stall = true;
       equations_.of_impact(impact, rested);
@@ -271,7 +272,7 @@ class Auditor : Judge {
     }
     bool wrong_torque = false;
     for (auto row = rows_.begin(); row != rows_.end(); ++row) {
-      // An equation that holds for each of two bodies counts once, by the worse one.
+      // An equation with a row for each of two bodies counts once, by the worse row.
       if (const auto next = std::next(row); next != rows_.end() && next->equation == row->equation) {
         if (next->size < row->size) *next = *row;
         continue;
@@ -294,7 +295,7 @@ class Auditor : Judge {
       add_energies(impact, allowed.energy);
   }
 
-  /// @param allowed  of an energy [J]
+  /// Adds the energies of an impact to the totals. @param allowed  tolerance of energies [J]
   void add_energies(const LoggedImpact& impact, double allowed) {
     const double work = work_of_wall(impact), gained = kinetic_change(impact);
     const Speeds speeds = speeds_before(impact);
@@ -315,17 +316,18 @@ class Auditor : Judge {
 
   Audit& result_;
   Equations equations_;
-  std::vector<Row> rows_;  ///< of the present impact
+  std::vector<Row> rows_;  ///< equations of the current impact
   Flights flights_;
   StallHistory stalls_;
   std::vector<LastEvent> last_;
-  std::vector<std::uint64_t> with_wall_;  ///< logged impacts with each, for the diagnosis
+  std::vector<std::uint64_t> with_wall_;  ///< number of logged impacts with each wall
   int least_ball_ = std::numeric_limits<int>::max(), most_ball_ = -1;  ///< numbers in the log
-  std::uint64_t from_both_sides_ = 0;  ///< impacts of pairs that are logged a second time by the other ball
-  std::uint64_t next_wall_ = 0;        ///< impacts with the wall that has one number less
+  std::uint64_t from_both_sides_ = 0;  ///< pair impacts logged again with exchanged roles
+  std::uint64_t next_wall_ = 0;        ///< impacts whose actual wall has the logged number - 1
 };
 
-/// @param next  gives the events in order of time
+/// Audits a sequence of events.
+/// @param next  returns the next event in order of time, or nothing at the end
 template <class Next>
 Audit audit_events(const model::Case<double>& the_case, const std::vector<model::BallState<double>>* states,
                    const Options& options, const std::string& file, const Available& available,
@@ -353,7 +355,7 @@ Audit audit_events(const model::Case<double>& the_case, const std::vector<model:
   auditor.finish();
   result.not_made = checks_not_made(result.findings, any_pairs);
   const auto& checked = result.findings;
-  // A log most of whose contacts cannot be judged is not called clean.
+  // A log can be clean only if at least half of its contacts could be checked.
   const bool judged = checked.judged_number(Check::touch) + checked.judged_number(Check::milling_dose) > 0 &&
                       checked.judged_number(Check::touch) >= checked.unresolved_number(Check::touch);
   result.verdict = result.findings.total() > 0 ? Verdict::differ : judged ? Verdict::agree : Verdict::too_few;

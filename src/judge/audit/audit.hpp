@@ -27,7 +27,7 @@ struct Options {
   std::function<void(double time, std::uint64_t events)> progress;  ///< called regularly
 };
 
-/// The section [audit] of a case; `log` is not in it.
+/// Options from the section [audit] of a case; `log` is left empty.
 /// @throws InputError
 Options options_of(const casefile::CaseSpec& spec);
 
@@ -35,8 +35,8 @@ Options options_of(const casefile::CaseSpec& spec);
 struct Diagnosis {
   std::string name;      ///< "unseen_wall"
   std::string text;      ///< a sentence
-  std::uint64_t events;  ///< that it explains
-  std::uint64_t of;      ///< number of events that are wrong
+  std::uint64_t events;  ///< violations that it explains
+  std::uint64_t of;      ///< number of violations of that kind
 };
 
 using logs::Verdict;
@@ -51,7 +51,7 @@ struct Audit {
   Available available;
   Findings findings{3};
   Energies energies;
-  std::vector<Check> not_made;  ///< since columns are missing
+  std::vector<Check> not_made;  ///< because columns are missing
   std::vector<Diagnosis> diagnoses;
   std::uint64_t undecided = 0;  ///< questions about missed impacts that no scalar could answer
   bool interrupted = false;
@@ -63,20 +63,20 @@ struct Audit {
 Audit audit(const model::Case<double>& the_case, const std::vector<model::BallState<double>>& states,
             const Options& options);
 
-/// Events of a log that were read, in order of time.
+/// Events already read from a log, in order of time.
 struct EventsAtHand {
   std::string file;
   Available available;
   std::vector<LoggedEvent> events;
 };
-/// The first events of a log. @throws InputError
+/// Reads the first events of a log, `most` at the most. @throws InputError
 EventsAtHand read_events(const model::Case<double>& the_case, const Options& options, std::size_t most);
-/// Audits events at hand. The options' log is not read, nor is it asked to begin at the start.
+/// Audits events already read; `options.log` and `options.from_start` are ignored.
 Audit audit(const model::Case<double>& the_case, const EventsAtHand& log, const Options& options);
 /// Tolerances of gaps and speeds.
 Tolerances tolerances_of(const model::Case<double>& the_case, const Options& options);
 
-/// Of the checks made, that found a violation of this kind; nan without any.
+/// Fraction of the checks made that found a violation of this kind; nan if none were made.
 double share_of(const Audit& audit, Kind kind);
 /// The result as text.
 std::string table(const Audit& audit);

@@ -10,7 +10,7 @@
 
 namespace edmill::audit {
 
-/// Visits them. docs/files.md, "Audit"
+/// Visits the fields of an audit's document. docs/files.md, "Audit"
 struct Fields {
   const Audit& a;
 

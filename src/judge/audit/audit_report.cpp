@@ -18,7 +18,7 @@ std::string describe(const Finding& f) {
   return text;
 }
 
-/// "touch (12), approach (7)": of the checks that have such a number.
+/// Lists the checks whose `number` is not 0: "touch (12), approach (7)".
 std::string list_of_checks(const Findings& findings, std::uint64_t (Findings::*number)(Check) const) {
   std::vector<std::string> list;
   for (std::size_t k = 0; k < check_count; ++k)
@@ -27,7 +27,7 @@ std::string list_of_checks(const Findings& findings, std::uint64_t (Findings::*n
   return fmt::format("{}", fmt::join(list, ", "));
 }
 
-/// The effect of the rounding of times, if it exceeds the relative tolerance, and checks that cannot be made.
+/// Reports the effect of rounded times, if it exceeds the relative tolerance, and the unresolved checks.
 std::string unresolved_checks(const Audit& a) {
   std::string out;
   const double latest = std::max(std::abs(a.first), std::abs(a.last));

@@ -52,14 +52,14 @@ ImpactTolerance Equations::of_impact(const LoggedImpact& impact, std::vector<Row
   return {energy, by_wall == 0 || by_wall < scale};
 }
 
-/// How far the logged states are from the outcome by the law, of each body, or summed as in (2.23'), (2.28'),
-/// (2.35) and (2.24'); then friction has the limit that the logged normal impulse gives.
+/// Residuals of the logged states with respect to the outcome by the contact law: for each body, or summed as
+/// in (2.23'), (2.28'), (2.35) and (2.24'). In the sums the logged normal impulse limits the friction.
 void Equations::of_states(const LoggedImpact& impact, const Speeds& speeds, double allowed,
                           std::vector<Row>& rows) const {
   const auto& logged = impact.event->body;
   const bool spins = has_.spins(impact.with_wall()), summed = !by_body_ || !spins;
   const auto due = outcome(impact, terms_, summed);
-  // A large friction makes more of what the normal velocity is uncertain by.
+  // A large friction coefficient amplifies the uncertainty of the normal velocity.
   const auto* coulomb = std::get_if<model::WaltonBraun<double>>(&impact.law->law);
   allowed *= 1 + (coulomb ? std::min(coulomb->friction, 10.0) : 0) * impact.compliance;
   Vec relative(0, 0, 0), slip(0, 0, 0), momentum(0, 0, 0);
@@ -83,7 +83,7 @@ void Equations::of_states(const LoggedImpact& impact, const Speeds& speeds, doub
   if (!summed) return;
   const double g_n = speeds.g_n, g_n_after = impact.g_n_after();
   double normal = impact.along(relative);
-  // If bodies separate before the impact, which is reported, a code may reflect g_n as usual.
+  // If bodies separate before the impact (reported elsewhere), reflecting g_n as usual is accepted too.
   if (const double other = g_n_after - impact.by_restitution(g_n);
       g_n > allowed && std::abs(other) < std::abs(normal))
     normal = other;
@@ -116,8 +116,8 @@ void Equations::of_energies(const LoggedImpact& impact, const Speeds& speeds, do
       if (const double other = event.milling_dose - terms_.dose * dose; std::abs(other) < std::abs(off))
         off = other;
     };
-    // A code whose impulse is wrong may have its dose from the law, or nothing supplied: then the law is
-    // wrong and not the dose. A fit allows for it only with such a term, since its rows must be smooth.
+    // A code with a wrong impulse may compute its dose from the law, or supply no energy: then the law is
+    // violated, not the dose. A fit accepts this only if a term changes the impulse: its rows must be smooth.
     if (!by_body_ || terms_.change_impulse()) or_else(dose_by_law(impact, speeds));
     const bool supplies = supplied(impact, speeds.g_n, impact.separation_speed(speeds.g_n)) > 0;
     if (!by_body_ && !supplies) or_else(balance);

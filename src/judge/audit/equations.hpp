@@ -1,4 +1,4 @@
-// The equations that a log must obey, written once: by how much it differs from each, and by how much it may.
+// The equations that a log must obey: the residual of each, and its tolerance.
 // docs/theory.md, sections 1, 2 and 5; docs/audit.md, "Tolerances"
 #pragma once
 
@@ -15,7 +15,7 @@ namespace edmill::audit {
 
 using logs::rounding_of;
 
-/// How fast walls, and what an impact takes from them, change with time: bounds of the mill.
+/// Upper bounds of the speed, acceleration and angular velocity of a mill's walls.
 struct WallRates {
   double speed = 0;         ///< of any point of the walls [m/s]
   double acceleration = 0;  ///< of any [m/s^2]
@@ -24,7 +24,7 @@ struct WallRates {
   static WallRates of(const model::Mill<double>& mill) {
     const auto& motion = mill.motion;
     const double vessel = mill.vessel.reach();
-    // Some of the points within r of the centre move with r times the angular speed or faster.
+    // Among the points within r of the centre, some move at r times the angular speed or faster.
     constexpr double far = 1e6;
     WallRates rates{motion.wall_speed(vessel), motion.acceleration_within(motion.reach(vessel)),
                     motion.wall_speed(far) / far};
@@ -43,7 +43,7 @@ struct Tolerances {
   double gravity = 0;  ///< [m/s^2]
   WallRates walls;
 
-  /// How far walls may be from where they are at the logged time [m].
+  /// Uncertainty of wall positions due to the rounding of the logged time [m].
   double wall_places(double t) const { return std::min(rounding_of(t) * walls.speed, 2 * reach); }
   double touch(double t, bool with_wall) const { return gap + (with_wall ? wall_places(t) : 0); }
   /// Tolerance of the end of a flight from an impact at an earlier time.
@@ -52,10 +52,11 @@ struct Tolerances {
   }
   double velocity(double t, double speed) const { return relative * speed + 2 * rounding_of(t) * gravity; }
 
-  /// The contribution of the uncertain wall to the difference of two relative velocities of an impact with
-  /// it, each seen along its normal or across [m/s].
-  /// @param scale  no velocity of the impact is larger; a relative one is at most three of them
-  /// @param bend   angle by which the normal turns where the ball is moved in the vessel [1/m]
+  /// Contribution of the wall's uncertainty to the difference of two relative velocities of an impact, both
+  /// normal or both tangential [m/s].
+  /// @param scale  upper bound of the velocities of the impact; relative ones are at most three times as
+  /// large
+  /// @param bend   rotation of the normal per displacement of the ball in the vessel [1/m]
   double of_wall(double t, double scale, double bend, double radius) const {
     const double turned = walls.turning + walls.speed * bend;  // of the normal [rad/s]
     const double moved = walls.acceleration + walls.turning * (walls.speed + radius * turned);
@@ -64,22 +65,23 @@ struct Tolerances {
   }
 };
 
-/// The state of friction in an impact, docs/theory.md, section 6; either, if the log leaves open how long
-/// the flights before were.
+/// Whether an impact has friction or is frictionless because of a stall (docs/theory.md, section 6); `either`
+/// if the log does not determine how long the preceding flights were.
 enum class Friction { acts, rests, either };
 
-/// Counts each ball's impacts in a row that came without time to move, between a least and a most number.
+/// Counts the consecutive impacts of each ball without time to move in between, by a lower and an upper
+/// bound.
 class StallHistory {
  public:
   explicit StallHistory(const model::Mill<double>& mill, std::size_t balls)
       : mill_(mill), balls_(balls, Ball{unknown, 0, mill.stall.impacts}) {}
 
-  /// All flights begin at `time`: the log has what follows from then on.
+  /// Starts all flights at `time`; the log is complete from then on.
   void begin(double time) { std::fill(balls_.begin(), balls_.end(), Ball{time, 0, 0}); }
-  /// Events of the ball are missing.
+  /// Discards the history of a ball of which events are missing.
   void forget(int ball) { balls_[ball] = {unknown, 0, mill_.stall.impacts}; }
 
-  /// The next event. @param relative  tolerance of logged times
+  /// Counts an event and returns its state of friction. @param relative  tolerance of logged times
   Friction take(const LoggedEvent& event, const model::ContactLaw<double>& law, double relative) {
     const Friction one = count(event.ball, event.time, law, relative);
     if (event.with_wall) return one;
@@ -114,20 +116,20 @@ class StallHistory {
   std::vector<Ball> balls_;
 };
 
-/// The quantity of a row; rows of one kind have one scale of noise.
+/// The quantity of a row; rows of one kind share a scale of noise.
 enum class RowKind : unsigned char { touch, law, energy, speed, place, velocity };
 inline constexpr std::size_t row_kinds = 6;
 
-/// An equation at an event: the difference of the log from it.
+/// The residual of an equation at an event of the log.
 struct Row {
   Check equation;
   RowKind kind;
   int body;                                    ///< 0 the event's ball, 1 its partner, -1 both
-  int count;                                   ///< of numbers, 1 or 3
-  Vec difference;                              ///< one number is the first component
-  double size;                                 ///< of the difference
-  double allowed;                              ///< its largest size
-  double found = unknown, expected = unknown;  ///< for a reader, where they say more than the difference
+  int count;                                   ///< of components, 1 or 3
+  Vec difference;                              ///< a scalar is the first component
+  double size;                                 ///< norm of the difference
+  double allowed;                              ///< tolerance of the size
+  double found = unknown, expected = unknown;  ///< for reports, if more informative
 
   bool is_violated() const { return size > allowed; }
 };
@@ -135,35 +137,34 @@ struct Row {
 /// A flight between two logged impacts of a ball.
 struct LoggedFlight {
   BodyState from, to;
-  Available::Body had, has;  ///< columns of its begin and its end
+  Available::Body had, has;  ///< columns available at begin and end
   double begin, end;         ///< [s]
   double radius;             ///< of the ball [m]
-  int body;                  ///< that the ball is of the event at the end
+  int body;                  ///< role in the event at the end: 0 ball, 1 partner
 };
 
 /// Tolerances of the numbers of an impact.
 struct ImpactTolerance {
   double energy = 0;           ///< [J]
-  bool can_be_checked = true;  ///< not where a wall may be anywhere at the logged time, as it is rounded
+  bool can_be_checked = true;  ///< false if rounded times leave the wall velocity unknown
 };
 
-/// Which rows there are depends on the columns of the log alone.
+/// Evaluates the equations at events. The set of rows depends only on the columns of the log.
 class Equations {
  public:
   /// @param terms  those of the code that made the log
-  /// @param by_body  what an impact makes of each body's velocity and spin, for a fit, in which one body
-  /// alone may
-  ///   have another term; else the law along and across the normal, momentum and torque
+  /// @param by_body  true: residuals of each body's velocity and spin, for fits, in which a term may differ
+  /// for one body alone; false: residuals of the law along and across the normal, momentum and torque
   Equations(const Available& available, const Tolerances& tolerances, const Terms& terms = {},
             bool by_body = false)
       : has_(available), tolerances_(tolerances), terms_(terms), by_body_(by_body) {}
 
-  /// The bodies of an event meet. @param gap  between them [m]
+  /// The bodies of an event touch. @param gap  between them [m]
   Row of_touch(const LoggedEvent& event, double gap) const;
   /// The contact law, conservation, and the values logged with an impact: by the states of its bodies, or
   /// without them by the logged speeds.
   ImpactTolerance of_impact(const LoggedImpact& impact, std::vector<Row>& rows) const;
-  /// The end of a flight: place and velocity, and the spin.
+  /// Position, velocity and spin at the end of a flight.
   /// @param gravity  of the case [m/s^2]
   void of_flight(const LoggedFlight& flight, const Vec& gravity, std::vector<Row>& rows) const;
 

@@ -19,7 +19,7 @@ enum class Kind : std::size_t {
 #include "audit/findings.def"
 };
 #undef EDMILL_KIND
-/// The share of a kind is relative to how often its check was made.
+/// Checks, each of which finds one or several kinds. The share of a kind is relative to the checks made.
 #define EDMILL_CHECK(id, name, columns) id,
 enum class Check : std::size_t {
 #include "audit/findings.def"
@@ -47,7 +47,7 @@ inline constexpr std::array checks{
 #undef EDMILL_CHECK
 inline constexpr std::size_t kind_count = kinds.size(), check_count = checks.size();
 inline const KindInfo& info(Kind kind) { return kinds[static_cast<std::size_t>(kind)]; }
-/// The violation of an equation that has one kind of them.
+/// The kind of violation that a check finds. @pre it finds only one kind
 constexpr Kind kind_of(Check check) {
   const auto first =
       std::find_if(kinds.begin(), kinds.end(), [&](const KindInfo& k) { return k.check == check; });
@@ -55,7 +55,7 @@ constexpr Kind kind_of(Check check) {
 }
 inline const CheckInfo& info(Check check) { return checks[static_cast<std::size_t>(check)]; }
 
-/// A violation at an impact, of which it has the bodies, the time and the line.
+/// A violation, with the bodies, time and log line of its impact.
 struct Finding : model::ImpactRecord<double> {
   Kind kind;
   double size;             ///< of the violation, in the unit of the kind
@@ -73,7 +73,7 @@ struct Tally {
 
 class Findings {
  public:
-  /// @param examples  kept of each kind
+  /// @param examples  number of examples kept of each kind
   explicit Findings(std::size_t examples) : examples_(examples) {}
 
   void add(const Finding& finding) {
@@ -83,7 +83,7 @@ class Findings {
     keep(tally, finding);
   }
   void judged(Check check) { ++judged_[static_cast<std::size_t>(check)]; }
-  /// The tolerance of what would be checked is as large as itself.
+  /// Counts a check that was not made because the tolerance is as large as the checked quantity.
   void unresolved(Check check) { ++unresolved_[static_cast<std::size_t>(check)]; }
   const Tally& of(Kind kind) const { return tallies_[static_cast<std::size_t>(kind)]; }
   std::uint64_t judged_number(Check check) const { return judged_[static_cast<std::size_t>(check)]; }
@@ -125,9 +125,9 @@ struct Energies {
   Sum milling_dose;             ///< as logged, otherwise from the law [J]
   Sum supplied;                 ///< that the case's least separation speed adds [J]
   Sum kinetic_change;           ///< of the logged states [J]
-  std::uint64_t supplying = 0;  ///< impacts in which it adds energy
-  std::uint64_t creating = 0;   ///< impacts that create more energy than that
-  double created = 0;           ///< by them [J]
+  std::uint64_t supplying = 0;  ///< number of impacts in which it adds energy
+  std::uint64_t creating = 0;   ///< number of impacts that create more energy than that
+  double created = 0;           ///< energy that those create [J]
 
   /// 0 up to rounding in a log that obeys the law [J].
   double closure() const {
@@ -135,13 +135,13 @@ struct Energies {
   }
 };
 
-/// Whether an assumption explains a violation: the residual with it is within the tolerance, and at most a
-/// tenth of the residual without it, since a coarse tolerance alone allows anything.
+/// True if an assumption explains a violation: the residual with it is within the tolerance and at most a
+/// tenth of the residual without it. The second condition matters where the tolerance is coarse.
 inline bool vanishes(double without, double with, double allowed) {
   return with <= allowed && 10 * with <= without;
 }
 
-/// Nine tenths of a log, the rest of which may have another cause.
+/// True if a cause explains at least nine tenths of the violations; the others may have another cause.
 inline bool accounts_for(std::uint64_t explained, std::uint64_t of) {
   return explained > 0 && 10 * explained >= 9 * of;
 }

@@ -1,4 +1,4 @@
-// Flights between the impacts of a log: whether they are ballistic, and whether an impact was missed.
+// Checks that the flights between logged impacts are ballistic and that no impact was missed.
 #pragma once
 
 #include <algorithm>
@@ -34,10 +34,11 @@ struct Flying {
 /// The last logged state of a ball.
 struct Track : Flying {
   bool state_known = false, spin_known = false;
-  /// When an impact of the flight is not in the log [s]; infinity where none is known.
+  /// Time of an unlogged impact during the flight [s]; infinity if none is known.
   double broken_from = std::numeric_limits<double>::infinity();
-  std::vector<Finding> pending;  ///< missed impacts with balls whose flights are now over
-  /// A missed impact with a wall, until the next line is seen not to log it at the same time.
+  std::vector<Finding> pending;  ///< missed impacts, found at the end of the other ball's flight
+  /// A missed impact with a wall, held until the ball's next line shows that it is not logged there at the
+  /// same time.
   std::optional<Finding> held;
 };
 
@@ -45,7 +46,7 @@ struct Track : Flying {
 struct FlightEnd {
   const LoggedEvent* event;
   std::size_t body;   ///< 0 the event's ball, 1 its partner
-  bool late = false;  ///< the event is late: its bodies have met before, which is reported
+  bool late = false;  ///< the bodies met before the event; already reported
 
   const BodyState& state() const { return event->body[body]; }
   int partner() const { return body == 0 ? event->partner : event->ball; }  ///< ball or wall
@@ -79,7 +80,7 @@ class Flights : Judge {
     put_rows_of_end(ball, track, end);
     const double off = judge_end(ball, track, end, false);
     const double until = std::min(time, track.broken_from);
-    // Balls are searched with radii that are smaller by the tolerance, if that leaves half of them.
+    // The search reduces radii by the tolerance, provided that at least half of a radius remains.
     const double speed = size(track.flight.velocity) + tolerances_.gravity * (time - track.start);
     const double slack =
         tolerances_.touch(time, true) + tolerances_.position(time, speed * (time - track.start), speed);
@@ -104,7 +105,7 @@ class Flights : Judge {
     if (!reported) judge_end(ball, track, end, true);
   }
 
-  /// At the end of the log.
+  /// Reports the impacts still held at the end of the log.
   void finish() {
     for (auto& track : tracks_) settle_held(track, nullptr);
   }
@@ -127,7 +128,7 @@ class Flights : Judge {
     }
   }
 
-  /// Flights through each wall, for the diagnosis.
+  /// Number of flights through each wall, for the diagnosis.
   const std::vector<std::uint64_t>& flown_through() const { return flown_through_; }
   std::uint64_t undecided() const { return undecided_; }
 
@@ -136,7 +137,7 @@ class Flights : Judge {
   static constexpr double fastest_judged = 1e4;  ///< [m/s]
   static constexpr int samples = 32;             ///< of a flight
 
-  /// Half of the smallest sum of two balls' radii: they are reduced by tolerances.
+  /// Half of the smallest sum of two balls' radii; the search reduces the sums by no more than half.
   static double smallest_radius(const model::Case<double>& c) {
     const auto smaller = [](const auto& a, const auto& b) { return a.radius < b.radius; };
     return std::min_element(c.balls.begin(), c.balls.end(), smaller)->radius;
@@ -148,8 +149,8 @@ class Flights : Judge {
     int partner = -1;
     double depth = 0;  ///< largest overlap of the bodies later in the flight [m]
   };
-  /// The ball is searched with its radius reduced by the tolerance, so that a contact is certainly an
-  /// overlap.
+  /// First overlap of a ball with a wall in its flight. The radius is reduced by the tolerance, so that a
+  /// contact is certainly an overlap.
   std::optional<Encounter> first_wall(int ball, const Track& track, double until, double slack) {
     const double radius = radius_of(ball);
     const auto frame = nested_at(track.start);
@@ -203,9 +204,9 @@ class Flights : Judge {
       const double sum = radius + radius_of(other);
       const Vec apart = position_at(ball, from) - position_at(other, from);
       const Vec relative = velocity_of(track, from) - velocity_of(theirs, from);
-      // Both fall alike, so that the distance changes by their relative velocity alone.
+      // Gravity cancels: the distance changes only by the relative velocity.
       if (size(apart) > 1.001 * (sum + size(relative) * (to - from))) continue;
-      // The other ball's place has an uncertain time of its own.
+      // The position of the other ball has its own uncertainty of time.
       const double off = slack + 2 * rounding_of(until) * size(theirs.flight.velocity);
       if (off > sum / 2) continue;
       const auto seen = later ? pairs.state(track.flight, now) : seen_at_start;
@@ -225,7 +226,7 @@ class Flights : Judge {
     return first;
   }
 
-  /// Tries up to four impacts with walls that are not in the log.
+  /// True if up to four unlogged impacts with walls lead the ball to the logged end of its flight.
   bool explained_by_walls(int ball, const FlightEnd& end) {
     if (!of(ball).spin_known) return false;
     Flying own = of(ball);
@@ -241,7 +242,7 @@ class Flights : Judge {
     return false;
   }
 
-  /// Tries the impact with a ball that is not in the log.
+  /// True if an unlogged impact with another ball leads the ball to the logged end of its flight.
   bool explained_by_ball(int ball, const Encounter& contact, const FlightEnd& end) const {
     const Track &own = of(ball), &other = of(contact.partner);
     if (!own.spin_known || !other.spin_known) return false;
@@ -256,20 +257,20 @@ class Flights : Judge {
                    end);
   }
 
-  /// A ball as it comes into an impact.
+  /// State of a ball just before an impact.
   BodyState before_impact(const Flying& own, double time) const {
     return {.position = position_of(own, time),
             .velocity_before = velocity_of(own, time),
             .spin_before = own.spin};
   }
 
-  /// The ball of an impact as it leaves.
+  /// Flight of the event's ball after an impact, by the contact law.
   Flying after_impact(const LoggedEvent& event) const {
     const auto after = outcome(impact_of(event, case_, nested_at(event.time), true), {}).body[0];
     return {{after.position, after.velocity_after, clock_.at(event.time)}, after.spin_after, event.time};
   }
 
-  /// Whether a ball reaches the logged end of the flight.
+  /// True if a ball reaches the logged end of the flight.
   bool arrives(const Flying& own, const FlightEnd& end) const {
     const auto& logged = end.state();
     const double near = std::max(1e-6, 10 * tolerances_.relative);
@@ -293,7 +294,7 @@ class Flights : Judge {
                          case_.mill.gravity, rows_);
   }
 
-  /// Position, velocity and spin at the end of a flight, by its rows.
+  /// Judges position, velocity and spin at the end of a flight by its rows.
   /// @return the distance from the end of the flight, 0 when within the tolerances [m]
   double judge_end(int ball, const Track& track, const FlightEnd& end, bool report_it) {
     const auto& has = available_.body[end.body];
@@ -332,10 +333,11 @@ class Flights : Judge {
     return ends_elsewhere ? std::max(off, std::numeric_limits<double>::min()) : 0;
   }
 
-  /// Reports a missed impact. That with a wall waits for the ball's next line; of two balls, what only the
-  /// partner's flight can confirm waits for that flight.
+  /// Reports a missed impact. An impact with a wall is held until the ball's next line; an impact of two
+  /// balls that only the partner's flight can confirm is held until the end of that flight.
   /// @param off  distance of the logged position from the end of the flight [m]
-  /// @return whether it is reported; `missed_at` becomes its time where it may be
+  /// @param missed_at  set to the time of the impact if it is, or may still be, reported [s]
+  /// @return true if the impact is considered reported
   bool report_missed(int ball, const Encounter& missed, const FlightEnd& end, double off, double& missed_at) {
     const bool wall = missed.with_wall, flown_through = off == 0;
     const bool explained =
@@ -369,8 +371,8 @@ class Flights : Judge {
     return wall || explained || !flown_through;
   }
 
-  /// Missed impacts that were found with other balls' flights are confirmed if this flight agrees with the
-  /// log.
+  /// Confirms missed impacts that were found at the end of other balls' flights, if this flight agrees with
+  /// the log.
   void settle_pending(Track& track, const FlightEnd& end, double off, double missed_at) {
     const int other = end.partner();
     for (const auto& missed : track.pending) {
@@ -381,7 +383,8 @@ class Flights : Judge {
     track.pending.clear();
   }
 
-  /// Time-stepping codes log several impacts of a ball at one time: the second one is late, not missed.
+  /// Reports the held impact unless the next line logs it at the same time: time-stepping codes log several
+  /// impacts of a ball at one time, of which the second is late, not missed.
   void settle_held(Track& track, const LoggedEvent* next) {
     if (!track.held) return;
     const bool reported =

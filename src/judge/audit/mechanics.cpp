@@ -10,7 +10,7 @@ namespace {
 
 Vec cross(const Vec& a, const Vec& b) { return edmill::cross<double>(a, b); }
 
-/// A place as seen in the vessel.
+/// Position in the vessel frame [m].
 Vec inside(const VesselFrame& frame, const Vec& position) {
   const Vec d = position - frame.centre;
   return {dot(d, frame.x), dot(d, frame.y), dot(d, frame.z)};
@@ -57,7 +57,7 @@ Vec contact_velocity(const LoggedImpact& impact, Vec BodyState::*velocity, Vec B
   return own - (two.*velocity + cross(two.*spin, impact.normal) * (impact.arm * impact.ball[1].radius));
 }
 
-/// How much the normal of a wall turns where the ball is moved [1/m]. @param step  by which it is moved [m]
+/// Rotation of a wall's normal per displacement of the ball [1/m]. @param step  displacement [m]
 double bend_of(const model::AnyVessel<double>& room, int wall, const Vec& place, double step) {
   const Vec normal = room.normal(wall, place);
   double square = 0;
@@ -143,7 +143,7 @@ LoggedImpact impact_of(const LoggedEvent& event, const model::Case<double>& the_
     const auto room = mill.vessel.inset(ball.radius);
     const Vec seen = inside(frame, place), normal = room.normal(event.partner, seen);
     impact.normal = frame.x * normal[0] + frame.y * normal[1] + frame.z * normal[2];
-    if (!(size(impact.normal) > 0)) impact.normal = frame.x;  // on the axis of a cylinder there is none
+    if (!(size(impact.normal) > 0)) impact.normal = frame.x;  // undefined on the axis of a cylinder
     if (!mill.vessel.is_flat(event.partner))
       impact.bend = bend_of(room, event.partner, seen, 1e-6 * mill.vessel.reach());
     impact.set_wall_velocity(wall_velocities[0], frame, frame);
@@ -169,7 +169,7 @@ Vec LoggedImpact::after() const {
 
 double LoggedImpact::tangential_restitution(double c, double bounce, double slip_speed) const {
   if (in_stall) return 1;
-  // A formula of its own where balls slide, so that a mistake in the law that runs use is seen.
+  // Sliding has an independent formula here, so that a mistake in the law that runs use is detected.
   if (const auto* coulomb = std::get_if<model::WaltonBraun<double>>(&law->law)) {
     const double reversal = coulomb->friction * c * bounce;  // reduction of the slip by full sliding
     if (reversal >= (1 - coulomb->min_tangential) * slip_speed) return coulomb->min_tangential;

@@ -22,7 +22,7 @@ EIGEN_ALWAYS_INLINE double size(const Vec& a) { return std::sqrt(a.dot(a)); }
 struct VesselFrame {
   Vec x, y, z, centre;
   Vec centre_velocity{0, 0, 0}, angular_velocity{0, 0, 0};
-  // For the nested motion only, whose two rotations codes take for each other:
+  // For the nested motion only, whose two rotations some codes exchange:
   Vec swing{0, 0, 0};    ///< theta' about Z [rad/s]
   double roll_rate = 0;  ///< gamma' about x' [rad/s]
   /// Displacements of the walls that move in the vessel, by wall; empty if there are none.
@@ -33,8 +33,8 @@ struct VesselFrame {
   }
 };
 
-/// By the nested motion R_z(theta) R_x(gamma), (2.7'), or any other as it is.
-/// @param as_printed  R_x(gamma) R_z(theta) in place of it, as (2.14) is printed
+/// The vessel at a time [s]. The rotation of the nested motion is R_z(theta) R_x(gamma), (2.7').
+/// @param as_printed  use R_x(gamma) R_z(theta) instead, as (2.14) is printed; no effect on other motions
 VesselFrame vessel_at(const model::Mill<double>& mill, double time, bool as_printed);
 
 /// Gap of a ball to a wall [m]; negative for an overlap. (2.17'), (2.19'), (2.21)
@@ -42,21 +42,22 @@ double wall_gap(const VesselFrame& frame, const model::Case<double>& the_case, i
                 const Vec& position);
 /// Gap of the bodies of an event [m].
 double gap_of(const LoggedEvent& event, const model::Case<double>& the_case, const VesselFrame& frame);
-/// Where a wall's velocity is wanted: the frames of the vessel, the contact point P, and the ball's centre.
+/// Arguments of a wall velocity: the frames of the vessel, the contact point P, and the ball's centre.
 struct WallPoint {
   const VesselFrame &nested, &printed;
   Vec contact, ball_centre;
 };
-/// A velocity of the wall that a code may have.
+/// A formula that a code may use for the velocity of the wall, and a note that describes it.
 struct WallVelocity {
   const char* note;
   Vec (*at)(const WallPoint& point);
 };
-/// The first is right: V = W_Z x P + (R_z W_x') x (P - C). The last is the derivative of the printed matrix.
+/// The first formula is correct, V = W_Z x P + (R_z W_x') x (P - C); the others are mistakes, the last one
+/// the derivative of the printed matrix.
 extern const std::array<WallVelocity, 10> wall_velocities;
 
-/// The terms of the equations that are checked: a code may have one of them larger, smaller, reversed or not
-/// at all. What each is multiplied by, 1, or shifted by, 0, where a code has it as docs/theory.md does.
+/// Deviations of a code in single terms of the equations: a term may be larger, smaller, reversed or missing.
+/// Each member is a factor, 1 for the equations of docs/theory.md, or a shift, 0 for these.
 struct Terms {
   // impacts
   double friction = 1, friction_on_velocity = 1, torque = 1, share = 1;
@@ -68,10 +69,10 @@ struct Terms {
     friction,
     masses,
     exchanged_masses
-  } equal_balls = EqualBalls::no;                     ///< formulas for them
+  } equal_balls = EqualBalls::no;                     ///< formulas for equal balls, used for unequal ones
   bool friction_of_restitution = false;               ///< limited by mu (1 + e_n) |g_n| at v_s as well
   double wall_velocity = 1, wall_velocity_delay = 0;  ///< delay [s]
-  std::size_t wall_velocity_formula = 0;              ///< place in wall_velocities
+  std::size_t wall_velocity_formula = 0;              ///< index in wall_velocities
   double wall_work = 1, dose = 1, spin_in_dose = 1, work_in_dose = 1, supply_in_dose = 1;
   double approach_speed = 1, slip_speed = 1;
   double contact_gap = 0;  ///< at which bodies meet [m]
@@ -80,7 +81,7 @@ struct Terms {
   double time_of_flight = 0, age_of_velocities = 0;  ///< [s]
 
   bool operator==(const Terms&) const = default;
-  /// Whether the states after an impact are others.
+  /// True if the terms change the states after an impact.
   bool change_impulse() const {
     return friction != 1 || friction_on_velocity != 1 || torque != 1 || share != 1 ||
            compliance_in_limit != 1 || compliance_in_impulse != 1 || arm != 1 ||
@@ -95,14 +96,14 @@ struct LoggedImpact {
   const model::ContactLaw<double>* law = nullptr;       ///< of the case
   std::array<model::BallProperties<double>, 2> ball{};  ///< the partner only for balls
   Vec normal{1, 0, 0};                                  ///< unit, from the partner to the ball
-  double bend = 0;  ///< how much the normal turns where the ball is moved: 0 on a flat wall [1/m]
+  double bend = 0;  ///< rotation of the normal per displacement of the ball; 0 on a flat wall [1/m]
   Vec wall_velocity{0, 0, 0};
-  bool in_stall = false;  ///< friction rests
-  double arm = 1;         ///< times R in the velocity of the contact point; Terms::arm
+  bool in_stall = false;  ///< the impact is frictionless
+  double arm = 1;         ///< lever arm of the contact point over R; Terms::arm
   /// M, and c = 1 + M/(m_i J_i) + M/(m_j J_j), for a wall 1 + 1/J_i
   double effective_mass = 0, compliance = 0;
 
-  /// Sets the velocity of the wall that a code has by this formula, with that in its vessel.
+  /// Sets the wall velocity by a code's formula, plus the motion of the wall within the vessel.
   void set_wall_velocity(const WallVelocity& formula, const VesselFrame& nested, const VesselFrame& printed);
   bool with_wall() const { return event->with_wall; }
   std::size_t count() const { return event->count(); }  ///< of balls
@@ -121,7 +122,7 @@ struct LoggedImpact {
   }
   /// e_t of the law for a normal impulse of `bounce` times the effective mass. (2.24')
   /// @param bounce  |g_n| + g_n' [m/s]
-  /// @param c       the compliance, or what a code has in its place
+  /// @param c       the compliance, or a code's value in its place
   double tangential_restitution(double c, double bounce, double slip_speed) const;
 
  private:
@@ -131,23 +132,23 @@ struct LoggedImpact {
 };
 
 /// The impact of an event, with the right velocity of the wall.
-/// @param placed  whether the log has the places of its bodies; else the normal is any
+/// @param placed  true if the log has the positions of the bodies; otherwise the normal is arbitrary
 LoggedImpact impact_of(const LoggedEvent& event, const model::Case<double>& the_case,
                        const VesselFrame& frame, bool placed);
 
-/// An impact by the law: velocities and spins after it, and e_t.
+/// Result of the contact law: velocities and spins after an impact, and e_t.
 struct Outcome {
   std::array<BodyState, 2> body;
   double restitution_tangential;
 };
-/// @param by_logged_impulse  the friction has the limit of the logged normal impulse, not of the law's
+/// @param by_logged_impulse  limit the friction by the logged normal impulse instead of the law's
 Outcome outcome(const LoggedImpact& impact, const Terms& terms, bool by_logged_impulse = false);
 
 /// Magnitude of the velocities involved [m/s], to which tolerances are relative.
 double velocity_scale(const LoggedImpact& impact, bool with_spins);
 
 /// Kinetic energy that the balls of a logged impact gain [J].
-/// @param spin_factor  of the energy of spins
+/// @param spin_factor  factor of the energy of spins
 double kinetic_change(const LoggedImpact& impact, double spin_factor = 1);
 /// Work of the wall on the ball of a logged impact [J]. (A.82)
 double work_of_wall(const LoggedImpact& impact);

@@ -89,7 +89,7 @@ SpectrumTest test_spectra(const std::vector<Batch>& a, const std::vector<Batch>&
   test.distance = distance([](std::size_t) { return 1.0; });
   std::mt19937_64 random(20110101);
   BatchValues distances;
-  std::size_t as_far = 1;  // the present one counts too
+  std::size_t as_far = 1;  // the observed assignment counts too
   for (std::size_t e = 0; e < exchanges; ++e) {
     std::uint64_t bits = 0;
     distances.push_back(distance([&](std::size_t k) {

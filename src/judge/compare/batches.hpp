@@ -48,13 +48,13 @@ struct Batch {
   double all_events() const;
 };
 
-/// Second pass over a log. Memory does not depend on its length.
-/// @param walls  at least as many as the log names
+/// Divides a log into batches, in a second pass. Memory does not depend on its length.
+/// @param walls  number of walls, larger than every wall number in the log
 std::vector<Batch> cut_into_batches(const std::filesystem::path& place, const BatchTimes& times, int walls,
                                     const SpectrumClasses& speed_classes,
                                     const SpectrumClasses& dose_classes);
 
-/// A quantity of a run in each batch.
+/// Values of a quantity, one per batch.
 using BatchValues = std::vector<double>;
 
 /// Batch values whose plain mean is sum / number of the whole and whose scatter is that of this ratio, to

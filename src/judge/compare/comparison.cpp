@@ -69,8 +69,8 @@ std::optional<logs::LoggedEvent> next_within(logs::EventLog& reader, const Limit
   return event;
 }
 
-/// The events of both logs in order. A value of an event is compared with the larger of itself in A and the
-/// mean magnitude of its column in A.
+/// Compares the events of both logs one by one. Differences of a value are relative to its magnitude in A, or
+/// to the mean magnitude of its column in A if that is larger.
 /// @param c  has the options and both scans. @throws InputError when a log cannot be read
 EventComparison compare_events(const Comparison& c) {
   logs::EventLog log_a(c.options.a), log_b(c.options.b);
@@ -123,10 +123,11 @@ class Quantities {
   Quantities(const std::vector<Batch>& a, const std::vector<Batch>& b, double tolerance)
       : a_(a), b_(b), tolerance_(tolerance) {}
 
-  /// A mean over the batches. @param reason  why it cannot be compared, or empty
-  /// @param events  that it rests on, in A and B together
+  /// Adds the mean of a quantity over the batches.
+  /// @param reason     why it cannot be compared, or empty
+  /// @param events     number of events that it is based on, in A and B together
   /// @param get        its value in a batch
-  /// @param per_event  whether that is a sum over the events, of which the mean is asked for
+  /// @param per_event  true if that value is a sum over events and the mean per event is compared
   void mean(const std::string& name, const std::string& unit, const std::string& reason, double events,
             const auto& get, bool per_event = false) {
     if (!reason.empty()) return skip(name, unit, reason);
@@ -202,7 +203,7 @@ class Quantities {
 };
 
 std::vector<Quantity> judge(const Comparison& c) {
-  // Spectra in classes above what counts as 0: far below the mean, and within the tolerance.
+  // Values up to this fraction of the mean count as 0 in spectra: at least the tolerance of events.
   const double zero = std::max(c.options.event_tolerance(), 1e-9);
   const SpectrumClasses speed_classes(zero * c.a.mean_magnitude[model::approach_speed]);
   const SpectrumClasses dose_classes(zero * c.a.mean_magnitude[model::milling_dose]);

@@ -37,8 +37,8 @@ struct ComparisonOptions {
   Limits limits;
   std::optional<double> batch;          ///< length [s]; default: a twentieth of the common time
   std::optional<double> tolerance;      ///< relative, for events; 1e-9 by default
-  std::optional<std::uint64_t> events;  ///< that must agree one by one
-  std::optional<double> within;  ///< largest relative difference of the dose rates of contacts that last
+  std::optional<std::uint64_t> events;  ///< number that must agree one by one
+  std::optional<double> within;         ///< largest relative difference of dose rates of contact logs
 
   double event_tolerance() const { return tolerance.value_or(1e-9); }
 };
@@ -50,12 +50,13 @@ struct Quantity {
   std::string name, unit;
   std::optional<double> a = {}, b = {};  ///< means over the common time; nothing for a spectrum
   std::optional<double> a_half_width = {}, b_half_width = {};  ///< of the 95 % intervals of the means
-  /// B - A and its 95 % interval; for a spectrum Kolmogorov's distance, and what 5 % of permutations exceed.
+  /// B - A and its 95 % interval; for a spectrum Kolmogorov's distance, and its limit, which 5 % of the
+  /// permutations exceed.
   std::optional<double> difference = {}, half_width = {};
   std::optional<double> probability =
       {};  ///< of such a difference by chance, after Holm; nothing if not tested
   Verdict verdict = Verdict::not_compared;
-  std::string reason = {};  ///< of not_compared
+  std::string reason = {};  ///< why it is not_compared
 };
 
 struct Comparison {
@@ -65,7 +66,7 @@ struct Comparison {
   std::optional<Verdict> events_verdict;  ///< when a number of events was required
   BatchTimes times;                       ///< no batches when the logs have too little time in common
   std::vector<Quantity> quantities;
-  Verdict verdict = Verdict::too_few;  ///< of everything: agree, differ or too_few
+  Verdict verdict = Verdict::too_few;  ///< overall: agree, differ or too_few
 };
 
 /// Familywise error rate: probability of any false difference between equivalent runs.

@@ -23,7 +23,7 @@ std::string interval_of(const std::optional<double>& value, const std::optional<
   return value ? with_interval(*value, half_width) : "-";
 }
 
-/// The values of an event that logs have.
+/// Indices of the logged quantities for which `has` is true.
 auto values_of(const auto& has) {
   std::vector<std::size_t> list;
   for (std::size_t k = 0; k < model::logged_count; ++k)

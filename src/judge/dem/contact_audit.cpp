@@ -20,26 +20,26 @@ namespace {
 /// Values measured on a single contact, and those of the case.
 struct Measured {
   std::vector<std::string>
-      parts;                      ///< of the contacts to which it belongs: "at cap -y", "of balls.1 at walls"
+      parts;                      ///< names of the groups that include it: "at cap -y", "of balls.1 at walls"
   double dose = 0;                ///< [J]
   double approach = 0, slip = 0;  ///< at the touch [m/s]
-  double pressed = 0;             ///< what acts meanwhile adds to the approach, over it
-  double turned = 0;              ///< by the normal meanwhile [rad]
-  double depth = 0;               ///< largest overlap of Hertz's contact of this duration, over the radius
-  double slip_left = 0;           ///< along the slip at the touch, over it
+  double pressed = 0;             ///< relative change of the approach by gravity and walls during the contact
+  double turned = 0;              ///< rotation of the normal during the contact [rad]
+  double depth = 0;               ///< largest overlap of a Hertz contact of this duration, over the radius
+  double slip_left = 0;           ///< slip after the contact, along and relative to that at the touch
   double wall_speed = 0;          ///< along the normal [m/s]
   // Of the case:
   double law_restitution = 0, law_friction = 0;
-  // Measured, as far as the contact shows them:
-  std::optional<double> restitution = {};  ///< if nothing pressed
-  std::optional<double> friction = {};     ///< impulse along the surfaces over that along the normal
-  double wound = 0;  ///< the slip that only just stops, over that of a contact that slides throughout
-  std::optional<double> stopping_friction = {};  ///< over what just stops the slip
+  // Measured, if the contact determines them:
+  std::optional<double> restitution = {};  ///< corrected for `pressed`
+  std::optional<double> friction = {};     ///< tangential over normal impulse
+  double wound = 0;  ///< least slip for sliding throughout, over the slip of this contact
+  std::optional<double> stopping_friction = {};  ///< over the one that just stops the slip
   std::optional<double> spin_change = {};        ///< over that of the impulse, m J R^2 dw = -R n x m dv
-  std::optional<double> wall_velocity = {};      ///< over that with which it has the restitution of the case
+  std::optional<double> wall_velocity = {};      ///< factor that gives the case's restitution
 };
 
-/// Relative velocity of two surfaces [m/s], seen along the unit normal towards the ball.
+/// Relative velocity of two surfaces [m/s], split along and across the unit normal towards the ball.
 struct Surfaces {
   Vector normal;
   double separation;
@@ -58,9 +58,10 @@ struct Bodies {
   double compliance;  ///< 1 + M/(m_i J_i) + M/(m_j J_j)
 };
 
-/// While a contact lasts, walls turn and are round, the line of centres of a pair turns, and gravity acts:
-/// this presses the bodies together or lifts them, as flights that go on through the contact show.
-/// @param at  surfaces at a time, with the states of the ball and its partner
+/// Measures a contact. During it curved walls rotate, the line of centres of a pair turns and gravity acts,
+/// which presses the bodies together or separates them; flights extrapolated through the contact show by how
+/// much.
+/// @param at  returns the surfaces at a time for states of the ball and its partner
 Measured measured_by(const Contact& c, const Vector& gravity, const Bodies& bodies, const auto& at) {
   const double duration = c.end - c.begin;
   const auto on = [&](const BallState& state) { return flown(state, gravity, duration); };
@@ -80,7 +81,7 @@ Measured measured_by(const Contact& c, const Vector& gravity, const Bodies& bodi
     has_friction = true;
     measured.law_friction = value;
   });
-  // Flights before and after press by different amounts; friction leads from the one to the other.
+  // The flights before and after give different amounts; friction leads from the first to the second.
   const double first = (touch.separation - flown_on.separation) / (2 * measured.approach),
                last = (flown_back.separation - leave.separation) / (2 * measured.approach),
                early = (3 * first + last) / 4, late = (first + 3 * last) / 4;
@@ -88,8 +89,8 @@ Measured measured_by(const Contact& c, const Vector& gravity, const Bodies& bodi
   measured.turned = norm<double>(Vector(leave.normal - touch.normal));
   measured.depth = 0.34 * duration * measured.approach / bodies.ball.radius;
   const double separation = leave.separation / measured.approach, e = measured.law_restitution;
-  // A force before the bodies are closest adds to the approach, a later one brakes; equal ones have the
-  // effect c.
+  // Before the closest distance a force adds to the approach, afterwards it brakes; equal forces before
+  // and after have the effect press_effect(e).
   measured.restitution = separation + (2 * decks::press_effect(e) + e) * late - e * early;
   const Vector left = leave.along - (flown_on.along - touch.along);
   if (measured.slip > 0)
@@ -113,7 +114,7 @@ Measured measured_by(const Contact& c, const Vector& gravity, const Bodies& bodi
   return measured;
 }
 
-/// The bodies of a case as its contacts name them.
+/// Measures the single contacts of a log with the bodies and laws of a case.
 class SingleContacts {
  public:
   /// The mill and the vessel must outlive it.
@@ -169,7 +170,7 @@ class SingleContacts {
   }
 
  private:
-  /// With each ball by itself, where there are not too many.
+  /// Adds a group for each ball, if the case has no more than 40.
   std::vector<std::string> parts_of(std::vector<std::string> parts, std::initializer_list<std::size_t> balls,
                                     const char* where) const {
     constexpr std::size_t most = 40;
@@ -182,37 +183,37 @@ class SingleContacts {
   const MovingVessel& vessel_;
   Vector gravity_;
   model::Partners partners_;
-  std::vector<std::string> kinds_;  ///< of balls: the entry of the case that they are from
+  std::vector<std::string> kinds_;  ///< entry of the case that defines each ball
 };
 
-/// A value that single contacts show, and what the case has for it.
+/// A quantity measured on single contacts, and its expected value in the case.
 struct Value {
   const char *name, *equation;
   double allowed, by_pressing, by_turning, by_depth;
   std::optional<double> Measured::*found;
-  double due = 1;                         ///< of any contact
-  double Measured::*law = nullptr;        ///< what is due of each
-  double Measured::*vanishing = nullptr;  ///< what it depends on linearly, and is wanted at 0
+  double due = 1;                         ///< expected for every contact
+  double Measured::*law = nullptr;        ///< expected for each contact
+  double Measured::*vanishing = nullptr;  ///< the result is extrapolated linearly to 0 of this
 
   double due_of(const Measured& s) const { return law ? s.*law : due; }
 };
 
 const Value restitution{
     "restitution", "(2.23')", 0.003, 0.1, 0, 0, &Measured::restitution, 0, &Measured::law_restitution};
-/// Contacts that clearly slide throughout. A spring along the surfaces has to be loaded first: its share is
-/// inversely proportional to the slip.
+/// Measured on contacts that clearly slide throughout. The tangential spring has to be loaded first; its
+/// contribution is inversely proportional to the slip.
 const Value friction{
     "friction",      "(2.24')", 0.01, 0, 0.1, 0, &Measured::friction, 0, &Measured::law_friction,
     &Measured::wound};
-/// Contacts in which the case's friction stops the slip. Springs along the surfaces reverse it, with up to
-/// twice the impulse; how much depends on the code's law.
+/// Measured on contacts in which the case's friction stops the slip. Tangential springs reverse it, with up
+/// to twice the impulse, depending on the code's law.
 const Value sticking{"stopping friction", "(2.24')", 1, 0, 0, 0, &Measured::stopping_friction, 1.5};
 /// In some codes the arm of the torque is shorter by the overlap.
 const Value spin_change{"spin change over the torque's", "(2.35)", 0.02, 0, 0.3, 1, &Measured::spin_change};
 const Value wall_velocity{"velocity", "(2.27)", 0.02, 0.2, 0, 0, &Measured::wall_velocity};
 
-/// Which contacts show a law best: gentle ones, and those in which much presses or the normal turns, are
-/// changed by what happens meanwhile.
+/// Selects the contacts that determine a law best. It rejects gentle ones, and ones with strong forces or a
+/// rotating normal: gravity and the motion of the bodies change them too much.
 class Clear {
  public:
   explicit Clear(const std::vector<Measured>& list) {
@@ -235,12 +236,12 @@ class Clear {
   double least_approach_ = 0, most_ = 1;
 };
 
-/// Half of the interquartile range of the restitution that time steps leave.
+/// Half of the interquartile range of the restitution that finite time steps may cause.
 constexpr double spread_allowed = 0.007;
 
-/// Judges a value by contacts, each by its own law, which may depend on speed or materials: what is shown is
-/// the median of the laws' values and how far the code is from them.
-/// @param number  of values that are judged alike
+/// Judges a value by contacts, each with its own law, which may depend on speed or materials. The result has
+/// the median of the laws' values, and that median plus the code's deviation from the laws.
+/// @param number  of values judged together, for the width of the interval
 Judged judged(const Value& value, const std::string& where, const std::vector<Measured>& list,
               const Clear& is_clear, double number, double all_dose) {
   std::vector<double> off, expected, pressed, turned, depth, vanishing;
@@ -283,7 +284,8 @@ void judge_laws(const std::vector<Measured>& list, Judged::Of of, ContactAudit& 
     auto result = judged(value, at, some, is_clear, alike, dose);
     result.of = of;
     result.is_part = alike > 1;
-    // Whether friction stops the slip, and single balls, are seen by the way: no verdict waits for them.
+    // Friction that stops the slip, and values of single balls, are optional: too few contacts for them do
+    // not leave the verdict open.
     if (result.dose_share > 0 &&
         (result.found.known() || !(&value == &sticking || at.starts_with("of ball "))))
       audit.judged.push_back(std::move(result));
@@ -307,7 +309,7 @@ void judge_laws(const std::vector<Measured>& list, Judged::Of of, ContactAudit& 
                           .of = of});
 }
 
-/// Values that would follow from others, or mean nothing beside them, are not judged.
+/// Excludes values from judgement that follow from others or have no meaning because of them.
 void leave_out(ContactAudit& audit, const std::string& because, const auto& which) {
   for (auto& judged : audit.judged)
     if (which(judged)) judged.not_judged = because;
@@ -315,9 +317,9 @@ void leave_out(ContactAudit& audit, const std::string& because, const auto& whic
 
 constexpr const char* follows_from_velocity = "it would follow from the velocity of the walls";
 
-/// A wrong velocity of the walls resembles a wrong restitution, and the reverse: the one that explains more
-/// of the differences is judged, of all walls together and of each that differs by itself. A velocity that
-/// explains a wrong restitution differs by whatever its interval shows.
+/// Distinguishes a wrong wall velocity from a wrong restitution, which look alike: the one that explains more
+/// of the differences is judged, for all walls together and for each that differs by itself. A velocity that
+/// explains a wrong restitution is judged by its interval alone, without a tolerance.
 void judge_wall_velocity(const std::vector<Measured>& walls, ContactAudit& audit) {
   std::vector<std::string> parts{"at walls"};
   for (const auto& j : audit.judged)
@@ -384,7 +386,7 @@ void judge_facts(const model::Mill<double>& mill, ContactAudit& audit) {
   add("diameter over the case's", facts.radius_factor, 0, 1, 1e-6);
   leave_out(audit, "the dump does not have it",
             [](const Judged& j) { return j.name.ends_with("the case's") && j.found.value == 0; });
-  // A ball that leaves its flight has met something, as far as frames resolve it.
+  // A ball that leaves its flight must have met a wall or ball, as far as the frames resolve it.
   if (const double all = facts.dose(); all > 0)
     add(unexplained_dose, facts.doses[static_cast<std::size_t>(ContactClass::unexplained)] / all, 0, 0, 0.01,
         Judged::Of::walls);
@@ -416,7 +418,8 @@ std::vector<SlipBin> slips_of(const std::vector<Measured>& walls, const std::vec
   return bins;
 }
 
-/// Balls of another size meet where those of the case do not touch: two that leave their flights together.
+/// Removes unexplained contacts that overlap in time: two balls that leave their flights together have
+/// collided, although balls of the case's size would not touch.
 void drop_pairs(std::vector<Contact>& contacts) {
   std::erase_if(contacts, [all = contacts](const Contact& c) {
     return c.kind == ContactClass::unexplained && std::ranges::any_of(all, [&](const Contact& other) {

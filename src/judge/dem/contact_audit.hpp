@@ -1,4 +1,5 @@
-// Contacts that last against the laws of a case: values, their intervals and what is expected. docs/dem.md
+// Audit of contacts of finite duration: measured values with intervals, and those expected from the laws of a
+// case. docs/dem.md
 #pragma once
 
 #include <atomic>
@@ -18,19 +19,19 @@ using numerics::Median, numerics::median_of;
 struct Judged {
   std::string name;           ///< "restitution at walls"
   std::string unit = {};      ///< empty for numbers
-  std::string equation = {};  ///< of theory.md that it belongs to
+  std::string equation = {};  ///< number of the equation in theory.md
   Median found = {};
   double expected = 0;
-  double allowed = 0;     ///< beyond the interval: what contacts of this duration do, and a time step
-  double dose_share = 0;  ///< of the contacts that show it
+  double allowed = 0;     ///< tolerance beyond the interval, for finite contacts and time steps
+  double dose_share = 0;  ///< share of the dose of the contacts that determine it
   double spread = 0;      ///< half of the interquartile range
 
   enum class Of { log, walls, balls } of = Of::log;
-  bool is_part = false;         ///< of the contacts of another value: of one wall, or one kind of balls
-  std::string not_judged = {};  ///< why it is not, other than by too few contacts
+  bool is_part = false;         ///< for a part of the contacts: of one wall, or one kind of balls
+  std::string not_judged = {};  ///< the reason, other than too few contacts, if it is not judged
 
   bool known() const { return not_judged.empty() && found.known(); }
-  /// Too few contacts show it for a verdict, and they have more than this share of the dose.
+  /// A value is open if too few contacts determine it, although they have more than this share of the dose.
   static constexpr double large_share = 0.05;
   bool is_open() const { return not_judged.empty() && !found.known() && dose_share > large_share; }
   bool agrees() const {
@@ -38,15 +39,15 @@ struct Judged {
   }
 };
 
-/// A number of the case that explains where the walls were met.
+/// A parameter of the case that explains where balls left their flights.
 struct GeometryCause {
   std::string key;
   std::string text;  ///< "10.45 +- 0.01 mm, the case has 11 mm"
   double value = 0, half_width = 0, expected = 0;
-  double left = 0;  ///< median distance from the walls with it [m]
+  double left = 0;  ///< median distance from the walls with this value [m]
 };
 
-/// e_t, what a contact leaves of the slip, for a range of slip over approach.
+/// e_t, the fraction of the slip that remains after a contact, for a range of slip over approach speed.
 struct SlipBin {
   double ratio = 0;  ///< median in the bin
   Median of_walls, of_balls;
@@ -57,19 +58,19 @@ struct ContactAudit {
   ContactLogFacts facts;
   compare::Verdict verdict = compare::Verdict::too_few;
   ByClass<std::uint64_t> counts{};
-  double magnitude = 0;  ///< sum of the doses of all contacts, each without its sign [J]
+  double magnitude = 0;  ///< sum of |dose| over all contacts [J]
   std::uint64_t missed_at_walls = 0, missed_between_balls = 0;
   std::vector<Judged> judged;
   std::vector<SlipBin> slips;
-  double wall_distance = 0;    ///< median from the walls of the case where balls left their flights [m]
-  double wall_resolution = 0;  ///< what frames resolve of it [m]
+  double wall_distance = 0;    ///< median from the case's walls to where balls left their flights [m]
+  double wall_resolution = 0;  ///< resolution of that distance by the frames [m]
   std::vector<GeometryCause> causes;
   double dose_rate = 0, dose_rate_half_width = 0;  ///< [W]
   bool interrupted = false;
 
   std::uint64_t jumps() const { return counts[static_cast<std::size_t>(ContactClass::jump)]; }
   bool wall_velocity_differs() const;
-  /// Balls leave their flights at the walls of the case.
+  /// True if balls leave their flights at the walls of the case.
   bool walls_met() const { return wall_distance <= 2 * wall_resolution && causes.empty(); }
 };
 

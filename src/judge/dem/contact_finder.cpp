@@ -12,9 +12,9 @@ namespace edmill::dem {
 
 namespace {
 
-/// Frames after which a stretch is cut, so that a ball at rest needs no memory.
+/// Longest stretch in frames. Longer ones are cut, which bounds the memory for a ball at rest.
 constexpr std::size_t longest_stretch = 4096;
-/// Places in which a flight is tried between frames that are far apart.
+/// Number of intervals in which flights between two frames are sampled.
 constexpr int tried = 32;
 
 /// Change of a ball's velocity between two frames, without that by gravity [m/s].
@@ -23,7 +23,7 @@ double change_of(const Frame& from, const Frame& to, std::size_t ball, const Vec
       Vector(to.balls[ball].velocity - from.balls[ball].velocity - gravity * (to.time - from.time)));
 }
 
-/// Where a gap falls to zero first, or rises from it last; nothing where it does not.
+/// Time at which a gap first falls to zero, or last rises from it; nothing if it does not.
 std::optional<double> crossing(const auto& gap, double low, double high, bool falling) {
   for (int round = 0; round < 4; ++round) {
     std::array<double, tried + 1> places, values;
@@ -43,9 +43,10 @@ std::optional<double> crossing(const auto& gap, double low, double high, bool fa
   return one == other ? low : low + (high - low) * one / (one - other);
 }
 
-/// Free flight is most of the time: the median acceleration is gravity. The longer it is measured, the less
-/// the rounding of numbers matters, until contacts fall into most of the spans: the span with the least
-/// scatter is taken. Where numbers are rounded, many of them are not known better than one.
+/// Determines gravity as the median acceleration, since balls are in free flight most of the time. Longer
+/// spans reduce the effect of rounded numbers, until most of them contain contacts; the span with the least
+/// scatter is used. The interval includes the scatter of a single value, because rounding errors do not
+/// average out.
 void set_gravity(const std::vector<Frame>& frames, FrameStatistics& s) {
   double least = std::numeric_limits<double>::infinity();
   for (const std::size_t span : {1u, 10u, 100u}) {
@@ -146,7 +147,7 @@ void ContactFinder::add(Frame next) {
   forget();
 }
 
-/// A ball that has gone farther than its velocities at both ends of an interval lead it.
+/// Reports balls that moved farther in an interval than the velocities at its ends allow.
 void ContactFinder::find_jumps() {
   const std::size_t now = first_ + window_.size() - 1;
   const Frame &from = frame(now - 1), &to = frame(now);
@@ -183,7 +184,7 @@ void ContactFinder::watch_overlaps(const std::vector<bool>& flies) {
   for (int ball = 0; ball < count; ++ball)
     for (int wall = 0; wall < vessel_.walls(); ++wall)
       watch({ball, -1 - wall}, -vessel_.gap(pose, ball, wall, now.balls[ball].position));
-  // Balls in the order of x: those that overlap are next to each other.
+  // Sweep over the balls in the order of x, in which overlapping balls are near each other.
   std::vector<int> order(open_of_.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::sort(order, {}, [&](int ball) { return now.balls[ball].position[0]; });
@@ -202,9 +203,10 @@ void ContactFinder::watch_overlaps(const std::vector<bool>& flies) {
   overlaps_ = std::move(present);
 }
 
-/// A contact changes the velocity of both balls. Its depth is less than a third of its duration times the
-/// approach; gentler ones than a thousandth of the radius may be hidden in the noise of the frames. A ball
-/// whose centre is outside may meet other bodies there.
+/// Reports an overlap that was not a contact: a contact changes the velocities of both balls, and its depth
+/// is less than a third of its duration times the approach speed. Overlaps below a thousandth of the radius
+/// may be noise of the frames. A ball whose centre is outside is reported even if its velocity changes, since
+/// it may meet other bodies there.
 void ContactFinder::end_overlap(const BodyPair& bodies, const Overlap& overlap) {
   const double radius = vessel_.ball(static_cast<std::size_t>(bodies[0])).radius;
   const double deepest = std::clamp(overlap.growth * frames_.contact_time, 1e-3 * radius, radius / 5);
@@ -251,7 +253,7 @@ bool ContactFinder::come_near(const Stretch& one, const Stretch& other) const {
   if (nearest <= touch) return true;
   const double whole = frame(high).time - frame(low).time;
   if ((high - low > 2 && resolved()) || nearest > touch + 2 * fastest * whole) return false;
-  // A contact between two frames: flights out of the one and back from the other.
+  // For contacts between two frames, extrapolate forwards from the first and backwards from the second.
   const auto meet = [&](std::size_t from, double step) {
     const auto &i = frame(from).balls[one.ball], &j = frame(from).balls[other.ball];
     for (int k = 0; k <= tried; ++k) {
@@ -285,7 +287,7 @@ void ContactFinder::settle() {
     if (stretches_[k].open) open_of_[stretches_[k].ball] = static_cast<int>(k);
 }
 
-/// The walls that a ball overlaps on its way, each as often as it comes to it.
+/// Walls that a ball overlaps during a stretch, listed once per encounter.
 std::vector<int> ContactFinder::walls_met(const Stretch& s) const {
   std::vector<int> met;
   std::vector<bool> inside(static_cast<std::size_t>(vessel_.walls()));
@@ -319,7 +321,7 @@ std::vector<int> ContactFinder::walls_met(const Stretch& s) const {
   return met;
 }
 
-/// Energy that a ball loses on its way.
+/// Energy that a ball loses along a sequence of states [J].
 double ContactFinder::balance(std::size_t ball, const States& states) const {
   auto pose = vessel_.at(states.front().first);
   double lost = vessel_.energy(pose, ball, states.front().second);
@@ -347,7 +349,7 @@ bool ContactFinder::make_single(const std::vector<Stretch>& group, int wall, Con
   // Velocities of some codes are half a step old: the touch may be before the last frame that shows a flight.
   const auto touch = crossing(gap_of(from), from.time - frames_.interval, to.time, true);
   const auto leave = crossing(gap_of(to), from.time, to.time + 2 * longest, false);
-  // In codes whose contacts have no duration, rounded numbers may put the one after the other.
+  // In codes whose contacts have no duration, rounding may put the detachment before the touch.
   if (!touch || !leave || *leave < *touch - frames_.interval / 100) return false;
   const double middle = (*touch + *leave) / 2;
   contact.begin = std::min(*touch, middle);
@@ -398,7 +400,7 @@ void ContactFinder::report(std::vector<Stretch> group) {
   };
   if (group.size() == 1) {
     const auto met = walls_met(group[0]);
-    // Rounded numbers of a dump, and no contact.
+    // A change this small is due to rounded numbers in the dump, not to a contact.
     const double change = norm<double>(impulse(group[0])) / vessel_.ball(group[0].ball).mass;
     if (met.empty() && change < std::max(50 * frames_.kick, 1e-3)) return;
     if (met.empty())

@@ -123,7 +123,7 @@ void ContactLogWriter::write(std::ostream& out, const ContactLogFacts& f) {
     else
       head[name] = value;
   });
-  // Whatever the name of a file has is written.
+  // Invalid UTF-8, as in the name of a file, is replaced.
   const auto text = head.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   out << fmt::format("{}\n# {}\n{}\n", first_line, text, header());
   check_temporary_file(std::fflush(rows_.get()) == 0);

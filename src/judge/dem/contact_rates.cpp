@@ -18,13 +18,13 @@ namespace edmill::dem {
 
 namespace {
 
-/// The part of a record that counts.
+/// The part of a record that is evaluated [s].
 struct Window {
   double from, until = INFINITY;
-  bool compared = false;  ///< with that of another record: nothing beside it counts, and it is not empty
+  bool compared = false;  ///< with another record: contacts outside are ignored, and it must not be empty
 };
 
-/// The rates of a record within a window. @param what  it consists of @param next  gives the next contact
+/// Rates of a record within a window. @param what  "contacts" or "impacts" @param next  returns the next one
 ContactRates rates_of(const std::string& log, const char* what, double first, double last,
                       const Window& window, const auto& next) {
   ContactRates r{.log = log, .first = std::max(first, window.from), .last = std::min(last, window.until)};
@@ -59,8 +59,8 @@ ContactRates rates_of(const std::string& log, const char* what, double first, do
   return r;
 }
 
-/// @param transient  until when a run that it is compared with takes no statistics, which a log leaves out,
-/// too, if it is long enough [s]
+/// @param transient  time at which the statistics of the run it is compared with begin; earlier contacts are
+/// left out if the log is at least twice as long [s]
 ContactRates rates_of_contacts(const std::string& file, const Window& window, double transient) {
   ContactLogReader log(file);
   const double first = log.facts().first, last = log.facts().last;
@@ -92,7 +92,7 @@ const char* word_for(compare::Verdict verdict) {
   return std::array{"agree", "differ", "too few"}.at(static_cast<std::size_t>(verdict));
 }
 
-constexpr double widest = 0.05;  ///< interval with which rates are said to agree
+constexpr double widest = 0.05;  ///< half-width with which rates may be said to agree
 
 std::string verdict_of(const ContactComparison& c) {
   const auto bound = c.within ? fmt::format(" within {:g} %", 100 * *c.within) : std::string();

@@ -1,5 +1,5 @@
-// Dose rates of logs of contacts: beside a run of edmill or another log of contacts, and of runs of one deck
-// with contacts of several durations, extrapolated to contacts of none.
+// Dose rates of contact logs: compared with a run of edmill or with another contact log, and extrapolated to
+// zero contact time from runs of one deck with several contact times.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace edmill::dem {
 
-/// A dose rate from batches of equal duration, of which neighbours may be correlated.
+/// A dose rate with its interval, from batches of equal duration; neighbouring batches may be correlated.
 class DoseRate {
  public:
   static constexpr std::size_t batches = 64;
@@ -35,19 +35,19 @@ class DoseRate {
 /// Rates of one record with their 95 % intervals.
 struct ContactRates {
   std::string log;
-  double first = 0, last = 0;            ///< of what counts [s]
+  double first = 0, last = 0;            ///< ends of the time that is evaluated [s]
   double dose_rate = 0, half_width = 0;  ///< [W]; of contacts by the balance of energy, groups included
   double contact_time = 0;               ///< median of single contacts with walls [s]; 0 of impacts
   double single_rate = 0;                ///< single contacts per second
-  double grouped = 0;                    ///< share of the dose that groups and lasting contacts have
+  double grouped = 0;                    ///< share of groups and lasting contacts in the dose
 };
 
 struct ContactComparison {
   ContactRates a = {}, b = {};
-  std::optional<double> within = {};  ///< largest difference from 1 of the ratio, where one is asked for
+  std::optional<double> within = {};  ///< largest allowed |ratio - 1|, if required
   double ratio = 1, half_width = 0;   ///< of B's dose rate over A's
-  /// The ratio agrees if its interval is within what is asked for, and differs if it is beyond. Where nothing
-  /// is asked for, it agrees if the interval contains 1 and is no wider than 5 %.
+  /// With `within`, the ratio agrees if its interval lies inside the allowed range and differs if it lies
+  /// outside. Without it, the ratio agrees if its interval contains 1 and its half-width is at most 5 %.
   compare::Verdict verdict = compare::Verdict::too_few;
 };
 
@@ -62,7 +62,7 @@ std::string to_junit(const ContactComparison& comparison);
 
 struct Limit {
   std::vector<ContactRates> points;
-  ContactRates at_zero{.log = "limit, by a weighted line"};  ///< of contacts that take no time
+  ContactRates at_zero{.log = "limit, by a weighted line"};  ///< of contacts of zero duration
   double slope = 0;                                          ///< [W/s]
   std::optional<ContactComparison> to_edmill;                ///< of the limit, B, with a run, A
 };

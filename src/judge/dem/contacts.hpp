@@ -1,4 +1,4 @@
-// Contacts that last: what happened to balls between frames in which they fly, and logs of them, which
+// Contacts of finite duration, found between the frames in which balls fly freely, and their logs, which
 // `edmill import` writes and `audit`, `compare` and `limit` read. docs/dem.md
 #pragma once
 
@@ -18,25 +18,26 @@
 
 namespace edmill::dem {
 
-/// Kinds of contacts. `wall` and `pair` are single ones, from which laws can be measured; in a `missed` one,
-/// which the code did not compute, bodies overlap and one of them flies on; in a `jump` a ball moves to where
-/// its velocities do not lead it.
+/// Kinds of contacts. `wall` and `pair` are single contacts, from which laws can be measured. In a `missed`
+/// one bodies overlap and one of them flies on, because the code did not compute the contact. In a `jump` a
+/// ball moves farther than its velocities allow.
 enum class ContactClass { wall, pair, several, lasting, unexplained, missed, jump };
 inline constexpr std::array<const char*, 7> contact_class_names{"wall",        "pair",   "several", "lasting",
                                                                 "unexplained", "missed", "jump"};
 template <class Value>
 using ByClass = std::array<Value, contact_class_names.size()>;
 
-/// One contact, or a group of bodies whose contacts overlap in time. Of a single one the states are those at
-/// the touch and at the detachment, by the flights before and after; of others those of the frames around it.
+/// One contact, or a group of bodies whose contacts overlap in time. The states of a single contact are those
+/// at the touch and at the detachment, extrapolated from the flights before and after; those of other
+/// contacts are taken from the last frame before and the first frame after.
 struct Contact {
   ContactClass kind{};
   double begin = 0, end = 0;             ///< [s]
   double free_until = 0, free_from = 0;  ///< times of the last frame before and the first after it [s]
-  int bodies = 1;                        ///< balls in it
-  int ball = 0;                          ///< the lowest
-  int partner = -1;                      ///< wall or ball; -1 where there is no single one
-  double dose = 0;                       ///< energy lost by all balls, by the balance [J]
+  int bodies = 1;                        ///< number of balls
+  int ball = 0;                          ///< the one with the lowest number
+  int partner = -1;                      ///< number of the wall or ball; -1 unless there is exactly one
+  double dose = 0;                       ///< energy lost by all balls, by the energy balance [J]
   BallState before = {}, after = {};
   BallState partner_before = {}, partner_after = {};  ///< of a pair
 };
@@ -48,22 +49,22 @@ struct FrameStatistics {
   Vector gravity_half_width{0, 0, 0};  ///< of its 95 % interval
   double kick = 0;                     ///< velocity changes below are noise [m/s]
   double contact_time = 0;             ///< median of the time in which a ball does not fly [s]
-  double way_factor = 0;               ///< median of displacements over those by the velocities; 0 unknown
+  double way_factor = 0;               ///< median ratio of displacements to those by velocities; 0 if unknown
 };
 
 /// @pre at least three frames
 FrameStatistics statistics_of(const std::vector<Frame>& frames, const Vector& expected_gravity);
 
-/// Finds contacts in a stream of frames; memory is bounded by how long contacts last.
+/// Finds contacts in a stream of frames; the memory needed grows with the duration of contacts only.
 class ContactFinder {
  public:
   using Found = std::function<void(const Contact&)>;
 
-  /// @param found  gets each contact when it is over, in order of the end of its group
+  /// @param found  called with each contact when it is over, in order of the end of its group
   ContactFinder(const MovingVessel& vessel, const FrameStatistics& frames, Found found);
 
   void add(Frame frame);
-  /// Contacts that have not ended by the last frame are none of the record, unless they last.
+  /// Ends the record. Contacts that are open at the last frame are dropped, except lasting ones.
   void finish();
 
  private:
@@ -73,17 +74,17 @@ class ContactFinder {
     int group = -1;
     bool open = true;
   };
-  /// A ball overlaps a wall or another ball, from frame to frame.
+  /// An overlap of a ball with a wall or another ball over consecutive frames.
   struct Overlap {
-    double begin = 0;                       ///< of the last frame before [s]
+    double begin = 0;                       ///< time of the last frame before [s]
     double last = 0;                        ///< depth in the last frame [m]
     double depth = 0, growth = 0;           ///< largest so far [m], [m/s]
-    std::array<bool, 2> flies{true, true};  ///< the ball, or its partner, all the while
+    std::array<bool, 2> flies{true, true};  ///< whether the ball, or its partner, flew freely throughout
   };
   using BodyPair = std::array<int, 2>;  ///< the ball, and the other one or -1 - wall
 
   const Frame& frame(std::size_t number) const { return window_[number - first_]; }
-  /// Whether a usual contact has frames within it.
+  /// True if a typical contact spans several frames.
   bool resolved() const { return frames_.contact_time >= 3 * frames_.interval; }
   void find_jumps();
   void watch_overlaps(const std::vector<bool>& flies);
@@ -103,8 +104,8 @@ class ContactFinder {
   Found found_;
   std::deque<Frame> window_;
   std::size_t first_ = 0;           ///< number of the window's first frame
-  std::vector<Stretch> stretches_;  ///< open, or ended in a group that is open
-  std::vector<int> open_of_;        ///< by ball: place in stretches_, or -1
+  std::vector<Stretch> stretches_;  ///< open, or ended while another one of the group is open
+  std::vector<int> open_of_;        ///< for each ball: index in stretches_, or -1
   int groups_ = 0;
   std::map<BodyPair, Overlap> overlaps_;
   double largest_radius_ = 0;
@@ -113,16 +114,16 @@ class ContactFinder {
 
 /// Facts about a whole log.
 struct ContactLogFacts {
-  std::string dump;  ///< that it was made from
+  std::string dump;  ///< file that it was made from
   std::uint64_t frames = 0, contacts = 0;
   double first = 0, last = 0;  ///< times of the frames [s]
   FrameStatistics statistics;
   double mass_factor = 1,
-         radius_factor = 1;  ///< of the dump's balls over the case's; 0 where it does not have them
+         radius_factor = 1;  ///< ratios of the dump's balls to the case's; 0 if not in the dump
   int facets = 0;            ///< of the prism that represents a round wall; 0 for a round wall
   ByClass<double> doses{};   ///< [J]
 
-  /// The head of a log.
+  /// Visits the fields of a log's header.
   static void fields(auto& self, auto&& field) {
     auto& s = self.statistics;
     field("dump", self.dump);
@@ -145,10 +146,10 @@ struct ContactLogFacts {
   double duration() const { return last - first; }
 };
 
-/// Number of contacts of each class, and their share of the dose. @param doses  [J]
+/// A table of the number of contacts of each class and their share of the dose. @param doses  [J]
 std::string class_table(const ByClass<double>& doses, const ByClass<std::uint64_t>& counts);
 
-/// Collects rows on disk until the facts are known.
+/// Writes a log. Its rows are collected in a temporary file until the facts of the header are known.
 class ContactLogWriter {
  public:
   ContactLogWriter();
@@ -159,12 +160,12 @@ class ContactLogWriter {
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> rows_;
 };
 
-/// Whether a file is such a log, by its first line.
+/// True if the first line of a file is that of a contact log.
 bool is_contact_log(const std::string& file);
 
 class ContactLogReader {
  public:
-  /// @throws InputError when it is none
+  /// @throws InputError when the file is not a contact log
   explicit ContactLogReader(const std::string& file);
 
   const ContactLogFacts& facts() const { return facts_; }

@@ -15,7 +15,7 @@ namespace edmill::dem {
 
 namespace {
 
-/// Places in `names`; y and z follow x.
+/// Indices in `names`; y and z follow x.
 constexpr std::size_t id = 0, x = 1, vx = 4, wx = 7, mass = 10, radius = 11, diameter = 12, scaled_x = 13,
                       moment = 16, image_x = 17, count = 20;
 /// Columns of a frame, under the names that codes give them.
@@ -27,7 +27,7 @@ constexpr std::array<const char*, 2> names[count] = {
 
 bool is_required(std::size_t what) { return what == id || (what >= vx && what < mass); }
 
-/// Apart by spaces, tabs, commas or semicolons, in quotes or without.
+/// Splits a line at spaces, tabs, commas and semicolons; quotes are dropped.
 std::vector<std::string> words(const std::string& line) {
   constexpr const char* separators = " \t,;\"";
   std::vector<std::string> list;
@@ -51,13 +51,13 @@ int facets_of(const std::string& word, const std::string& deck) {
 // columns.
 
 constexpr int most_columns = 1000;
-constexpr int longest_text = 100'000;  // of the names of the columns
+constexpr int longest_text = 100'000;  // names of all columns together [bytes]
 constexpr std::string_view magic = "DUMPCUSTOM";
 
-/// Thrown where the file ends.
+/// Thrown at the end of the file.
 struct EndOfFile {};
 
-/// Numbers as the writer's machine had them: LAMMPS writes them as they are.
+/// Reads numbers in this machine's byte order. LAMMPS writes them in that of its own machine.
 class Bytes {
  public:
   Bytes(std::istream& in, const std::string& name) : in_(in), name_(name) {}
@@ -87,7 +87,8 @@ class Bytes {
   const std::string& name_;
 };
 
-/// A format without names of columns begins with the step, which is not negative.
+/// Reads and checks the format. The older one, without column names, begins with the step, which is not
+/// negative.
 void read_format(Bytes& in) {
   const auto length = in.take<std::int64_t>();
   if (length >= 0 || in.text(static_cast<int>(-std::max<std::int64_t>(length, -longest_text))) != magic)
@@ -109,7 +110,7 @@ void read_box(Bytes& in, std::array<double, 3>& low, std::array<double, 3>& size
   if (triclinic != 0) in.fail("a box whose edges are not at right angles", "another");
 }
 
-/// The values of all rows. Nothing larger than the frame must be is allocated.
+/// Reads the values of all rows. No more memory is allocated than the frame can need.
 std::vector<double> read_values(Bytes& in, std::size_t size) {
   std::vector<double> values;
   const auto chunks = in.take<std::int32_t>();
@@ -123,7 +124,7 @@ std::vector<double> read_values(Bytes& in, std::size_t size) {
   return values;
 }
 
-/// Whether a file is a binary dump, by its first byte, which begins no text.
+/// True if a file with this first byte is a binary dump; no text begins with it.
 bool begins_binary_dump(int first_byte) {
   // The length of the format's name, negated; or a step, whose lowest byte is most often 0.
   return first_byte == 0 || first_byte == 256 - static_cast<int>(magic.size());
@@ -186,7 +187,7 @@ double FrameReader::finite(const std::string& text) const {
   return value;
 }
 
-/// The units, which are known by now, and the columns of the rows that follow.
+/// Sets the units, which are known by now, and the columns of the rows that follow.
 void FrameReader::set_columns(const std::vector<std::string>& columns) {
   static constexpr Units known[] = {{"si", 1, 1, 1},
                                     {"cgs", 1e-2, 1, 1e-3},
@@ -265,7 +266,7 @@ void FrameReader::finish(std::vector<FrameRow> rows, double time, Frame& frame) 
   std::vector<long> ids;
   frame.balls.clear();
   for (const auto& row : rows) {
-    // Faster than any mill, so that squares of it are numbers: a code that has become unstable.
+    // Beyond the speed in any mill: the code has become unstable. The bound also keeps squares finite.
     constexpr double fastest = 1e6;
     const auto& s = row.state;
     const double sizes = row.mass.value_or(1) + row.radius.value_or(1);
@@ -335,7 +336,7 @@ bool FrameReader::next_of_binary(Frame& frame) try {
   return false;
 }
 
-/// Rows of one time are a frame; the last frame ends with the file.
+/// Reads consecutive rows with the same time as a frame; the last frame ends with the file.
 bool FrameReader::next_of_table(Frame& frame) {
   while (names_.empty()) {
     if (!line()) return false;
@@ -380,7 +381,7 @@ bool FrameReader::next_of_dump(Frame& frame) {
       finish(std::move(rows), at, frame);
       return true;
     }
-    const bool bounds = item.starts_with("BOX BOUNDS");  // an item of no interest has one line, too
+    const bool bounds = item.starts_with("BOX BOUNDS");  // items that are skipped have one line, too
     for (std::size_t k = 0; k < (bounds ? 3 : 1); ++k) {
       if (!line()) return false;
       if (bounds) read_bounds(k);

@@ -21,7 +21,7 @@ struct DumpFormat {
 /// Facts in a deck: its lines `timestep`, `units`, `# frame vessel` and `# facets`.
 struct DeckFacts {
   std::optional<double> time_step;
-  std::string no_time_step;  ///< why the time step is not known, if so
+  std::string no_time_step;  ///< why the time step is unknown; empty if it is known
   std::optional<std::string> units;
   bool in_vessel = false;
   int facets = 0;  ///< of the prism that represents a round wall
@@ -36,8 +36,8 @@ struct Frame {
 };
 
 /// Reads frames in bounded memory: a dump of LAMMPS or LIGGGHTS, text or binary, or a table with a column
-/// `time` whose rows of one time are a frame. Columns may be in any order, unknown ones are skipped, and a
-/// file that ends within a frame ends before it.
+/// `time` whose rows of one time are a frame. Columns may be in any order, unknown ones are skipped, and an
+/// incomplete last frame is dropped.
 class FrameReader {
  public:
   /// @param balls  of the case
@@ -60,7 +60,7 @@ class FrameReader {
     std::optional<double> mass, radius, time;
   };
 
-  /// In SI.
+  /// Units of a dump, in SI.
   struct Units {
     std::string_view name;
     double length, time, mass;
@@ -77,7 +77,7 @@ class FrameReader {
   FrameRow row_of(const std::vector<double>& values) const;
   double time_of(std::optional<double> time, std::optional<double> step) const;
   void finish(std::vector<FrameRow> rows, double time, Frame& frame);
-  double number(const std::string& text) const;  ///< or nan or inf
+  double number(const std::string& text) const;  ///< may be nan or infinite
   double finite(const std::string& text) const;
 
   std::string name_;
@@ -88,13 +88,13 @@ class FrameReader {
   std::string line_;
   std::uint64_t line_number_ = 0;
   std::vector<std::string> names_;        ///< of the columns
-  std::vector<int> places_;               ///< of what is needed among them; -1 for what is absent
+  std::vector<int> places_;               ///< index of each known column among them; -1 if absent
   std::array<double, 3> low_{}, size_{};  ///< of the box, for scaled and wrapped coordinates
   bool is_tilted_ = false;
   Units units_{"si", 1, 1, 1};
   std::vector<long> ids_;
   std::vector<double> masses_, radii_;
-  std::optional<FrameRow> waiting_;  ///< of the next frame of a table
+  std::optional<FrameRow> waiting_;  ///< first row of the next frame of a table
   double last_time_;
 };
 

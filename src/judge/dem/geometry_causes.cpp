@@ -1,4 +1,4 @@
-// Which number of mill or vessel puts the walls where balls left their flights.
+// Finds the parameter of the mill or vessel with which the walls are where balls left their flights.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,9 +22,9 @@ struct Meeting {
   Vector position;
 };
 
-/// A number with first values to begin a fit with.
+/// A parameter to be fitted, with starting values.
 struct Candidate : Assumption {
-  int wall = -1;  ///< that is moved outward by the value [m], where nothing is set
+  int wall = -1;  ///< wall that the value moves outward [m], if `set` is empty
 };
 
 class Geometry {
@@ -66,7 +66,7 @@ class Geometry {
   const Assumed& nominal() const { return nominal_; }
   double distance = 0, resolution = 0;
 
-  /// Gaps with a mill; empty where it can be none.
+  /// Gaps from the walls where balls left their flights [m]; empty if such a mill cannot be built.
   std::vector<double> gaps(const Assumed& assumed, int moved = -1, double outward = 0) const {
     std::vector<double> gaps;
     const auto built = assumed.built();
@@ -77,8 +77,9 @@ class Geometry {
                      (m.wall == moved ? outward : 0));
     return gaps;
   }
-  /// The largest of the walls' medians: a mistake may move one wall alone. Frames blur places, but to both
-  /// sides alike: a gap to one side is known better.
+  /// Deviation of the walls [m]: the largest of the medians of single walls, since a mistake may move one
+  /// wall alone. The interval between frames blurs positions symmetrically, so that the median of signed gaps
+  /// is known better.
   double of(const std::vector<double>& gaps) const {
     if (gaps.empty()) return INFINITY;
     std::vector<std::vector<double>> by_wall(static_cast<std::size_t>(nominal_.walls));
@@ -91,7 +92,7 @@ class Geometry {
       const auto signed_gap = median_of(own);
       for (double& gap : own) gap = std::abs(gap);
       const double known = std::abs(signed_gap.value) - signed_gap.half_width();
-      // Where balls are faster, frames show places less sharply.
+      // The faster the balls, the less sharply frames show their positions.
       const double off = std::max(3 * known, median_of(std::move(own)).value);
       largest = std::max(largest, off * resolution / median_of(reaches_of_walls_[wall]).value);
     }
@@ -148,7 +149,7 @@ class Geometry {
   Assumed nominal_;
   int facets_;
   std::vector<Meeting> meetings_;
-  std::vector<std::vector<double>> reaches_of_walls_;  ///< way of the ball in half a frame [m]
+  std::vector<std::vector<double>> reaches_of_walls_;  ///< path of a ball in half a frame interval [m]
 };
 
 void add_numbers(const Assumed& nominal, std::vector<Candidate>& list) {

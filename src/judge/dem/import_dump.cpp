@@ -16,15 +16,15 @@ namespace edmill::dem {
 
 namespace {
 
-/// The largest deviation from 1 of the ratios of a record's values to the case's; 0 without any, 1
-/// where all differ by the rounding of numbers that are written.
+/// The ratio of a dump's value to the case's that deviates most from 1; 0 without any ratio, 1 if none
+/// deviates by more than the rounding of printed numbers.
 double factor_of(const std::vector<double>& ratios) {
   if (ratios.empty()) return 0;
   const double factor = std::ranges::max(ratios, {}, [](double ratio) { return std::abs(ratio - 1); });
   return std::abs(factor - 1) < 1e-5 ? 1 : factor;
 }
 
-/// Frames from which the statistics of all are taken.
+/// Number of frames from which the statistics are taken that are used for all frames.
 constexpr std::size_t first_frames = 4000;
 
 /// Ratios of the dump's values to the case's, ball by ball; empty if the dump has none.
@@ -35,7 +35,8 @@ std::vector<double> ratios_of(std::vector<double> dump,
   return dump;
 }
 
-/// From the axes of a dump to those of the case. A spin keeps its sense in a mirror.
+/// Transforms a ball from the axes of a dump to those of the case. The spin is an axial vector: a mirror
+/// image of the axes adds a factor of -1.
 void put_in_axes(BallState& ball, const identify::Axes& axes) {
   ball.position = axes.of(ball.position);
   ball.velocity = axes.of(ball.velocity);

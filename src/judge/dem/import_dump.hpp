@@ -1,4 +1,4 @@
-// A dump of frames becomes a log of contacts.
+// Converts a dump of frames to a log of contacts.
 #pragma once
 
 #include <atomic>
@@ -14,7 +14,7 @@ namespace edmill::dem {
 
 struct ImportOptions {
   std::string dump, log;             ///< files to read and to write
-  std::string deck;                  ///< that made it, with time step, units and frame; none when empty
+  std::string deck;                  ///< deck that made the dump: time step, units, frame; optional
   std::optional<double> time_step;   ///< [s]
   std::optional<std::string> units;  ///< "si", "cgs", "mm", ...
   Vector origin{0, 0, 0};            ///< of the dump, in the case [m]
@@ -28,7 +28,7 @@ struct Imported {
   std::string log;
   ContactLogFacts facts = {};
   ByClass<std::uint64_t> counts{};
-  bool interrupted = false;  ///< what was read until then is in the log
+  bool interrupted = false;  ///< the log contains what was read until then
 
   void count(const Contact& contact) {
     const auto kind = static_cast<std::size_t>(contact.kind);

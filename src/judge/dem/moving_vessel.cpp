@@ -28,7 +28,7 @@ const model::Tube<double>* MovingVessel::prism(int wall) const {
                      : nullptr;
 }
 
-// Gap functions need not be lengths; overlaps are.
+// The gap follows from the overlap, which is a length; gap functions of vessels need not be.
 double MovingVessel::gap(const Pose& pose, std::size_t ball, int wall, const Vector& position) const {
   const Vector place = mill_.motion.position_in_vessel(pose, position);
   if (const auto* tube = prism(wall))

@@ -1,4 +1,4 @@
-// The vessel of a case at any time, and balls as seen from it.
+// The moving vessel of a case, and balls relative to it.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@ namespace edmill::dem {
 using Vector = Vec3<double>;
 using BallState = model::BallState<double>;
 
-/// Motion and walls for balls of given radii. A wall that moves by itself (a piston) is not one of them.
+/// Motion and walls for balls of given radii. The motion of walls within the vessel (pistons) is ignored.
 class MovingVessel {
  public:
   /// @param facets  of the prism that represents a round wall, as `meshes_of` makes it; 0 for a wall that is
@@ -23,9 +23,9 @@ class MovingVessel {
 
   /// Gap of a ball's surface from a wall; negative for an overlap [m].
   double gap(const Pose& pose, std::size_t ball, int wall, const Vector& position) const;
-  /// Unit, into the vessel, inertial, of the wall at the place of a ball.
+  /// Unit normal of a wall at the position of a ball, into the vessel, in the inertial frame.
   Vector normal(const Pose& pose, std::size_t ball, int wall, const Vector& position) const;
-  /// Velocity of the vessel's material at an inertial place [m/s].
+  /// Velocity of the vessel's material at a position in the inertial frame [m/s].
   Vector wall_velocity(const Pose& pose, const Vector& place) const {
     return mill_.motion.wall_velocity(pose, place);
   }
@@ -34,11 +34,11 @@ class MovingVessel {
   /// Kinetic energy of a ball relative to the vessel [J].
   double energy(const Pose& pose, std::size_t ball, const BallState& state) const;
   /// Work of gravity and of the fictitious forces and torques on a ball between two states, relative to the
-  /// vessel [J]: forces are means of both ends, the way is that between them.
+  /// vessel [J]: the mean of the forces in both states times the displacement.
   double work(const Pose& from, const BallState& before, const Pose& to, const BallState& after,
               std::size_t ball, const Vector& gravity) const;
 
-  /// A state out of a frame of the vessel, as inertial.
+  /// Transforms a state from the vessel frame to the inertial frame.
   BallState inertial(const Pose& pose, const BallState& in_vessel) const;
 
   const model::BallProperties<double>& ball(std::size_t k) const { return balls_[k]; }

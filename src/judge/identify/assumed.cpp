@@ -19,7 +19,7 @@ Vec3<double> Axes::of(const Vec3<double>& v) const {
 
 namespace {
 
-/// Vectors of another frame in that of the laboratory.
+/// Transforms the vectors of an event from another frame to that of the laboratory.
 void to_laboratory(audit::LoggedEvent& event, LogFrame from, const model::Mill<double>& mill) {
   const auto frame = audit::vessel_at(mill, event.time, false);
   const auto turned = [&](const Vec3<double>& v) {
@@ -40,7 +40,7 @@ void to_laboratory(audit::LoggedEvent& event, LogFrame from, const model::Mill<d
   }
 }
 
-/// Whether one of the balls from `first` to before `end` is in an impact.
+/// True if a ball with a number in [first, end) takes part in an impact.
 bool takes_part(const audit::LoggedEvent& event, std::size_t first, std::size_t end) {
   const auto is_one = [&](int ball) {
     return ball >= static_cast<int>(first) && ball < static_cast<int>(end);
@@ -81,7 +81,7 @@ void LogChange::apply(audit::LoggedEvent& event, const model::Mill<double>& mill
 casefile::CaseSpec Assumed::case_file() const {
   if (phases.empty() || !casefile::problems_of(spec).empty()) return spec;
   auto joints = casefile::joints_of(spec.mill);
-  if (joints.size() != this->joints) return spec;  // another mill, by a mistake
+  if (joints.size() != this->joints) return spec;  // a mistake has replaced the mill
   for (const auto& [place, more] : phases) {
     auto& joint = joints.at(place[0]);
     auto& angle = place[1] < joint.swings.size() ? joint.swings[place[1]].phase : joint.angle;
@@ -111,7 +111,7 @@ Assumed assumed_of(const casefile::CaseSpec& spec) {
 }
 
 casefile::Quantity exactly(double value) {
-  // nan and infinity are not values of a case; 0 instead is refused, or fits as badly.
+  // A case cannot contain nan or infinity. 0 is used instead: it is refused or fits as badly.
   return casefile::Quantity::exactly(std::isfinite(value) ? value : 0.0);
 }
 
@@ -146,7 +146,7 @@ std::vector<SharedSubset> subsets_of(const casefile::CaseSpec& spec, const model
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall)
     of_impacts("at " + walls[wall].meaning,
                [wall](const LoggedEvent& e, std::size_t) { return e.with_wall && e.partner == wall; });
-  /// Impacts at some walls, if these are several and not all.
+  /// Adds the impacts at the walls that satisfy `is_one`, if these are several but not all.
   const auto at_walls = [&](const std::string& name, const auto& is_one) {
     std::vector<bool> at;
     for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) at.push_back(is_one(wall));

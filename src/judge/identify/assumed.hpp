@@ -1,4 +1,4 @@
-// The case, the equations and the log's conventions as another code may have had them, in the whole log or in
+// Assumptions about the code that wrote a log: its case, equations and conventions, for the whole log or for
 // a part of it.
 #pragma once
 
@@ -22,18 +22,18 @@ struct Axes {
 
   bool operator==(const Axes&) const = default;
   Vec3<double> of(const Vec3<double>& v) const;
-  /// -1 of axes in a mirror.
+  /// 1, or -1 for a mirror image of the axes.
   int handedness() const { return ((from[1] - from[0] + 3) % 3 == 1 ? 1 : -1) * sign[0] * sign[1] * sign[2]; }
 };
 
-/// In which frame a log has its vectors.
+/// Frame of the vectors in a log.
 enum class LogFrame {
   laboratory,
   axes_of_vessel,  ///< the laboratory's vectors, in components along the vessel's axes
-  vessel           ///< as seen from the vessel
+  vessel           ///< relative to the vessel, and along its axes
 };
 
-/// How a log differs from what its header and the conventions say. Factors lead to SI.
+/// Deviations of a log from its header and conventions. Factors convert to SI.
 struct LogChange {
   double time = 1, positions = 1, velocities = 1, spins = 1, energies = 1, speeds = 1;
   double delay = 0;               ///< [s], added to each time: the phase of the drive
@@ -41,10 +41,10 @@ struct LogChange {
   bool reversed_in_time = false;  ///< states before and after an impact exchanged
   Axes axes_of_positions, axes_of_velocities, axes_of_spins;
   LogFrame frame = LogFrame::laboratory;
-  std::array<int, 2> exchanged = {-1, -1};  ///< numbers of two balls that are taken for each other
+  std::array<int, 2> exchanged = {-1, -1};  ///< numbers of two balls that the log exchanges
 
   bool operator==(const LogChange&) const = default;
-  /// @param mill  of the vessel whose frame it may be
+  /// @param mill  gives the vessel frame, if the log uses it
   void apply(audit::LoggedEvent& event, const model::Mill<double>& mill) const;
 };
 
@@ -55,14 +55,14 @@ using audit::Terms;
 
 /// The event and the body of a row.
 struct RowPlace {
-  std::size_t event = 0;  ///< place in the log
+  std::size_t event = 0;  ///< index in the log
   int body = -1;          ///< 0 the event's ball, 1 its partner, -1 both
   bool of_flight = false;
 
   bool operator==(const RowPlace&) const = default;
 };
 
-/// The branches of the contact law that an impact took, by its states before.
+/// Branches of the contact law in an impact, determined from the states before it.
 struct Branches {
   bool known = false, sticks = false, at_least_separation = false;
 };
@@ -93,20 +93,21 @@ struct Assumed {
   casefile::CaseSpec spec;
   std::vector<model::BallProperties<double>> balls;
   LogChange log;
-  int walls;               ///< of the case, which the log's walls are
-  std::size_t joints = 0;  ///< of the case's mill, which `phases` are of
+  int walls;               ///< number of walls of the case, and so of the log
+  std::size_t joints = 0;  ///< number of joints of the case's mill, for `phases`
   Terms terms = {};
   /// Differences of the phases of the mill's joints from the case's [rad], by joint and swing; a rotation's
-  /// own angle has the place after its swings.
+  /// own angle has the index after its swings.
   std::map<std::array<std::size_t, 2>, double> phases = {};
   std::vector<Restricted> restricted = {};  ///< for parts of the log only
 
-  /// The case of these values; none where its file would be refused, a ball has no room in the vessel, or the
-  /// vessel has other walls: a log cannot be of such a mill.
+  /// Builds the case with these values. Returns nothing if the log cannot be of such a mill: its file would
+  /// be refused, a ball does not fit into the vessel, or the vessel has other walls.
   std::optional<model::Case<double>> built() const;
   /// The case's file with these values.
   casefile::CaseSpec case_file() const;
-  /// Whether a case file alone can express it, so that an audit can be made with it.
+  /// True if a case file can express the assumptions, apart from the log's conventions, so that an audit is
+  /// possible.
   bool is_case() const { return restricted.empty() && terms == Terms{}; }
 };
 

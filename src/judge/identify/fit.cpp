@@ -22,10 +22,10 @@ namespace {
 
 constexpr double out_of_range = 1e15;
 
-/// Rows below this share of the tolerance fit perfectly: rounding.
+/// Rows below this fraction of the tolerance count as a perfect fit, up to rounding.
 constexpr double perfect = 1e-4;
 
-/// Rounding error of a row: that of its doubles over the usual tolerance of 1e-9.
+/// Rounding error of a row: that of double precision over the default tolerance of 1e-9.
 constexpr double rounding_of_rows = 4e-7;
 
 double median_size(std::vector<double> values) {
@@ -33,7 +33,7 @@ double median_size(std::vector<double> values) {
   return numerics::quantile(std::move(values), 0.5);
 }
 
-/// Scales of the weights, from those of the start down to rounding.
+/// Scales of the Cauchy weights, from the size of the initial residuals down to the tolerance.
 std::vector<double> scales_for(const Eigen::VectorXd& rows) {
   std::vector<double> off;
   std::copy_if(rows.begin(), rows.end(), std::back_inserter(off), [](double r) { return std::abs(r) > 1; });
@@ -44,7 +44,7 @@ std::vector<double> scales_for(const Eigen::VectorXd& rows) {
   return scales;
 }
 
-/// A step of a parameter, in its unit: backwards where a case cannot have a larger value.
+/// Step of a parameter in its unit; negative if the case does not allow a larger value.
 double possible_step(const Assumed& assumed, const Assumption& p, double value, double step) {
   return p.on(assumed, value + step * p.change).built() ? step : -step;
 }
@@ -59,7 +59,7 @@ struct Problem {
 
   const Residuals& sample;
   const Hypothesis& tried;
-  Eigen::VectorXd roots{};  ///< of the weights
+  Eigen::VectorXd roots{};  ///< square roots of the weights
 
   int inputs() const { return static_cast<int>(fitted(tried).size()); }
   int values() const { return static_cast<int>(sample.count()); }
@@ -77,7 +77,7 @@ struct Problem {
     out = roots.asDiagonal() * derivatives(at(x));
     return 0;
   }
-  /// Differences of a step that neither rounding nor curvature spoils.
+  /// Finite differences, with a step for which neither rounding nor curvature matters.
   Eigen::MatrixXd derivatives(Hypothesis moved) const {
     Eigen::MatrixXd columns(values(), inputs());
     const Eigen::VectorXd here = sample.rows(moved.assumed());
@@ -95,14 +95,15 @@ Eigen::VectorXd weights_of(const Eigen::VectorXd& rows, double scale) {
   return (1 + rows.array().square() / (scale * scale)).inverse();
 }
 
-/// The cost that rounds with weights of scale 1 minimise.
+/// The cost function that iterations with weights of scale 1 minimise.
 double cauchy_cost(const Eigen::VectorXd& rows) {
   return std::accumulate(rows.begin(), rows.end(), 0.0,
                          [](double sum, double r) { return sum + std::log1p(r * r); });
 }
 
-/// Sets intervals: what noise of the rows' own size leaves open, and what a shift of all rows by that size,
-/// each in the worst direction, would do; rounding of a log does shift rows of a kind together.
+/// Sets the intervals: three standard deviations for noise of the size of the residuals, plus the effect of a
+/// shift of all rows by that size, each in its worst direction, since the rounding of a log shifts rows of a
+/// kind together.
 void set_half_widths(const Eigen::MatrixXd& j, const Eigen::VectorXd& rows, Hypothesis& tried) {
   const auto weights = weights_of(rows, 1);
   double sum = 0, total = 0;
@@ -124,7 +125,7 @@ void set_half_widths(const Eigen::MatrixXd& j, const Eigen::VectorXd& rows, Hypo
   }
 }
 
-/// The wall's velocity becomes that of a code with other terms.
+/// Replaces the wall velocity of an impact by that of a code with these terms.
 void assume_wall_velocity(const model::Mill<double>& mill, const Terms& terms, LoggedImpact& impact) {
   if (terms.wall_velocity_delay != 0 || terms.wall_velocity_formula != 0) {
     const double time = impact.event->time - terms.wall_velocity_delay;
@@ -136,8 +137,8 @@ void assume_wall_velocity(const model::Mill<double>& mill, const Terms& terms, L
 
 }  // namespace
 
-/// The rows of an event that an assumption may change.
-/// @param change  how the log is written
+/// Rows of an event for an assumed model, with assumed terms of the equations.
+/// @param change  assumed deviations of the log from its conventions
 std::vector<audit::Row> LogResiduals::rows_of(std::size_t k, const model::Case<double>& model,
                                               const LogChange& change, const Terms& terms) const {
   LoggedEvent copy, copy_of_earlier;
@@ -209,7 +210,7 @@ Branches LogResiduals::branches_of(const LoggedEvent& event) const {
       event.with_wall ? audit::vessel_at(nominal_.mill, event.time, false) : audit::VesselFrame{}, true);
   const auto speeds = audit::speeds_before(impact);
   const double separation = impact.separation_speed(speeds.g_n), bounce = separation - speeds.g_n;
-  // Twice the impulse changes nothing where contacts stick.
+  // A contact sticks if twice the impulse does not change e_t.
   const auto e_t = [&](double impulse) {
     return impact.tangential_restitution(impact.compliance, impulse, speeds.slip);
   };
@@ -235,7 +236,7 @@ Eigen::VectorXd Residuals::rows(const Assumed& assumed) const {
   Assumed whole = assumed;
   whole.restricted.clear();
   auto values = of_whole(whole);
-  // Each set of parts that a row may be in has rows of its own.
+  // The rows are evaluated once for each combination of parts that contains a row.
   std::vector<std::size_t> set_of(count(), 0);
   for (std::size_t r = 0; r < assumed.restricted.size(); ++r)
     for (std::size_t k = 0; k < count(); ++k)
@@ -301,7 +302,7 @@ void fit(const Residuals& sample, Hypothesis& tried) {
     }
     rows = sample.rows(problem.at(x).assumed());
     if (round < scales.size()) continue;
-    // The cost changes by the mean of a row where the numbers change by the noise that is left.
+    // A change of the numbers by the remaining noise changes the cost by about its mean per row.
     constexpr double of_noise = 1e-6;
     const double last = std::exchange(cost, cauchy_cost(rows));
     if (moved < 1e-13 || last - cost < of_noise * cost / static_cast<double>(rows.size())) break;
@@ -312,7 +313,8 @@ void fit(const Residuals& sample, Hypothesis& tried) {
 
 Eigen::VectorXd sensitivity(const Residuals& sample, const Assumed& base, const Eigen::VectorXd& rows,
                             const Assumption& number) {
-  // A restitution of 0, or no least separation speed, shows nothing until it is large enough for some impact.
+  // A restitution or least separation speed of 0 may have no effect until it is large enough for some impact,
+  // so that a large step is tried as well.
   for (const double length : {1e-6, 1.0}) {
     if (!number.is_of_case() || (length == 1 && number.value != 0)) break;
     const double step = possible_step(base, number, number.value, length);

@@ -1,4 +1,4 @@
-// How far logged impacts and flights are from a model: rows, and their robust least squares.
+// Residuals of logged impacts and flights with respect to a model, and their robust least-squares fit.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,23 +17,23 @@
 
 namespace edmill::identify {
 
-/// A number of a row of the case as it is, and what the audit allows it to be.
+/// A component of a row for the unmodified case, with its tolerance in the audit.
 struct Residual {
   double allowed;
   audit::RowKind kind;
   RowPlace at;
 };
 
-/// The equations that an audit checks, as differences over what the audit allows: gaps of bodies in contact,
-/// states after an impact, energies and speeds in their columns, the ends of flights. Which rows there are
-/// depends on the columns of the log alone, so that a fit has the same rows for all values.
+/// Residuals of the equations that an audit checks, divided by their tolerances: gaps of bodies in contact,
+/// states after an impact, energies and speeds in their columns, the ends of flights. The set of rows depends
+/// only on the columns of the log, so that a fit has the same rows for all values.
 class LogResiduals {
  public:
-  /// @param nominal  what the audit's tolerances are taken from
+  /// @param nominal  case that the tolerances are computed from
   LogResiduals(const audit::EventsAtHand& log, const audit::Tolerances& tolerances,
                const model::Case<double>& nominal);
 
-  /// By event: which branches of the case's law its states take.
+  /// For each event, the branches of the case's contact law.
   const std::vector<Branches>& branches() const { return branches_; }
 
  private:
@@ -49,21 +49,21 @@ class LogResiduals {
   const audit::EventsAtHand& log_;
   audit::Tolerances tolerances_;
   std::vector<std::array<Before, 2>> before_;  ///< the impact at which the flight of each body began
-  std::vector<bool> in_stall_;                 ///< by event: friction rests
+  std::vector<bool> in_stall_;                 ///< for each event: frictionless
   std::vector<Branches> branches_;
   const model::Case<double>& nominal_;
 };
 
-/// The rows of a sample of events; each flight is that before its event. The log's must outlive it.
+/// The rows of a sample of events and of the flights that end with them. `log` must outlive it.
 class Residuals {
  public:
   Residuals(const LogResiduals& log, const std::vector<std::size_t>& events);
 
   std::size_t count() const { return of_case_.size(); }
-  /// With the case as it is.
+  /// Rows for the unmodified case.
   const std::vector<Residual>& of_case() const { return of_case_; }
-  /// @return one number for each row, its difference over what is allowed of the case; a large one where it
-  /// is not finite, and all of them for a case that cannot be
+  /// @return for each row its residual divided by the tolerance for the unmodified case; a large number if
+  /// it is not finite, and for all rows if the assumed case is impossible
   Eigen::VectorXd rows(const Assumed& assumed) const;
 
  private:
@@ -79,11 +79,11 @@ struct Hypothesis {
   Assumed nominal;
   std::vector<Found> found = {};  ///< mistakes first: a number may be one of the mill that a mistake makes
   double score = 0;               ///< Schwarz's criterion: misfit + numbers ln(rows) + what each choice costs
-  double plainness = 0;           ///< of factors with a name, which are no coincidence
+  double plainness = 0;           ///< bonus for factors like 2 or -1, unlikely to be chance
   std::uint64_t left = 0, of = 0;  ///< violations, or events with violated rows, with it and without
   std::string others = {};         ///< kinds of the violations that are left
 
-  /// The least is the best.
+  /// Rank of the hypothesis; lower is better.
   double rank() const { return score - plainness; }
   /// The score without the cost of choices.
   double evidence() const {
@@ -96,7 +96,7 @@ struct Hypothesis {
     for (const auto& f : found) all.insert(f.what.name());
     return all;
   }
-  /// Whether this can be assumed as well.
+  /// True if this can be assumed in addition.
   bool allows(const Assumption& more) const {
     return std::none_of(found.begin(), found.end(),
                         [&](const Found& f) { return f.what.excludes(more) || more.excludes(f.what); });
@@ -113,26 +113,26 @@ struct Hypothesis {
 };
 
 /// 2 sum ln(1 + (r/s)^2) + 2 n ln s over the rows of a sample, with the median of |r| of each kind as s:
-/// minus twice the log of Cauchy's likelihood. Wild rows count little, and rows that fit by orders of
-/// magnitude better count much.
+/// minus twice the logarithm of Cauchy's likelihood. Outliers have little weight, and rows that fit better by
+/// orders of magnitude have much.
 double misfit(const Residuals& sample, const Eigen::VectorXd& rows);
 inline double misfit(const Residuals& sample, const Assumed& assumed) {
   return misfit(sample, sample.rows(assumed));
 }
 
 /// Least squares by Eigen's Levenberg and Marquardt (that of MINPACK), repeated with Cauchy weights whose
-/// scale shrinks from the misfits of the start down to the tolerance, so that rows with other causes lose
-/// their say.
-/// @param tried  with values to begin with; gets the best ones and their intervals
+/// scale shrinks from the initial residuals down to the tolerance, so that rows with other causes lose their
+/// weight.
+/// @param tried  starting values on input, the fitted values and their intervals on output
 void fit(const Residuals& sample, Hypothesis& tried);
 
-/// Derivatives of the rows by a number, at the base; empty where they do not depend on it.
+/// Derivatives of the rows with respect to a number, at the base; empty if they do not depend on it.
 /// @param rows  at the base
 Eigen::VectorXd sensitivity(const Residuals& sample, const Assumed& base, const Eigen::VectorXd& rows,
                             const Assumption& number);
 
-/// The misfit that the best change of a number leaves if the rows are linear in it.
-/// @param slope  of the rows, by the number
+/// Misfit after the best change of a number, if the rows are linear in it.
+/// @param slope  derivative of the rows with respect to the number
 double linear_misfit(const Residuals& sample, const Eigen::VectorXd& rows, const Eigen::VectorXd& slope);
 
 }  // namespace edmill::identify

@@ -19,9 +19,9 @@ namespace {
 constexpr std::size_t most_events = 20000, most_for_single = 4000;
 constexpr double strong_evidence = 10;  ///< least gain of Schwarz's criterion (Kass and Raftery 1995)
 constexpr double same_evidence = 2;
-constexpr std::size_t most_judged = 12;  ///< hypotheses of a stage, by the whole log
+constexpr std::size_t most_judged = 12;  ///< hypotheses of a stage that are audited
 
-/// The items of the least misfits, the best first.
+/// The items with the lowest misfits, best first.
 template <class Item>
 std::vector<Item> best_of(std::vector<std::pair<double, Item>> order, std::size_t most) {
   std::stable_sort(order.begin(), order.end(),
@@ -47,7 +47,8 @@ bool has_number_of_case(const Hypothesis& tried) {
   });
 }
 
-/// Terms, and numbers of the contact law; where both kinds of contact have one law, its numbers once.
+/// Selects what may differ in a part of the log: terms, and numbers of the contact laws. If both kinds of
+/// contact have the same law, its numbers are listed once.
 std::vector<Assumption> of_parts(const std::vector<Assumption>& numbers) {
   std::set<std::string> common;
   const auto last = [](const std::string& key) { return key.substr(key.rfind('.') + 1); };
@@ -62,7 +63,7 @@ std::vector<Assumption> of_parts(const std::vector<Assumption>& numbers) {
   return list;
 }
 
-/// The best first.
+/// Sorts hypotheses by rank, best first.
 void sort(std::vector<Hypothesis>& list) {
   std::stable_sort(list.begin(), list.end(),
                    [](const auto& a, const auto& b) { return a.rank() < b.rank(); });
@@ -71,8 +72,8 @@ void sort(std::vector<Hypothesis>& list) {
 /// The data that all hypotheses are judged by: a log, samples of it, and their rows.
 class Evidence {
  public:
-  /// The log and the rest must outlive it. @pre the log has events
-  /// @param violations  what an audit finds with the case as it is
+  /// All arguments except the_case must outlive it. @pre the log has events
+  /// @param violations  number that an audit of the unmodified case finds
   Evidence(const audit::EventsAtHand& log, const audit::Options& options, const model::Case<double>& the_case,
            const Assumed& nominal, std::uint64_t violations)
       : log_(log),
@@ -91,14 +92,14 @@ class Evidence {
     draw_samples({nominal});
   }
 
-  /// Whether there are rows enough.
+  /// True if there are enough rows for a search.
   bool suffices() const { return whole().count() >= 12; }
-  /// The score of the case as it is.
+  /// Score of the unmodified case.
   double score_of_case() const { return score_of_case_; }
   std::size_t part_count() const { return parts_.size(); }
 
-  /// Draws the samples again: half of their events violate a row under one of these assumptions, the others
-  /// are any, evenly spread over a span.
+  /// Draws new samples. Half of their events violate a row under one of these assumptions; the other half are
+  /// arbitrary events, evenly spread over a span.
   void draw_samples(const std::vector<Assumed>& bases) {
     std::set<std::size_t> violating;
     for (const auto& base : bases) violating.merge(violating_events(base));
@@ -133,14 +134,14 @@ class Evidence {
     score_of_case_ = misfit(whole(), nominal_);
   }
 
-  /// Sets the score, with the present samples.
+  /// Computes the score from the current samples.
   void judge(Hypothesis& tried) const {
     const double rows = static_cast<double>(whole().count());
     tried.score = misfit(whole(), tried.assumed());
     for (const auto& number : fitted(tried)) tried.score += number.what.prior + std::log(rows);
   }
 
-  /// A hypothesis with one more assumption, a number fitted together with its own.
+  /// Extends a hypothesis by an assumption and fits all of its numbers together.
   Hypothesis with(const Hypothesis& base, const Assumption& more) const {
     std::vector<Hypothesis> tried;
     for (const double start : starts(base.assumed(), more)) tried.emplace_back(base).add(more, start);
@@ -150,7 +151,7 @@ class Evidence {
   /// Fits with the final sample and audits with the result. @return whether the hypothesis is accepted
   bool accept(Hypothesis& tried) const {
     if (!(score_of_case_ - tried.score >= strong_evidence)) return false;
-    if (vanished(whole(), tried.assumed()) < 0.5) return false;  // a better fit does not help that much
+    if (vanished(whole(), tried.assumed()) < 0.5) return false;  // the final fit cannot make up for that
     tried.plainness = 0;
     if (!fitted(tried).empty()) fit(many_, tried);
     for (auto& number : fitted(tried))
@@ -171,7 +172,8 @@ class Evidence {
   struct Explained {
     std::set<std::size_t> rows{}, events{};
   };
-  /// Nothing unless it explains nine tenths of what it changes: one mistake of several.
+  /// Rows explained by a hypothesis that may be one of several mistakes; empty unless it explains nine tenths
+  /// of the rows that it changes.
   Explained explained_by(const Hypothesis& tried) const {
     if (!(score_of_case_ - tried.score >= strong_evidence) || has_number_of_case(tried)) return {};
     const Eigen::VectorXd before = all_.rows(nominal_), with = all_.rows(tried.assumed());
@@ -208,14 +210,14 @@ class Evidence {
     return events;
   }
 
-  /// Of mistakes, and of numbers that have no effect near their value, or another one far from it: those that
-  /// fit better on top of a base with one of their trial values, the best first.
+  /// Assumptions that improve the fit on top of `base` with one of their trial values, best first. This finds
+  /// mistakes, and numbers that matter only far from their nominal value.
   std::vector<Assumption> by_trial_values(const Assumed& base, const std::vector<Assumption>& list,
                                           std::size_t most) const {
     const double enough = misfit(few_, base) - strong_evidence;
     std::vector<std::pair<double, Assumption>> order;
     for (const auto& p : list) {
-      if (p.is_periodic()) continue;  // has too many of them
+      if (p.is_periodic()) continue;  // has too many trial values
       double least = enough;
       for (const double value : p.trial_values(early_end_))
         least = std::min(least, misfit(few_, p.on(base, value)));
@@ -224,7 +226,8 @@ class Evidence {
     return best_of(std::move(order), most);
   }
 
-  /// The numbers whose fit promises most on top of a base, by a linear fit of the rows and by trial values.
+  /// Numbers ranked by how much they should improve on `base`, by a linear fit of the rows and by trial
+  /// values.
   std::vector<Assumption> best_numbers(const Assumed& base, const std::vector<Assumption>& numbers,
                                        std::size_t most) const {
     auto best = by_sensitivity(early_or_whole(base), base, numbers, {}, most);
@@ -232,8 +235,8 @@ class Evidence {
     return best;
   }
 
-  /// The numbers whose fit promises most in parts of the log that contain this share of the rows violated
-  /// with the base.
+  /// Numbers ranked by how much they should improve on `base` in a part of the log. Only parts with this
+  /// share of the rows violated with the base are considered.
   std::vector<Assumption> best_in_parts(const Assumed& base, const std::vector<Assumption>& numbers,
                                         std::size_t most, double share) const {
     const Eigen::VectorXd rows = whole().rows(base);
@@ -259,12 +262,14 @@ class Evidence {
  private:
   const Residuals& early() const { return windows_.front(); }
   const Residuals& whole() const { return windows_.back(); }
-  /// In the first span a wrong speed has not gone far; the whole log where that span shows nothing.
+  /// The first span, in which a wrong speed has not yet caused a large error, or the whole log if that span
+  /// has too few violations.
   const Residuals& early_or_whole(const Assumed& base) const {
     return count_violated(early().rows(base)) > 12 ? early() : whole();
   }
 
-  /// By a linear fit of the rows. A part that contains all rows of a number restricts nothing.
+  /// Numbers ranked by a linear fit of the rows, for the whole log or for its parts. A part is skipped if it
+  /// contains all rows that depend on a number.
   std::vector<Assumption> by_sensitivity(const Residuals& sample, const Assumed& base,
                                          const std::vector<Assumption>& numbers,
                                          const std::vector<SharedSubset>& parts, std::size_t most) const {
@@ -286,7 +291,7 @@ class Evidence {
     return best_of(std::move(order), most);
   }
 
-  /// Values to begin a fit with: that of the case, and others that fit better.
+  /// Starting values for a fit: the one of the case, and trial values that fit better.
   std::vector<double> starts(const Assumed& base, const Assumption& p) const {
     const auto& sample = p.is_periodic() ? early() : few_;
     const double enough = misfit(sample, base) - strong_evidence;
@@ -301,8 +306,8 @@ class Evidence {
     return values;
   }
 
-  /// The best of some hypotheses with the same numbers, each fitted over growing spans where a motion's speed
-  /// is free, and over the whole log.
+  /// Fits hypotheses that differ in their starting values and returns the best one. If the speed of a motion
+  /// is fitted, the fits proceed over growing spans; otherwise they use the whole log at once.
   Hypothesis best_fitted(std::vector<Hypothesis> list) const {
     for (auto& tried : list) {
       const bool from_early =
@@ -317,8 +322,8 @@ class Evidence {
     return std::move(list.front());
   }
 
-  /// A number known from one side only, such as a restitution below which all impacts separate at v_s: the
-  /// interval reaches to zero where that fits as well.
+  /// Extends the interval of a number to zero if zero fits as well: it has an upper bound only, such as a
+  /// restitution below which all impacts separate at v_s.
   void widen(const Hypothesis& tried, Found& number) const {
     if (number.what.value == 0 || number.value == 0) return;
     const double found = misfit(many_, tried.assumed()), value = std::exchange(number.value, 0);
@@ -327,7 +332,7 @@ class Evidence {
     number.value = value;
   }
 
-  /// The share of the violated rows of a sample that vanish when a cause is assumed.
+  /// Fraction of the violated rows of a sample that a cause explains.
   double vanished(const Residuals& sample, const Assumed& assumed) const {
     const Eigen::VectorXd before = sample.rows(nominal_), with = sample.rows(assumed);
     std::uint64_t violated = 0, vanished = 0;
@@ -339,8 +344,8 @@ class Evidence {
     return violated > 0 ? static_cast<double>(vanished) / static_cast<double>(violated) : 0;
   }
 
-  /// Counts what an audit finds with these assumptions; where no case can express them all, the events with
-  /// violated rows.
+  /// Counts the violations that an audit finds with these assumptions, or the events with violated rows if no
+  /// case can express all of them.
   void count_violations(Hypothesis& tried) const {
     const auto assumed = tried.assumed();
     tried.of = violations_;
@@ -380,10 +385,10 @@ class Evidence {
 /// number in a part of the log. Stages without parts extend hypotheses about the whole log. The numbers bound
 /// the time of a search; verification/plain/faults_test.py shows that its faults are found with them.
 struct Stage {
-  const char* name;                                     ///< null: it is reported with the stage before
-  std::size_t size, bases = 1;                          ///< of the hypotheses that it extends, and how many
-  std::size_t mistakes = 0, numbers = 0, in_parts = 0;  ///< tried on top of each, the most promising
-  double share = 0.9;  ///< of the rows violated with a base that a part must contain
+  const char* name;                                     ///< null: reported with the previous stage
+  std::size_t size, bases = 1;                          ///< size and number of the hypotheses that it extends
+  std::size_t mistakes = 0, numbers = 0, in_parts = 0;  ///< how many are tried with each hypothesis
+  double share = 0.9;                                   ///< of the violated rows that a part must contain
 };
 constexpr Stage stages[] = {
     {.name = "single causes", .size = 0, .mistakes = 8, .numbers = 6},
@@ -406,7 +411,7 @@ class Searcher {
     options_.examples = 0;
     options_.progress = nullptr;
     log_ = audit::read_events(the_case_, options_, search == Search::all ? most_events : most_for_single);
-    interrupt_ = std::exchange(options_.interrupt, nullptr);  // an audit that ends early finds nothing wrong
+    interrupt_ = std::exchange(options_.interrupt, nullptr);  // audits must not end early
     numbers_ = numbers_of(nominal_);
     mistakes_ = mistakes_of(nominal_, numbers_, log_.available);
   }
@@ -450,9 +455,10 @@ class Searcher {
  private:
   bool is_interrupted() const { return interrupt_ && interrupt_->load(std::memory_order_relaxed); }
 
-  /// Without places impacts cannot be checked, but a run from the case's start can follow the log.
+  /// Replays the log. Impacts without positions cannot be checked, but they can be compared with a run from
+  /// the initial state of the case.
   void follow(Identification& result) const {
-    // A run of a case has the terms of the equations as they are.
+    // Runs cannot vary the terms of the equations.
     auto all = mistakes_;
     all.insert(all.end(), numbers_.begin(), numbers_.end());
     std::erase_if(all, [&](const Assumption& a) {
@@ -503,7 +509,7 @@ class Searcher {
     sort(accepted_);
   }
 
-  /// With the events that the best single causes leave unexplained.
+  /// Draws new samples, with the events that the best single causes leave unexplained.
   void resample() {
     std::vector<Assumed> bases;
     for (const auto& single : best_of_size(1, 2, false)) bases.push_back(single.assumed());
@@ -524,7 +530,7 @@ class Searcher {
     return cause;
   }
 
-  /// A further assumption must explain most of what the others leave.
+  /// The best accepted hypothesis. A larger one must explain at least half of what a smaller one leaves.
   const Hypothesis& best() const {
     const auto* best = &accepted_.front();
     for (const auto& h : accepted_)
@@ -532,7 +538,7 @@ class Searcher {
     return *best;
   }
 
-  /// The best cause, and of the others those that are no worse with as few numbers.
+  /// Reports the best cause, and as alternatives the other causes that are as good with as few assumptions.
   void report(Identification& result) const {
     if (accepted_.empty() && !result.interrupted) report_each(result);
     if (accepted_.empty()) return;
@@ -545,7 +551,8 @@ class Searcher {
         result.causes[0].alike.push_back(cause_of(other).text());
   }
 
-  /// A log with several mistakes: reports those that explain the rows they change, each different rows.
+  /// For a log with several mistakes: reports those that explain the rows that they change, provided that no
+  /// other reported mistake explains these rows.
   void report_each(Identification& result) const {
     std::set<std::size_t> explained;
     const auto violating = evidence_->violating_events(nominal_).size();
@@ -581,7 +588,7 @@ Identification identify(const casefile::CaseSpec& spec, const audit::Options& op
   Searcher searcher(spec, options, search, progress);
   auto result = searcher.run();
   if (!result.interrupted) result.stepping = time_stepping(searcher.log(), searcher.the_case(), options);
-  // Overlaps that a cause explains need no step.
+  // If the cause explains all violations, overlaps do not indicate a time step.
   if (!result.causes.empty() && result.causes[0].explains == result.causes[0].of)
     result.stepping.step_by_depth.reset();
   return result;

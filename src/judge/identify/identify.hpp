@@ -14,14 +14,14 @@ namespace edmill::identify {
 
 // Signs of time steps and of soft contacts. docs/audit.md, "Codes with time steps"
 
-/// When in a contact that lasts a log has its line.
+/// The end of a contact at which its line is logged.
 enum class LoggedAt { begin, end };
 
 struct SoftContacts {
   double duration;   ///< median [s]
   double low, high;  ///< quartiles [s]
   LoggedAt at;
-  std::uint64_t contacts;  ///< that show it
+  std::uint64_t contacts;  ///< number of contacts that show it
   double exponent;         ///< of duration ~ approach speed^exponent: 0 for a linear spring, -1/5 for Hertz
   double spring;           ///< stiffness of a linear spring with this duration [N/m]
   double modulus;          ///< effective modulus E* of Hertz's contacts with this duration [Pa]
@@ -29,7 +29,7 @@ struct SoftContacts {
 
 struct TimeStepping {
   std::optional<double> step;           ///< all times are multiples of it [s]
-  std::optional<double> step_by_depth;  ///< from the overlaps: a contact is seen up to a step late [s]
+  std::optional<double> step_by_depth;  ///< from the overlaps: contacts are detected up to a step late [s]
   std::optional<SoftContacts> soft;
   std::optional<double> first_order_step;  ///< of an integrator, from flights under gravity [s]
   std::optional<double> jitter;  ///< root mean square of the errors of single times, early and late [s]
@@ -48,9 +48,10 @@ std::string table(const TimeStepping& found);
 struct Cause {
   std::vector<Found> found = {};       ///< mistakes first
   std::uint64_t explains = 0, of = 0;  ///< violations
-  std::string others = {};             ///< kinds of those that it does not explain, where they are known
-  double gain = 0;                     ///< of Schwarz's criterion over no cause
-  /// For logs without states: how many impacts a run with the cause follows, and how many rounding lets it.
+  std::string others = {};             ///< kinds of the violations that it does not explain, if known
+  double gain = 0;                     ///< improvement of Schwarz's criterion by the cause
+  /// For logs without states: number of impacts that a run with the cause reproduces, and number that it
+  /// could reproduce in spite of rounding.
   std::uint64_t follows = 0, could_follow = 0;
   std::vector<std::string> alike = {};  ///< other causes that this log cannot distinguish from it
 
@@ -58,8 +59,8 @@ struct Cause {
   std::string text() const;
 };
 
-/// How far a search goes: one value or mistake for the whole log, or parts of the log, two and three together
-/// as well, and runs of the case.
+/// Extent of a search. `single`: one value or mistake for the whole log. `all`: also causes in parts of the
+/// log, two and three causes together, and runs of the case.
 enum class Search { single, all };
 
 /// The extent of a search, for the answer "none of these".
@@ -69,15 +70,15 @@ struct SearchedFor {
 };
 
 struct Identification {
-  std::uint64_t events = 0, violations = 0;  ///< that were searched
+  std::uint64_t events = 0, violations = 0;  ///< used in the search
   std::vector<Cause> causes;                 ///< the best first; empty where nothing explains the log
-  /// For logs without places: how many impacts a run of the case follows, and whether rounding alone ends
-  /// that.
+  /// For logs without positions: number of impacts that a run of the case reproduces, and whether only
+  /// rounding limits it.
   std::optional<std::uint64_t> follows;
   bool follows_all = false;
   Search search = Search::all;
-  bool too_few = false;      ///< impacts that can be checked or followed; no cause was sought
-  bool interrupted = false;  ///< the search ended before it was through; better causes may exist
+  bool too_few = false;      ///< impacts that can be checked or reproduced; there was no search
+  bool interrupted = false;  ///< the search was stopped early; better causes may exist
   SearchedFor tried;
   TimeStepping stepping;
 };
@@ -91,14 +92,15 @@ using Progress = std::function<void(const std::string& stage)>;
 Identification identify(const casefile::CaseSpec& spec, const audit::Options& options,
                         Search search = Search::all, const Progress& progress = {});
 
-/// For logs without states: the case is run again with other values, from its own initial state, until its
-/// impacts are those of the log. docs/audit.md, "Causes"
-/// @param is_interrupted  asked between runs; yes ends the search
-/// @return how many impacts the case follows, and the best cause with which nine tenths can be followed
+/// Searches causes for a log without states: runs the case with other values, from its own initial state, and
+/// compares the impacts with those of the log. docs/audit.md, "Causes"
+/// @param is_interrupted  called between runs; true ends the search
+/// @return the number of impacts that the case reproduces, and the best cause that reproduces nine tenths of
+/// those that rounding allows
 Identification replay(const Assumed& nominal, const std::vector<Assumption>& assumptions,
                       const audit::EventsAtHand& log, const std::function<bool()>& is_interrupted);
 
-/// As lines of the audit's report.
+/// Lines for the report of an audit.
 std::string table(const Identification& found);
 
 }  // namespace edmill::identify

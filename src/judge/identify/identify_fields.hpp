@@ -6,7 +6,7 @@
 
 namespace edmill::identify {
 
-/// Visits them. docs/files.md, "Audit"
+/// Visits the fields of an identification. docs/files.md, "Audit"
 struct Fields {
   const Identification& found;
 

@@ -30,7 +30,7 @@ std::string Cause::text() const {
 
 namespace {
 
-/// Lengths of time that a log may show, in the order of reports.
+/// A time that a log may reveal, such as a time step, and its text. In the order of reports.
 struct Sign {
   std::optional<double> TimeStepping::*time;
   fmt::format_string<const double&> text;

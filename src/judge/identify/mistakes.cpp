@@ -22,7 +22,7 @@ void put_chain(Assumed& a, Joints joints) {
   a.spec.mill = model::Chain<Quantity>{{std::move(joints), period}};
 }
 
-/// Joints that turn the other way in time: t becomes -t in every motion.
+/// Reverses the joints in time: t becomes -t in every motion.
 Joints reversed(Joints joints) {
   for (auto& joint : joints) {
     joint.speed = -joint.speed;
@@ -134,7 +134,7 @@ void add_units(const audit::Available& has, std::vector<Assumption>& list) {
   add_unit("spins", &LogChange::spins, 2 * pi, "in revolutions per second in place of rad/s");
 }
 
-/// Axes that a code has in another order or direction.
+/// Adds axes in another order or direction.
 void add_axes(const audit::Available& has, std::vector<Assumption>& list) {
   const auto& ball = has.body[0];
   struct Vectors {
@@ -170,7 +170,7 @@ void add_axes(const audit::Available& has, std::vector<Assumption>& list) {
   } while (std::next_permutation(from.begin(), from.end()));
 }
 
-/// Mistakes in the contents of columns.
+/// Adds mistakes in the contents of columns.
 void add_frames(const audit::Available& has, std::vector<Assumption>& list) {
   const auto& [ball, partner] = has.body;
   if (partner.velocity_before || partner.velocity_after)
@@ -189,8 +189,8 @@ void add_frames(const audit::Available& has, std::vector<Assumption>& list) {
         [formula](Assumed& a) { a.terms.wall_velocity_formula = formula; });
 }
 
-/// Formulas of impacts: of bodies that separate at v_s, and for balls that are alike in place of those that
-/// are not.
+/// Adds wrong formulas for impacts: for bodies that separate at v_s, and formulas for equal balls used for
+/// unequal ones.
 void add_formulas(const Assumed& nominal, std::vector<Assumption>& list) {
   add(list, "limit of the friction (2.24')", "mu (1 + e_n) |g_n| in place of the impulse at v_s",
       [](Assumed& a) { a.terms.friction_of_restitution = true; });
@@ -206,7 +206,7 @@ void add_formulas(const Assumed& nominal, std::vector<Assumption>& list) {
         [form = form](Assumed& a) { a.terms.equal_balls = form; });
 }
 
-/// Numbers of balls of different kinds that a log has exchanged. Equal balls cannot be distinguished.
+/// Adds exchanges of the numbers of two balls of different kinds. Equal balls cannot be distinguished.
 void add_exchanged_balls(const Assumed& nominal, std::vector<Assumption>& list) {
   constexpr int most = 40;
   const int count = static_cast<int>(nominal.balls.size());

@@ -21,12 +21,12 @@ using model::Range;
 
 using std::numbers::pi;
 
-/// "vessel.x" of the first of three numbers along axes; the key itself for axis -1.
+/// Appends the name of the axis to a key: "vessel.x" for axis 0; returns the key itself for axis -1.
 std::string with_axis(const std::string& key, int axis) {
   return axis < 0 ? key : key + "." + std::string(1, "xyz"[axis]);
 }
 
-/// With the unit of a fit that its size suggests.
+/// Makes an assumption about a number. Its unit in a fit is its own magnitude, or 1 if it is 0.
 Assumption number(std::string key, Dimension dimension, double value,
                   std::function<void(Assumed&, double)> set) {
   const double size = std::abs(value);
@@ -61,7 +61,7 @@ void add_numbers(const std::string& section, const Assumed& nominal, Member memb
     if (!p.key) return;
     const bool drive = p.range == Range::drive;
     const double nominal_value = drive ? 2 * pi / q.to<double>() : q.to<double>();
-    // A zero, as of a part at rest or in the direction of an axis, is not mistaken for another number.
+    // A number that is zero, such as the speed of a fixed part or a component of an axis, is not varied.
     if (nominal_value == 0) return;
     const auto set = [member, own, drive](Assumed& a, double value) {
       std::size_t k = 0;
@@ -75,7 +75,7 @@ void add_numbers(const std::string& section, const Assumed& nominal, Member memb
   });
 }
 
-/// Numbers of the joints of a mill that are not keys of its type.
+/// Adds the numbers of the joints of a mill; they are not keys of its type.
 void add_joints(const Assumed& nominal, std::vector<Assumption>& list) {
   const auto& joints = std::get<model::Chain<Quantity>>(nominal.spec.mill).given.list;
   for (std::size_t j = 0; j < joints.size(); ++j) {
@@ -107,7 +107,7 @@ void add_joints(const Assumed& nominal, std::vector<Assumption>& list) {
   }
 }
 
-/// "x", or the direction, of which the joint's axis is one.
+/// The axis of a joint as text: "x" for a coordinate axis, otherwise its components.
 std::string axis_text(const model::Joint<Quantity>& joint) {
   std::array<double, 3> a{};
   for (std::size_t k = 0; k < 3; ++k) a[k] = joint.axis[k].to<double>();
@@ -128,7 +128,7 @@ void add_phases(const Assumed& nominal, std::vector<Assumption>& list) {
     p.change = 0.1;
     p.cycle = 2 * pi;
     p.has_unit = false;
-    p.prior = 1;  // of two that fit alike, the phase of the drive comes first
+    p.prior = 1;  // the phase of the drive is preferred if it fits as well
     phases.push_back(std::move(p));
   };
   for (std::size_t j = 0; j < joints.size(); ++j) {
@@ -144,7 +144,7 @@ void add_phases(const Assumed& nominal, std::vector<Assumption>& list) {
     if (joints[j].rotates && !joints[j].speed.zero() && !listed)
       add(j, swings.size(), name("angle", "turning about"), joints[j].angle);
   }
-  if (phases.size() < 2) return;  // it is that of the drive
+  if (phases.size() < 2) return;  // a single phase is that of the drive
   for (auto& p : phases) list.push_back(std::move(p));
 }
 
@@ -172,7 +172,7 @@ void add_gravity(const Assumed& nominal, std::vector<Assumption>& list) {
     if (norm<double>(now) == 0) now = g;
     put(a, Vec3<double>(now * (x / norm<double>(now))));
   }));
-  // Two tilts of the direction: towards the axes that are most across it.
+  // Two tilts of the direction, towards the two axes that are closest to perpendicular to it.
   std::array<int, 3> axes = {0, 1, 2};
   std::sort(axes.begin(), axes.end(), [&](int i, int j) { return std::abs(g[i]) < std::abs(g[j]); });
   const int along = axes[2];
@@ -192,14 +192,15 @@ void add_gravity(const Assumed& nominal, std::vector<Assumption>& list) {
   }
 }
 
-/// Values so near each other that a fit from the best of them ends at the number.
+/// Geometric sequence of values, dense enough for the fit from the best one to converge.
 std::vector<double> decades(double from, double to) {
   std::vector<double> values;
   for (double value = from; value < to; value *= 1.3) values.push_back(value);
   return values;
 }
 
-/// A law that a code may have in place of the case's, by the number of it that is fitted. A new one is a row.
+/// A contact law that a code may use instead of the case's, with the number of it that is fitted. To add one,
+/// add a row to the table.
 struct OtherLaw {
   std::string_view model, number;
   Dimension dimension;
@@ -213,8 +214,8 @@ const OtherLaw other_laws[] = {
     {"viscoelastic", "dissipative_time", Dimension::time, 1e-7, decades(1e-8, 1e-4)},
     {"elastic-plastic", "yield_pressure", Dimension::pressure, 1e9, decades(1e8, 1e11)}};
 
-/// Values of another law that the case does not give: no slip, and E* of steel, on which the restitution
-/// depends together with the fitted number alone. None of a number without which there is no such law.
+/// Default for a number of another law that the case does not give: -1 for min_tangential, and E* of steel,
+/// which affects the restitution only in combination with the fitted number. Nothing for other numbers.
 std::optional<double> otherwise(std::string_view key) {
   if (key == "min_tangential") return -1;
   if (key == "effective_modulus") return 113e9;
@@ -244,8 +245,9 @@ std::vector<Entry> entries(Law law) {
   return list;
 }
 
-/// The law with one number of another: its others are the law's own where they have the same name.
-/// @return whether it has all numbers that such a law needs
+/// Replaces a law by another one. One number of the new law is given; others are kept from the old law if
+/// they have the same name.
+/// @return true if all numbers of the new law are known
 bool replace(Law& law, const OtherLaw& other, double value) {
   const auto own = entries(law);
   bool complete = true;
@@ -261,13 +263,13 @@ bool replace(Law& law, const OtherLaw& other, double value) {
   return complete;
 }
 
-/// Where a case gives a law, or two that are alike.
+/// A section of a case that defines a contact law, or two laws of the same kind.
 struct Section {
   std::string key;  ///< "contact.ball_wall"
   std::function<std::vector<Law*>(Assumed&)> laws;
 };
 
-/// The numbers of a section that its laws have alike.
+/// Adds the numbers of a section that are equal in all of its laws.
 void add_numbers_of(const Section& section, Assumed nominal, std::vector<Assumption>& list) {
   const auto laws = section.laws(nominal);
   const auto own = entries(*laws.front()), others = entries(*laws.back());
@@ -303,7 +305,7 @@ void add_other_laws(const Section& section, Assumed nominal, std::vector<Assumpt
                         [laws = section.laws, &other](Assumed& a, double x) {
                           for (Law* own : laws(a)) replace(*own, other, x);
                         },
-                    .prior = 1,  // of two that fit alike, a number of the case's law comes first
+                    .prior = 1,  // a number of the case's law is preferred if it fits as well
                     .in_place_of = fmt::format("the law \"{}\"", law.name()),
                     .first_values = other.first_values});
   }
@@ -328,11 +330,11 @@ void add_laws(const Assumed& nominal, std::vector<Assumption>& list) {
         list);
 }
 
-/// Adds the parameters of the balls [first, last), whose numbers are all scaled alike.
+/// Adds the parameters of the balls [first, last). A parameter is scaled by the same factor for all of them.
 void add_balls(const std::string& key, std::size_t first, std::size_t last, const casefile::BallSpec& spec,
                std::vector<Assumption>& list) {
   using Spec = casefile::BallSpec;
-  // In the balls themselves, whose diameters may differ, and in the entries of the case.
+  // Changes the balls themselves, whose diameters may differ, and their entries in the case.
   const auto each = [first, last](Assumed& a, Quantity Spec::*member, double x, auto&& change) {
     for (std::size_t k = first; k < last; ++k) change(a.balls[k]);
     const std::size_t explicit_ones = a.spec.balls.size();
@@ -383,7 +385,7 @@ struct TermRow {
   const char* name;      ///< "torque of the friction"
   const char* equation;  ///< of docs/theory.md
   double Terms::*member;
-  Dimension shift = Dimension::none;  ///< of what is 0 if right; else a factor, 1 if right
+  Dimension shift = Dimension::none;  ///< of a shift, 0 if correct; none: a factor, 1 if correct
   bool of_flights = false;            ///< else of impacts
 };
 constexpr TermRow term_rows[] = {
@@ -411,7 +413,7 @@ constexpr TermRow term_rows[] = {
     {"time of flight, too long by", "(2.1)", &Terms::time_of_flight, Dimension::time, true},
     {"age of the velocities before impacts", "(2.1)", &Terms::age_of_velocities, Dimension::time, true}};
 
-/// The factors and shifts of the terms of the equations.
+/// Adds the factors and shifts of the terms of the equations.
 void add_terms(std::vector<Assumption>& list) {
   for (const auto& row : term_rows) {
     const bool is_factor = row.shift == Dimension::none;
@@ -423,7 +425,7 @@ void add_terms(std::vector<Assumption>& list) {
                     .set = [member = row.member](Assumed& a, double x) { a.terms.*member = x; },
                     .equation = row.equation,
                     .of_impacts = !row.of_flights,
-                    .prior = 1});  // of two that fit alike, a number of the case comes first
+                    .prior = 1});  // a number of the case is preferred if it fits as well
   }
 }
 

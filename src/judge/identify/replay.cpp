@@ -11,7 +11,7 @@ namespace edmill::identify {
 namespace {
 
 constexpr std::size_t most_impacts = 1000;
-constexpr double same_time = 1e-6;  ///< of a drive period: an impact that comes later is another one
+constexpr double same_time = 1e-6;  ///< [drive periods]: impacts that differ by more are different
 
 using Impact = model::ImpactRecord<double>;
 
@@ -80,7 +80,7 @@ class Replay {
     return list;
   }
 
-  /// How many impacts from the first on two lists have in common.
+  /// Number of leading impacts that two lists have in common.
   std::size_t common(const std::vector<Impact>& one, const std::vector<Impact>& two) const {
     const auto same = [&](const Impact& a, const Impact& b) {
       return a.same_bodies(b) && std::abs(a.time - b.time) < same_time * period_;
@@ -90,8 +90,8 @@ class Replay {
   }
   std::size_t follows(const std::vector<Impact>& list) const { return common(list, log_); }
 
-  /// Differences of times of the impacts of each ball, as far as its partners are the log's, at most `depth`
-  /// of each.
+  /// Differences in time between the impacts of a run and those of the log [s]. Each ball contributes its
+  /// first impacts, `depth` at most, up to the first one whose partner differs.
   std::vector<double> differences(const std::vector<Impact>& list, std::size_t depth,
                                   std::vector<std::size_t>& places) const {
     std::vector<double> off;
@@ -105,7 +105,7 @@ class Replay {
       const auto ball = static_cast<std::size_t>(impact.ball);
       if (seen[ball] >= depth || next[ball] >= of_ball[ball].size()) continue;
       const std::size_t k = of_ball[ball][next[ball]];
-      if (!log_[k].same_bodies(impact)) {  // no more of this ball
+      if (!log_[k].same_bodies(impact)) {  // the partner differs: skip the later impacts of this ball
         seen[ball] = depth;
         continue;
       }
@@ -119,8 +119,8 @@ class Replay {
   }
 
   double period() const { return period_; }
-  /// Whether the balls begin at the nominal case's places in the vessel, and not in space: codes place them
-  /// either way.
+  /// True if the balls start at their nominal positions in the vessel frame, false if in the inertial frame;
+  /// codes do either.
   bool in_vessel = false;
 
  private:
@@ -139,9 +139,9 @@ double weighted_median(std::vector<std::pair<double, double>> values) {
   return 0;
 }
 
-/// The value with which the times of the first impacts are the log's: least absolute deviations of times that
-/// are linear in it, over more and more impacts of each ball. @return the value and what its last impacts
-/// leave open
+/// Fits a number to the times of the first impacts of the log: least absolute deviations, with times linear
+/// in the number, over an increasing number of impacts of each ball.
+/// @return the value, and its uncertainty from the scatter of the last impacts
 std::pair<double, double> fitted_value(const Replay& replay, const Assumed& nominal, const Assumption& p) {
   double value = p.value, open = std::abs(p.change);
   for (const std::size_t depth : {1, 1, 2, 2, 3, 4, 6, 8, 8}) {
@@ -160,11 +160,11 @@ std::pair<double, double> fitted_value(const Replay& replay, const Assumed& nomi
     }
     if (steps.empty()) continue;
     const double move = std::clamp(weighted_median(steps), -0.3 * p.change, 0.3 * p.change);
-    // Mills that are far from the case's are not run: they may take for ever.
+    // Values far from the case's are not tried: such mills may run forever.
     value = std::clamp(value + move, p.value - p.change / 2, p.value + p.change / 2);
     std::vector<std::pair<double, double>> scatter;
     for (const auto& [by, weight] : steps) scatter.emplace_back(std::abs(by - move), weight);
-    // The last term: what rounding in two runs of the case makes of their times.
+    // The last term accounts for the rounding of times in two runs of the case.
     open =
         10 * weighted_median(scatter) + std::abs(move) * 1e-3 + 1e-12 * std::max(std::abs(value), p.change);
   }
@@ -184,7 +184,7 @@ Identification replay(const Assumed& nominal, const std::vector<Assumption>& ass
   const auto case_itself = runs.impacts(nominal, runs.count());
   const std::size_t without = runs.follows(case_itself);
   result.follows = without;
-  // How far two runs agree that differ by rounding alone.
+  // Number of impacts over which two runs agree that differ only by rounding.
   const auto horizon = [&](const Assumed& assumed, const std::vector<Impact>& list) {
     Assumed other = assumed;
     for (auto& ball : other.balls) ball.radius *= 1 + 1e-15;
@@ -206,7 +206,7 @@ Identification replay(const Assumed& nominal, const std::vector<Assumption>& ass
     runs.in_vessel = in_vessel;
     for (const auto& a : assumptions) {
       if (is_interrupted()) return result;
-      if (a.by_factor) continue;  // a mill that turns a thousand times as fast is not run in a hurry
+      if (a.by_factor) continue;  // running a mill a thousand times as fast takes too long
       if (a.is_fitted()) {
         const auto [value, open] = fitted_value(runs, nominal, a);
         if (std::abs(value - a.value) > open) consider({.found = {{a, value, open}}}, a.on(nominal, value));

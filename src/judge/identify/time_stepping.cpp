@@ -33,12 +33,12 @@ bool agree(const std::vector<double>& values) {
   return std::abs(quantile(values, 0.75) - quantile(values, 0.25)) < std::abs(middle);
 }
 
-/// The step of which two lengths of time are multiples: their ratio as the first continued fraction that
-/// rounding cannot distinguish from it. @param rounding  of a time [s]
+/// The common step of two durations: the first convergent of the continued fraction of their ratio that
+/// agrees with it up to rounding. @param rounding  of a time [s]
 std::optional<double> step_of(double one, double two, double rounding) {
   double p = 1, q = 0, p_before = 0, q_before = 1, rest = one / two;
   const double most =
-      0.1 * std::sqrt(std::min(one, two) / rounding);  // beyond, any two lengths have such a fraction
+      0.1 * std::sqrt(std::min(one, two) / rounding);  // beyond this, every ratio has such a fraction
   for (int term = 0; term < 40; ++term) {
     const double whole = std::floor(rest);
     std::swap(p, p_before);
@@ -72,12 +72,12 @@ std::optional<double> common_step(const std::vector<LoggedEvent>& events) {
     const auto step = step_of(one, two, rounding);
     if (step && *step > 100 * rounding && (!best || *step > *best) && holds(*step)) best = step;
   }
-  if (best) best = span / std::round(span / *best);  // sharper than any difference
+  if (best) best = span / std::round(span / *best);  // more precise than any single difference
   return best;
 }
 
-/// Whether delays are spread evenly from 0 to a step, by the test of Kolmogorov and Smirnov at 1 %; a tenth
-/// more for impacts that follow each other within a step.
+/// True if delays are uniformly distributed between 0 and a step, by a Kolmogorov-Smirnov test at 1 %. Its
+/// limit is 0.1 larger, for impacts that follow each other within a step.
 bool are_even(std::vector<double> delays, double step) {
   std::sort(delays.begin(), delays.end());
   const auto all = static_cast<double>(delays.size());
@@ -89,11 +89,11 @@ bool are_even(std::vector<double> delays, double step) {
   return worst <= 1.63 / std::sqrt(all) + 0.1;
 }
 
-/// How late events are, by what was touched [s].
+/// Delays of events [s], by the number of the wall, -1 for balls.
 using Delays = std::map<int, std::vector<double>>;
 
-/// The step with which a code sees each contact at the first step after it; 0 for none. It delays all alike,
-/// a wrong wall or ball its own contacts only.
+/// The time step of a code that detects contacts at the first step after them; 0 if there is no sign of one.
+/// Such a code delays all contacts alike; a misplaced wall or a wrong ball delays its own contacts only.
 double late_step(const Delays& delays) {
   std::vector<double> all;
   for (const auto& [partner, own] : delays) all.insert(all.end(), own.begin(), own.end());
@@ -109,9 +109,9 @@ double late_step(const Delays& delays) {
 /// Sentinel: the flight deviates, but not as a contact that lasts would make it.
 constexpr double no_duration = -1;
 
-/// An impact with its geometry, and what the flights on either side of it miss.
+/// An impact with its geometry, and the contact durations that the flights before and after it indicate.
 struct LoggedContact {
-  Vec normal{0, 0, 0}, carrier{0, 0, 0};  ///< the second carries the contact [m/s]
+  Vec normal{0, 0, 0}, carrier{0, 0, 0};  ///< velocity of the wall or centre of mass [m/s]
   double duration_from_begin = audit::unknown, duration_from_end = audit::unknown;
   double approach = audit::unknown, effective_mass = 0, effective_radius = 0;
 };
@@ -137,7 +137,7 @@ class Measurements {
   std::vector<LoggedContact> contacts;
   Delays delays;
   std::vector<double> first_order;  ///< the step that each flight implies [s]
-  /// By how much longer than its path each deviating flight took, where it deviates along its path alone [s].
+  /// For each flight that deviates only along its path, the logged duration minus the one of its path [s].
   std::vector<double> surplus;
 
  private:
@@ -163,7 +163,7 @@ class Measurements {
             ? met
             : Vec((one.velocity_before * ball.mass + met * other.mass) * (1 / (ball.mass + other.mass)));
     const bool late = gap < -tolerances_.touch(event.time, event.with_wall);
-    // Grazes have no time at which they begin.
+    // The delay of a grazing contact cannot be determined.
     if (contact.approach > audit::size(one.velocity_before) / 10)
       delays[event.with_wall ? event.partner : -1].push_back(late ? -gap / contact.approach : 0);
   }
@@ -180,12 +180,12 @@ class Measurements {
     const double noise = tolerances_.position(end.time, audit::size(left.velocity_after) * dt,
                                               audit::size(left.velocity_after));
     auto &first = contacts[from], &second = contacts[to];
-    // A ball that leaves its contact late is late by its speed at the end of the flight.
+    // A late departure displaces the ball by the delay times its velocity at the end of the flight.
     const double leaving = audit::dot(Vec(left.velocity_after + g * dt - first.carrier), first.normal);
     const double coming = audit::dot(Vec(came.velocity_before - second.carrier), second.normal);
     const bool large = audit::size(off) > 3 * noise;
-    // The ball leaves later than its line says, or its line comes later than its arrival. While bodies are in
-    // contact the force between them moves the ball from its parabola, along the impulse.
+    // The ball leaves later than logged, or arrives earlier than logged. While bodies are in contact the
+    // force between them moves the ball off its parabola, along the impulse.
     const auto duration = [&](const audit::BodyState& body, const Vec& normal, double speed) {
       const Vec impulse = body.velocity_after - body.velocity_before;
       const Vec across = off - impulse * (audit::dot(off, impulse) / audit::dot(impulse, impulse));
@@ -205,11 +205,12 @@ class Measurements {
     first_order.push_back(!large || 10 * rest <= std::abs(fall) ? 2 * fall / (g_size * dt) : audit::unknown);
   }
 
-  /// Contacts that last and time steps displace a ball along the impulse as well.
+  /// True if the vectors are parallel. If so, a displacement may also be due to a finite contact or a time
+  /// step, which act along the impulse.
   static bool is_along(const Vec& one, const Vec& two) {
     return std::abs(audit::dot(one, two)) > 0.99 * audit::size(one) * audit::size(two);
   }
-  /// A ball comes late by this time at its velocity then, and is nowhere else.
+  /// Time by which a ball is late on its path [s]; unknown if it deviates from the path as well.
   static double surplus_of(const Vec& off, const Vec& velocity, const Vec& g, double noise) {
     const auto along = [&](const Vec& way) {
       return -audit::dot(way, velocity) / audit::dot(velocity, velocity);
@@ -225,8 +226,8 @@ class Measurements {
   audit::Tolerances tolerances_;
 };
 
-/// Slope of ln(duration) over ln(speed) by medians of its pairs (Theil and Sen), on neighbours a third of the
-/// list apart.
+/// Slope of ln(duration) over ln(speed): the median slope of pairs (Theil-Sen) that are half of the list
+/// apart.
 double exponent_of(std::vector<std::pair<double, double>> points) {
   std::sort(points.begin(), points.end());
   std::vector<double> slopes;
@@ -256,7 +257,7 @@ std::optional<SoftContacts> soft_contacts(const std::vector<LoggedContact>& cont
                                (c.effective_radius * c.approach)));
     points.emplace_back(std::log(c.approach), std::log(t));
   }
-  // Contacts last in one sense of time: nearly all of the durations are positive, and they agree.
+  // Finite contacts require that nearly all durations are positive, and that they agree.
   if (durations.size() < least_number || 10 * durations.size() < 8 * known || !agree(durations))
     return std::nullopt;
   return SoftContacts{.duration = quantile(durations, 0.5),

@@ -20,7 +20,7 @@ using casefile::Dimension;
 
 constexpr int most = std::numeric_limits<int>::max();
 
-/// Places of the names in column_names().
+/// Indices of the names in column_names().
 enum Name : std::size_t {
   time_name,
   ball_name,
@@ -153,7 +153,7 @@ void EventLog::read_header(const LogConventions& conventions) {
       else
         complain("unit " + io::in_quotes(unit),
                  dimension_of(k) == Dimension::none ? "no unit" : casefile::describe(dimension_of(k)));
-      // A header may name the unit too.
+      // The header may contain the unit as well.
       if (!in_header(column)) column = trimmed(column.substr(0, bracket));
     }
     theirs[k] = column;
@@ -259,7 +259,7 @@ std::optional<LoggedEvent> EventLog::read() {
       event.problem = std::isfinite(event.time) ? fmt::format("found a time beyond {:g} s", beyond_)
                                                 : "found a time that is not finite";
       event.unknown_body = false;
-      event.time = latest_;  // it has no time of its own
+      event.time = latest_;  // that of the line before
     }
     bool good = true;
     for (std::size_t q = model::approach_speed; q < model::logged_count && good; ++q) {

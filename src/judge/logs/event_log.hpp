@@ -32,11 +32,11 @@ struct BodyState {
                spin_after = Vec3<double>::Zero();
 };
 
-/// An impact with what a log may have more: the states of its bodies.
+/// An impact, with the states of its bodies if the log has them.
 struct LoggedEvent : model::ImpactRecord<double> {
   std::array<BodyState, 2> body{};  ///< the ball and, for balls, its partner
-  double earlier_by = 0;            ///< than a line above it, when above 0 [s]
-  std::string problem{};            ///< "found nan in column vx_before": of an event that cannot be checked
+  double earlier_by = 0;            ///< time by which it precedes an earlier line [s]; 0 if it does not
+  std::string problem{};            ///< why the event cannot be checked: "found nan in column vx_before"
   bool unknown_body = false;        ///< the problem is a ball or wall that does not exist
 
   std::size_t count() const { return with_wall ? 1 : 2; }  ///< of balls
@@ -74,29 +74,32 @@ struct LogConventions {
   std::optional<std::vector<int>> walls;
 };
 
-/// "-1, -2, -3" @throws InputError naming `where` when it is not a different whole number for each wall
+/// Parses the numbers of the walls in a log, "-1, -2, -3".
+/// @throws InputError naming `where` unless there is a different whole number for each wall
 std::vector<int> parse_walls(const std::string& text, const model::Partners& partners,
                              const std::string& where);
 
-/// The log that a path names: that file, or in the folder of a run collisions.csv, which may be compressed.
+/// The log file of a path: the file itself, or collisions.csv, which may be compressed, in the folder of a
+/// run.
 std::filesystem::path log_in(const std::filesystem::path& place);
 
-/// Reads ahead by `window` events, so that events come in order of time from a log that is slightly out of
-/// order. Columns may be in any order; unknown ones are skipped. Bounded memory.
+/// Reads a log in bounded memory. It reads ahead by `window` events, so that a log that is slightly out of
+/// order gives its events in order of time. Columns may be in any order; unknown ones are skipped.
 class EventLog {
  public:
   static constexpr std::size_t window = 256;
 
-  /// For an audit, which requires little of a log and reports what is wrong with each event.
+  /// Opens a log for an audit, which requires few columns; problems of single events are in the events.
   /// @param place  a CSV file, or a folder that holds collisions.csv
-  /// @param balls, walls  in the case
-  /// @param beyond        times that far from 0 or farther are no times of a run [s]
+  /// @param balls, walls  their numbers in the case
+  /// @param beyond        a time of this magnitude or more is invalid [s]
   /// @throws InputError with every problem of the mapping and the header
   EventLog(const std::filesystem::path& place, const LogConventions& conventions, int balls, int walls,
            double beyond)
       : EventLog(place, conventions, balls, walls, beyond, false) {}
-  /// For a log without errors, without the states of bodies: in order of time, all values finite, of any
-  /// bodies, with the columns partner_kind and approach_speed.
+  /// Opens a log that must be free of errors: in order of time, with finite values and the columns
+  /// partner_kind and approach_speed. The states of bodies are not read, and any numbers of bodies are
+  /// accepted.
   explicit EventLog(const std::filesystem::path& place);
 
   /// The next event; nothing at the end. Bad lines are skipped until there are ten of them or the file ends.
@@ -124,7 +127,7 @@ class EventLog {
   io::CsvReader csv_;
   std::vector<Column> columns_;  ///< in the order of the names
   Available available_;
-  bool is_good_;  ///< or its file is refused
+  bool is_good_;  ///< errors in the log are refused
   int first_ball_, balls_;
   std::vector<int> walls_;  ///< their numbers in the log, by id
   double beyond_;
@@ -147,8 +150,8 @@ using OfEach = std::array<T, model::logged_count>;
 struct LogScan {
   std::string file;
   std::uint64_t events = 0;
-  int walls = 0;               ///< that the summary beside the log counts, or else up to the last one met
-  double first = 0, last = 0;  ///< times [s]
+  int walls = 0;                    ///< number in the summary beside the log, or up to the last one met
+  double first = 0, last = 0;       ///< times [s]
   OfEach<double> mean_magnitude{};  ///< of each column; 0 for an absent one
   OfEach<bool> has{};
   /// From the summary.json beside a log in a folder, when there is one.

@@ -14,7 +14,7 @@ namespace edmill::plot {
 
 namespace {
 
-/// Where a value stands along an axis, 0 at its low end and 1 at its high end.
+/// Position of a value along an axis, 0 at its low end and 1 at its high end.
 double fraction(const Axis& axis, double value) {
   if (!axis.logarithmic) return (value - axis.low) / (axis.high - axis.low);
   return value > 0 ? std::log(value / axis.low) / std::log(axis.high / axis.low) : -1;
@@ -32,8 +32,8 @@ void add_y_title(pugi::xml_node axis, double x, double y, const std::string& tex
       fmt::format("rotate(-90 {} {})", pixel(x), pixel(y)).c_str();
 }
 
-/// The inside of the frame in the chart's own units, as far in as the labels need [px], and the places of
-/// values in it; what lies outside stops a little beyond it and is clipped.
+/// The plot area within the margins that the labels need [px], and the positions of values in it. Values
+/// outside are moved to a position slightly beyond the frame, where they are clipped.
 class Frame {
  public:
   explicit Frame(const Chart& chart) : chart_(chart) {
@@ -72,7 +72,7 @@ class Frame {
   const Chart& chart_;
 };
 
-/// "0.1,5.8 0.2,5.9": for a reader who takes the curve as a table.
+/// The points of a curve as text, "0.1,5.8 0.2,5.9", from which a page makes a table.
 std::string points_of(const Curve& curve) {
   std::string points;
   for (const auto& [x, y] : curve.points)
@@ -147,7 +147,7 @@ void add_cell(pugi::xml_node parent, const std::string& path, const HeatMap& map
   add(node, "title", {}, readable(cell.value, 3) + map.value.substr(map.value.find(" [") + 1));
 }
 
-/// A ring's part between two angles.
+/// Path of the sector of a ring between two angles.
 std::string sector(const HeatCell& c, double scale, double cx, double cy) {
   const auto place = [&](double radius, double angle) {
     return fmt::format("{} {}", pixel(cx + scale * radius * std::cos(angle)),
@@ -162,7 +162,7 @@ std::string sector(const HeatCell& c, double scale, double cx, double cy) {
 
 constexpr double bar = 12, bar_gap = 5;
 
-/// From the left edge of the scale to the end of its labels.
+/// Width of the scale including its labels.
 double scale_width(const HeatMap& map) {
   return bar + bar_gap + width_of(linear_ticks(0, map.highest, 6)) + 2;
 }

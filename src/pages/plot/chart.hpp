@@ -18,7 +18,8 @@ using Attributes = std::initializer_list<std::pair<const char*, std::string>>;
 pugi::xml_node add(pugi::xml_node parent, const char* name, Attributes attributes = {},
                    std::string_view text = {});
 
-/// Without self-closed tags, which HTML does not know, and without white space of its own.
+/// HTML text of a document, without self-closing tags, which HTML does not have, and without added white
+/// space.
 std::string html_of(const pugi::xml_document& document);
 
 struct Axis {
@@ -34,7 +35,7 @@ struct Curve {
   std::string name;    ///< in the legend; none when empty
   std::string colour;  ///< CSS class: "c0" to "c7"
   Points points;       ///< nan in y interrupts the line
-  /// Bars of a histogram: y holds from x to the x of the next point, whose last y is not drawn.
+  /// Bars of a histogram: each y extends from its x to the x of the next point; the last y is not drawn.
   bool steps = false;
 };
 
@@ -74,14 +75,14 @@ struct HeatMap {
   std::string value;   ///< title of the scale, with its unit
   double highest = 1;  ///< value at the top of the scale, whose bottom is 0
   double x_step = 0;   ///< between the labels along x; 0 for round numbers
-  bool disc = false;   ///< polar cells, angle 0 to the right, turning against the clock
+  bool disc = false;   ///< polar cells, angle 0 to the right, counterclockwise
   std::vector<HeatCell> cells;
 };
 
 /// "#rrggbb" of a share of the highest value: viridis, whose lightness grows steadily.
 std::string heat_colour(double share);
 
-/// The convex polygon around points, against the clock.
+/// The convex hull of points, counterclockwise.
 Points hull_of(Points points);
 
 /// A figure with caption, legend or scale, and drawing.

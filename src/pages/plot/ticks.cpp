@@ -19,7 +19,7 @@ std::string superscript(int number) {
   return text;
 }
 
-/// With so many decimals, a real minus and thin spaces between thousands.
+/// A number with this many decimals, a typographic minus and thin spaces between thousands.
 std::string fixed(double value, int decimals) {
   std::string text = fmt::format("{:.{}f}", std::abs(value), decimals);
   const bool zero = text.find_first_not_of("0.") == std::string::npos;
@@ -29,7 +29,7 @@ std::string fixed(double value, int decimals) {
   return (value < 0 && !zero ? minus : "") + text;
 }
 
-/// The exponent that scientific notation has with so many digits.
+/// The exponent of a number in scientific notation with this many digits.
 int exponent_of(double value, int digits) {
   const std::string text = fmt::format("{:.{}e}", std::abs(value), digits - 1);
   return std::stoi(text.substr(text.find('e') + 1));
@@ -74,7 +74,7 @@ std::vector<Tick> linear_ticks(double low, double high, int most) {
       if (last - first + 1 > most) continue;
       std::vector<Tick> ticks;
       const double largest = std::max(std::abs(low), std::abs(high));
-      // Beyond plain decimals, unless so many digits would be alike that only all of them distinguish ticks.
+      // Scientific notation for large and small numbers, unless the ticks differ in late digits only.
       const bool scientific = (largest >= 1e5 || largest < 1e-3) && step > 1e-3 * largest;
       for (double k = first; k <= last; ++k) {
         const double value = place(k);

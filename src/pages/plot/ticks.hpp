@@ -1,4 +1,4 @@
-// Where an axis is marked, and numbers as people read them.
+// Ticks of axes, and numbers formatted for readers.
 #pragma once
 
 #include <string>
@@ -16,14 +16,14 @@ struct Tick {
 /// when `most` > 3). @pre low < high
 std::vector<Tick> linear_ticks(double low, double high, int most = 6);
 
-/// Fewer of them where their labels, side by side, would not fit. @param room  [px]
+/// Linear ticks, but fewer of them if their labels side by side would not fit. @param room  [px]
 std::vector<Tick> fitting_ticks(double low, double high, int most, double room);
 
-/// Powers of ten inside [low, high], labelled so that about `most` labels stand; between them the multiples
-/// 2 to 9 when there are few decades. @pre 0 < low < high
+/// Powers of ten inside [low, high], about `most` of them with labels, and unlabelled multiples 2 to 9
+/// between them if there are few decades. @pre 0 < low < high
 std::vector<Tick> log_ticks(double low, double high, int most = 7);
 
-/// Room that a label takes in the largest type that pages use, and the widest of several [px].
+/// Width of a label, or of the widest of several, in the largest font of the pages [px].
 double width_of(const std::string& label);
 double width_of(const std::vector<Tick>& ticks);
 

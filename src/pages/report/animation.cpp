@@ -23,7 +23,7 @@ std::vector<double> numbers_of(const pugi::xml_attribute& attribute) {
   return {std::istream_iterator<double>(text), {}};
 }
 
-/// As many numbers as `width`, or nothing where the node has none.
+/// An attribute with `width` numbers; zeros if it is absent.
 Eigen::VectorXd vector_of(const pugi::xml_node& node, const char* name, Eigen::Index width) {
   const auto numbers = numbers_of(node.attribute(name));
   if (numbers.empty()) return Eigen::VectorXd::Zero(width);
@@ -33,7 +33,8 @@ Eigen::VectorXd vector_of(const pugi::xml_node& node, const char* name, Eigen::I
   return Eigen::Map<const Eigen::VectorXd>(numbers.data(), width);
 }
 
-/// How a field of a Transform moves: by its interpolator, NAME_path or NAME_turn, else not at all.
+/// The values of a field of a Transform during the playback: those of its interpolator, NAME_path or
+/// NAME_turn, or a constant without one.
 Track track_of(const pugi::xml_node& transform, const char* field, const char* interpolator,
                const char* ending, Eigen::Index width) {
   const std::string name = std::string(transform.attribute("DEF").as_string()) + ending;
@@ -122,7 +123,7 @@ Animation animation_of(const pugi::xml_node& scene) {
   return animation;
 }
 
-/// Places of spheres in all frames together: about 20 bytes each.
+/// Largest number of sphere positions in all frames together; each takes about 20 bytes.
 constexpr std::size_t most_places = 100000;
 
 /// Adds numbers to a JSON array, rounded to multiples of 1 / steps.
@@ -131,7 +132,8 @@ void append(Json& array, const Vector& numbers, double steps) {
   for (const double x : numbers) array.push_back(std::round(x * steps) / steps);
 }
 
-/// Steps in a millimetre that are less than a pixel from where the viewer stands: 100 from 100 mm to 1 m.
+/// Steps per millimetre to which positions are rounded, so that a step is less than a pixel for the viewer:
+/// 100 at distances from 100 mm to 1 m.
 double steps_of(const Animation& animation) {
   const double distance = 1000 * norm<double>(Vec3<double>(animation.eye - animation.target));
   return std::pow(10, 4 - std::floor(std::log10(distance)));
@@ -143,7 +145,7 @@ Json millimetres(const Vec3<double>& place, double steps) {
   return array;
 }
 
-/// Of the playback, one for each frame.
+/// The fraction of the playback at each frame.
 std::vector<double> fractions_of(const Animation& animation) {
   const auto steps =
       std::clamp<std::size_t>(most_places / std::max<std::size_t>(1, animation.spheres.size()), 40, 640);
@@ -199,7 +201,7 @@ void add_frames(pugi::xml_node parent, const Animation& animation) {
   add(parent, "script", {{"type", "application/json"}, {"id", "frames"}}, scene.dump());
 }
 
-/// Says in words how fast the playback is; a speed of 1 is real time.
+/// The speed of the playback in words; 1 is real time.
 std::string pace(double speed) {
   const double factor = std::max(speed, 1 / speed);
   if (factor < 1.05) return "In real time";

@@ -1,4 +1,4 @@
-// The X3D page that an `animation` wrote, read back: what it shows and how that moves.
+// Reads the X3D page that an output `animation` has written: the bodies in it and their motion.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -22,7 +22,7 @@ struct Track {
     double share;
   };
   Between between(double fraction) const;
-  /// Straight between the keys.
+  /// Linear interpolation between the keys.
   Eigen::VectorXd at(double fraction) const;
 };
 
@@ -41,13 +41,13 @@ struct MovingVessel {
   Track place;                     ///< of the vessel frame [m]
   Track turn;                      ///< axis and angle [rad]
 
-  /// Turned the short way between keys.
+  /// Interpolated between keys; rotations take the shorter way.
   Eigen::Isometry3d pose(double fraction) const;
 };
 
 struct Animation {
   double duration;           ///< of one playback [s]
-  Vec3<double> eye, target;  ///< of who looks at it [m]
+  Vec3<double> eye, target;  ///< place of the viewer, and point looked at [m]
   MovingVessel vessel;
   std::vector<MovingSphere> spheres;
 };

@@ -32,7 +32,7 @@ std::string contents_of(const pugi::xml_document& main) {
 
 struct Term {
   std::string name, text;
-  std::vector<std::string> words;  ///< in lower case: its name and what else is written for it
+  std::vector<std::string> words;  ///< in lower case: its name and synonyms
 };
 
 std::string in_lower_case(std::string text) {
@@ -64,7 +64,7 @@ bool has_word(const std::string& text, const std::string& word) {
   return false;
 }
 
-/// What a reader sees of a node, without the text of the case file and of other verbatim parts.
+/// The visible text of a node, without the case file and other verbatim parts.
 std::string text_in(const pugi::xml_node& node) {
   std::string text;
   for (const auto& found : node.select_nodes(".//text()[not(ancestor::pre or ancestor::code or "

@@ -23,7 +23,7 @@ namespace {
 
 using study::Point;
 
-/// By the folders, and where these have the same name by their whole paths.
+/// Names the runs by their folders; folders with the same name are named by their whole paths.
 void name_runs(std::vector<RunFolder>& runs) {
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const auto own = (runs[k].place / "").parent_path().filename().string();
@@ -114,7 +114,7 @@ void draw_over_time(pugi::xml_node grid, const std::vector<RunFolder>& runs) {
   draw_fitted(grid, chart);
 }
 
-/// What the cases do not have in common.
+/// Adds a table of the keys in which the cases differ.
 void add_differences(pugi::xml_node main, const std::vector<RunFolder>& runs) {
   Rows rows;  // a key, and what each run has for it
   for (std::size_t k = 0; k < runs.size(); ++k) {
@@ -172,8 +172,8 @@ std::string page_of_runs(const std::vector<RunFolder>& runs) {
                   version(), commit(), document});
 }
 
-/// The axis of the points: the values of a key that varies, where they are numbers of one unit, or their
-/// numbers. Where a second key varies there is a curve for each of its values.
+/// Positions of the points in a chart: the values of the key that varies, if they are numbers of one unit, or
+/// else the numbers of the points. If a second key varies, there is a curve for each of its values.
 struct Places {
   std::string title = "point";
   std::vector<double> x;
@@ -256,7 +256,7 @@ void draw_points(pugi::xml_node grid, const std::vector<Point>& points, const Pl
   draw_fitted(grid, chart);
 }
 
-/// As one word of a shell.
+/// Quotes a word for a shell.
 std::string quoted(const std::string& word) {
   const auto* safe = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,%@";
   if (!word.empty() && word.find_first_not_of(safe) == word.npos) return word;

@@ -53,7 +53,7 @@ void add_collision_rates(pugi::xml_node grid, const RunFolder& run) {
   draw_fitted(grid, chart);
 }
 
-/// Of the walls by id, then of all balls together [m2].
+/// Areas of the walls by id, then of all balls together [m2].
 std::vector<double> areas_of(const RunFolder& run) {
   std::vector<double> areas;
   for (const auto& surface : casefile::build_mill<double>(run.spec).vessel.surfaces())

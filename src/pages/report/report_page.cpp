@@ -37,7 +37,7 @@ std::string law_text(const casefile::ContactSpec& c) {
   return text + fmt::format(", least separation {} mm/s", brief(1000 * c.least_separation.to<double>()));
 }
 
-/// @param entry  of the file, "balls.0": its units are those of the text
+/// @param entry  key of the entry in the file, "balls.0"; numbers are shown in its units
 std::string ball_text(const RunFolder& run, const casefile::BallSpec& ball, int count,
                       const std::string& entry) {
   const auto in_file = [&](const char* key) { return casefile::text_of_key(run.spec, entry + key); };
@@ -46,7 +46,7 @@ std::string ball_text(const RunFolder& run, const casefile::BallSpec& ball, int 
                      in_file(".density").value_or(brief(ball.density.to<double>()) + " kg/m\u00b3"));
 }
 
-/// What voids a rate stands with it, in few words; the warning says the rest.
+/// Adds a few words to a rate for each warning that makes it doubtful, with a link to the warning.
 void add_doubts(pugi::xml_node card, const io::Facts& f) {
   for (const auto& [kind, text] :
        {std::pair{"several_states", "other seeds may settle elsewhere"},
@@ -231,7 +231,7 @@ Rows case_rows(const RunFolder& run) {
 std::filesystem::path write_report(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder)) read_run_folder(folder);  // says what is missing
   const io::FolderLock alone(folder);
-  // Removes what killed processes have left; an unfinished run goes on with its own files, which stay.
+  // Removes temporary files of killed processes, but not those with which an unfinished run continues.
   if (!std::filesystem::exists(io::checkpoint_place(folder))) io::remove_temporaries(folder);
   return put_report(folder);
 }

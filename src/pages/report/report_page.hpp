@@ -1,5 +1,5 @@
-// What is shown of runs: self-contained HTML pages of a run, of several side by side and of a study; a table
-// on the terminal; a drawing of the mill.
+// Presentation of runs: self-contained HTML pages of a run, of several side by side and of a study; a table
+// for the terminal; a drawing of the mill.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +16,7 @@ class Study;
 
 namespace edmill::report {
 
-/// In the folder of a run: what decides its dose rate, as text, which the page shows.
+/// File in the folder of a run with a text on what decides its dose rate; the page shows it.
 inline constexpr const char* check_file = "check.txt";
 
 /// Adds the outputs of the report to a case; their files are in the folder `report`.

@@ -36,7 +36,7 @@ std::string collision_rows(const Facts& f, const model::Partners& partners) {
   return out;
 }
 
-/// Rates with their intervals, and the impacts behind them; nothing of a run without time.
+/// Rates with their intervals, and properties of the impacts; empty if the statistics cover no time.
 std::string rate_rows(const Facts& f) {
   std::string out;
   for (const auto& [name, key, unit] :
@@ -68,7 +68,7 @@ std::string target_rows(const Facts& f) {
                   fmt::format("{:g} kJ/g, {}", f.number("target/dose") / 1e6, f.text("target/counts")));
 }
 
-/// What wider scalars and rules decided.
+/// Numbers of decisions by wider scalars and by rules.
 std::string decision_rows(const Facts& f) {
   std::string out;
   if (const double count = f.number("simultaneous_contacts"); count > 0)

@@ -35,8 +35,8 @@ columns = [{{ variable = "milling_dose", statistics = ["rate"] }}, {{ variable =
                      key, only);
 }
 
-/// Order of magnitude of what an impact can dissipate: that of the heaviest ball at three times the peak
-/// speed of the vessel's centre, at that of its walls, or fallen through it [log10 J]
+/// Order of magnitude of the largest dissipation in an impact [log10 J]: the energy of the heaviest ball at
+/// three times the peak speed of the vessel's centre, at the speed of its walls, and after a fall through it.
 double largest_energy(const casefile::CaseSpec& spec) {
   const auto mill = casefile::build_mill<double>(spec);
   const double extent = mill.vessel.extent(), centre = 3 * mill.motion.wall_speed(0),
@@ -68,14 +68,14 @@ std::string outputs_for(const casefile::CaseSpec& spec) {
   return text + partner_trends(partners[partners.ball_ball()].key, "ball_ball = true");
 }
 
-/// Those that a summary counts impacts with.
+/// Number of walls for which a summary has counts of impacts.
 int walls_of(const io::Facts& summary) {
   int walls = 0;
   while (summary.has("collisions/" + model::partner_key(walls, walls + 1))) ++walls;
   return walls;
 }
 
-/// By "# from 0.5 s to 10 s: ..." in the first line; 0 without.
+/// Duration of a table by its first line, "# from 0.5 s to 10 s: ..."; 0 without such a line [s].
 double duration_of(const std::string& file) {
   std::ifstream in(file);
   std::string line;
@@ -104,8 +104,8 @@ bool records(const casefile::OutputSpec& output, const model::Partners& partners
   });
 }
 
-/// "cap -y (bottom)": of a wall that is named by an axis of the vessel, where that is along gravity, on
-/// average over a drive period.
+/// The partners, with top and bottom in the labels, "cap -y (bottom)", for walls that are named by an axis of
+/// the vessel if this axis is along gravity, on average over a drive period.
 model::Partners with_top_and_bottom(const casefile::CaseSpec& spec) {
   const auto mill = casefile::build_mill<double>(spec);
   const double gravity = norm<double>(mill.gravity), period = mill.motion.period();

@@ -26,7 +26,7 @@ struct RateOf {
   }
 };
 
-/// A rate of a summary with its interval; nothing where the run lacks what it needs.
+/// A rate of a summary with its interval; nothing if the summary does not have it.
 std::optional<RateOf> rate_in(const io::Facts& summary, const std::string& path);
 
 /// summary.json and case.toml of a run, and the tables of the case.
@@ -38,8 +38,8 @@ struct RunFolder {
   std::string name = {};  ///< among runs that are compared
 
   using Fits = std::function<bool(const casefile::OutputSpec&)>;
-  /// An output of a type, of which `fits` holds, that is CSV (or X3D), not appended to others, and
-  /// whose file exists and is not empty; null when there is none. The last such output of the case.
+  /// The last output of the case that has this type, satisfies `fits`, is CSV (or X3D), is not appended to
+  /// others, and whose file exists and is not empty; null if there is none.
   const casefile::OutputSpec* output(std::string_view type, const Fits& fits) const;
   std::filesystem::path file_of(const casefile::OutputSpec& o) const { return place / o.folder / o.file; }
 };
@@ -71,7 +71,7 @@ OutputTable read_table(const std::filesystem::path& file, const std::string& exp
 struct Interval {
   double begin, end, rate;  ///< [s], [s], [unit/s]
 };
-/// Successive ones.
+/// Successive intervals.
 using Series = std::vector<Interval>;
 
 /// A column of a table whose rows are of intervals that follow each other.

@@ -1,4 +1,4 @@
-// What pages consist of: their frame, the parts of a report, and what these have in common.
+// Building blocks of pages: their frame, the parts of a report, and elements that these share.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace edmill::report {
 
 using plot::add, plot::brief, plot::readable;
 
-/// What the frame of every page holds: head, title, style, the terms of its sections and foot.
+/// Contents of a page, whose frame adds head, title, style, the terms of its sections and foot.
 struct Page {
   std::string title, subtitle;
   std::string version, commit;  ///< of the program that made what the page shows
@@ -45,14 +45,14 @@ std::string run_colour(std::size_t place);
 
 /// The label of a wall or a partner with the signs of typesetting: "cap −y", "ball–ball".
 std::string typeset(const std::string& label);
-/// The colour of a partner in charts, by its place; balls have the same beside any walls.
+/// The colour of a partner in charts, by its index; balls have the same one for any number of walls.
 std::string partner_colour(const model::Partners& partners, int place);
 
 struct MainRate {
   std::string name, unit;
   std::optional<RateOf> rate;  ///< nothing where the run lacks what it needs
 };
-/// The rates by which mills are compared, of any run in the same order.
+/// The rates by which mills are compared, in the same order for every run.
 std::vector<MainRate> main_rates(const io::Facts& summary);
 /// "27.92 ± 0.23"
 std::string text_of(const RateOf& rate);
@@ -78,7 +78,8 @@ void add_table(pugi::xml_node section, const std::string& id, const std::string&
 /// A chart over the time of the run, with the start of statistics marked unless it is the beginning.
 plot::Chart over_time(const RunFolder& run, const std::string& id, const std::string& title,
                       const std::string& y_title);
-/// Draws it from 0, or the least value, to a little above the highest.
+/// Draws a chart with a y axis from 0, or from the least value if that is negative, to a little above the
+/// highest.
 void draw_fitted(pugi::xml_node grid, plot::Chart chart);
 
 }  // namespace edmill::report

@@ -26,11 +26,12 @@ struct WallMap {
   plot::HeatMap map{};
 
   bool has(Coordinate c) const { return std::ranges::count(surface.coordinates(), c) > 0; }
-  /// Where the wall begins and ends along an axis of the map; its own coordinate may run the other way.
+  /// The low and high end of the wall along an axis of the map; its own coordinate may have the other
+  /// direction.
   std::pair<double, double> ends(int axis) const {
     return std::minmax(scale(axis) * surface.edge(axis, 0, 1), scale(axis) * surface.edge(axis, 1, 1));
   }
-  /// From a coordinate of the table to the map's: degrees and millimetres; a disc is drawn as it is.
+  /// Factor from a coordinate of the table to that of the map: degrees and millimetres; 1 for a disc.
   double scale(int axis) const {
     if (map.disc) return 1;
     const bool angle = surface.coordinates()[static_cast<std::size_t>(axis)] == Coordinate::angle;
@@ -92,7 +93,7 @@ void read_cells(std::vector<WallMap>& walls, const OutputTable& table) {
   }
 }
 
-/// Walls of a kind share a scale. @return what the reader is told
+/// Gives walls of one kind a common scale. @return a note about it for the reader
 std::string share_scales(std::vector<WallMap>& walls) {
   std::map<std::string, std::vector<WallMap*>> kinds;
   for (auto& wall : walls) kinds[wall.surface.name()].push_back(&wall);
@@ -146,7 +147,7 @@ struct Ball {
   double dose_rate, area;  ///< [W], [m2]
 };
 
-/// Balls of one diameter together, the smallest first; all of them where they have many diameters.
+/// Groups the balls by diameter, the smallest first; if there are many diameters, all balls form one group.
 std::vector<std::vector<Ball>> by_size(std::vector<Ball> balls) {
   constexpr std::size_t most = 12;
   std::ranges::stable_sort(balls, {}, &Ball::area);
@@ -184,7 +185,7 @@ void add_sizes(pugi::xml_node section, const std::vector<Ball>& balls) {
             {"balls", "mean [W]", "least [W]", "most [W]", "mean per area [W/cm\u00b2]"}, rows);
 }
 
-/// Shows whether some balls get more than others, where they are few enough to be distinguished.
+/// Draws the dose rate of each ball, for up to 400 balls.
 void draw_balls(pugi::xml_node section, const std::vector<Ball>& balls) {
   constexpr std::size_t most = 400;
   if (balls.size() < 2 || balls.size() > most) return;

@@ -24,15 +24,15 @@ namespace edmill::app {
 
 namespace {
 
-/// What work(0) and work(1), done at a time, give. The second one's failure counts only where the first one
-/// has none.
+/// Results of work(0) and work(1), which run concurrently. If both of them throw, the exception of the first
+/// is propagated.
 auto of_both(const auto& work) {
   auto later = std::async(std::launch::async, work, 1);
   auto first = work(0);
   return std::array{std::move(first), later.get()};
 }
 
-/// Name of a scalar.
+/// Name of the `mpfr` scalar with this many digits.
 std::string chosen(double digits) {
   return fmt::format("mpfr:{}", static_cast<unsigned>(std::clamp(digits, 60.0, double{most_digits})));
 }
@@ -66,8 +66,8 @@ std::size_t take(Agreement& agreement, const std::vector<Event>& one, const std:
   return same;
 }
 
-/// Decimal digits to which numbers agree that differ by so much: of their largest size, or decimals in SI
-/// units where they are zero but for rounding. @return Agreement::most when there is no difference
+/// Decimal digits to which numbers with this difference agree, relative to their largest magnitude, or
+/// absolute in SI units if they are zero up to rounding. @return Agreement::most when there is no difference
 double digits_of(const Number& difference, const Number& size) {
   constexpr double zero = 1e-20;  // [SI]
   if (!(difference > 0)) return Agreement::most;
@@ -102,7 +102,7 @@ std::string describe(const Event& e) {
                      e.time.str(17));
 }
 
-/// What is found on the way to a certain sequence.
+/// Raises the precision until the sequence of events is certain, and collects the evidence.
 class Certifier {
  public:
   Certifier(const casefile::CaseSpec& spec, const CertifyOptions& options)
@@ -115,8 +115,8 @@ class Certifier {
                     options.progress(precision, static_cast<std::size_t>(events));
                   })) {}
 
-  /// In the fixed scalars, then with as many digits as the last two lead to expect, and more where these do
-  /// not suffice.
+  /// Compares pairs of fixed scalars, then of `mpfr` with the number of digits that the last pair suggests,
+  /// and with more digits if these do not suffice.
   void run() {
     const auto& fixed = casefile::precisions();
     for (std::size_t k = 1; k < fixed.size(); ++k)
@@ -150,8 +150,7 @@ class Certifier {
     const auto begin = std::chrono::steady_clock::now();
     SideBySide runs(spec_, narrow, wide, options_.collisions == 0, options_.interrupt);
     std::vector<Event> events;
-    // The sequence is written with so many; each number of a long one with all its digits would fill the
-    // memory.
+    // Only as many digits are kept as are written: all digits of a long sequence would fill the memory.
     const mpfr::Digits kept(static_cast<unsigned>(options_.digits) + 10);
     while (const std::size_t left = options_.left_after(events.size())) {
       auto taken = runs.next(std::min<std::size_t>(256, left));
@@ -341,8 +340,8 @@ std::string by_rule(const run::Event& event) {
       event.ball, event.time.str(17));
 }
 
-/// Finds the decimal digits that an event costs, by two runs with many digits: up to where they are lost, or
-/// where `enough` of them are.
+/// Measures the decimal digits lost per event in two runs with many digits, until all of them are lost, or
+/// `enough`.
 void find_lost_digits(RunEstimate& e, double enough, const casefile::CaseSpec& spec,
                       const DigitsOptions& options) try {
   constexpr unsigned digits = 200;
@@ -369,8 +368,8 @@ void find_lost_digits(RunEstimate& e, double enough, const casefile::CaseSpec& s
   if (!(events > 0)) return;
   e.lost_per_event = lost() / events;
   if (e.precision == "double") return;
-  // Few balls can rest longer, and hop more often, in the true motion than in double: it continues as in the
-  // later half of the time so far.
+  // A few balls may rest longer, and hop more often, in the true motion than in double: extrapolates with the
+  // event rate in the later half of the time so far.
   const double first = times.front(), reached = times.back(), half = (first + reached) / 2;
   if (all) {
     e.events = events;
@@ -384,7 +383,7 @@ void find_lost_digits(RunEstimate& e, double enough, const casefile::CaseSpec& s
   e.undecided = error.what();
 }
 
-/// The part of an estimate that a run in right digits needs: how many.
+/// Estimates the number of events, and the number of digits that a run needs for them.
 RunEstimate estimate_digits(const casefile::CaseSpec& spec, const std::string& precision,
                             const DigitsOptions& options) {
   RunEstimate e;
@@ -452,7 +451,7 @@ RunEstimate estimate_run(const casefile::CaseSpec& spec, const std::string& prec
                          const DigitsOptions& options) try {
   const Interruption scope(options.interrupt);
   RunEstimate e = estimate_digits(spec, precision, options);
-  // A run in right digits is made in the wider of the two that agree.
+  // A run with a required number of digits uses the wider of the two scalars that agree.
   const auto made_in = precision.empty()
                            ? chosen(wider_than(static_cast<unsigned>(casefile::digits_of(e.precision))))
                            : precision;

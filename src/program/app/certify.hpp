@@ -1,4 +1,4 @@
-// What is certain of a case: where its runs in two scalars diverge, the events on which they agree, how many
+// Certainty of results: where runs of a case in two scalars diverge, the events on which they agree, how many
 // digits a run needs to end with a given number of correct ones, and the events proven in ball arithmetic.
 #pragma once
 
@@ -45,9 +45,9 @@ class Agreement {
   numerics::Line growth_;  ///< log10 of the differences in time
 };
 
-/// Two runs that advance together, each on a thread of its own. Where their digits are chosen, both keep as
-/// many as the narrower one has right, by their agreement so far, and some more: the error that this adds to
-/// it is small beside its own.
+/// Two runs that advance together, each on its own thread. If their numbers of digits are variable, both drop
+/// digits that the narrower one has lost, by their agreement so far, except for a margin, which keeps the
+/// added error small compared with its own.
 class SideBySide {
  public:
   /// @pre `wide` is wider than `narrow`
@@ -63,11 +63,11 @@ class SideBySide {
   const Agreement& agreement() const { return agreement_; }
   /// The first events that differ.
   const std::optional<std::pair<run::Event, run::Event>>& diverged() const { return diverged_; }
-  /// One run has an event more before its end.
+  /// True if one run has ended, but the other one has a further event.
   bool uneven() const { return uneven_; }
   /// Digits that both have dropped since the start.
   unsigned dropped_digits() const { return dropped_; }
-  /// Digits to which positions, velocities and spins agree now, each of the largest of its kind.
+  /// Digits to which positions, velocities and spins agree now, relative to the largest of each kind.
   double digits_of_states() const;
 
  private:
@@ -86,7 +86,7 @@ class SideBySide {
 struct Evidence {
   std::string narrow{}, wide{};  ///< names of the scalars
   Agreement agreement{};
-  double seconds = 0;  ///< that both took
+  double seconds = 0;  ///< duration of both runs [s]
 
   /// "double and float128: 40 events in common; digits: time 12.3 ..."
   std::string text() const;
@@ -100,7 +100,7 @@ struct CertifyOptions {
   std::function<void(const std::string& precision, std::size_t events)> progress = [](const auto&, auto) {};
   std::function<void(const Evidence&)> found = [](const auto&) {};  ///< called with each pair of scalars
 
-  /// How many more are wanted.
+  /// Number of events that are still required.
   std::size_t left_after(std::size_t events) const {
     return collisions == 0 ? SIZE_MAX : collisions - events;
   }
@@ -114,12 +114,12 @@ struct Certification {
 };
 
 /// Raises the precision until two scalars agree on the first events, in order and in the digits required, and
-/// writes them with the evidence: those of a fixed number of digits first, then `mpfr` with as many as the
-/// digits that were lost lead to expect.
-/// @throws InputError for a case that ends before, or has no end
+/// writes the events with the evidence. The scalars are those with a fixed number of digits first, then
+/// `mpfr` with a number of digits that follows from those lost so far.
+/// @throws InputError for a case that ends before the required number of events, or has no end
 Certification certify(const casefile::CaseSpec& spec, const CertifyOptions& options);
 
-/// Digits of the wider run that judges one of so many.
+/// Digits of the wider run that verifies a run with `digits`.
 unsigned wider_than(unsigned digits);
 
 /// Two runs of a case side by side.
@@ -133,7 +133,7 @@ struct Shadow : Evidence {
   std::string text() const;
 };
 
-/// @param what  asks for the wider one, for the message: "option '--shadow'"
+/// @param what  source of the request, for the message: "option '--shadow'"
 /// @throws InputError when `wider` is not wider than `precision`
 void require_wider(const std::string& precision, const std::string& wider, const std::string& what);
 
@@ -148,34 +148,34 @@ struct DigitsOptions {
       [](const auto&, auto, auto) {};
 };
 
-/// What a run will take, from short trials.
+/// Cost of a run, estimated by short trials.
 struct RunEstimate {
   std::string precision{};       ///< of the run
   double events = 0;             ///< to its end
   double lost_per_event = 0;     ///< decimal digits
-  double right_events = 0;       ///< of which all digits are used up; more than `events` where they last
+  double right_events = 0;       ///< number after which no digit is left; more than `events` if they suffice
   double seconds_per_event = 0;  ///< of processor time
-  double verifying = 0;          ///< runs of the case that show the digits right, in times of the run
+  double verifying = 0;          ///< cost of the runs that verify the digits, relative to the run
   double trials = 0;             ///< processor time that the trials took [s]
   std::uint64_t bytes = 0;       ///< of memory
-  std::uint64_t digits = 0;      ///< that are asked for; 0 where a precision is
+  std::uint64_t digits = 0;      ///< required at the end; 0 if a precision is given
   std::string undecided{};       ///< why no number of digits suffices, as far as the trials went
-  bool outputs = false;          ///< of the case, whose time is not in here
+  bool outputs = false;          ///< true if the case has outputs, whose time is not included
   bool interrupted = false;
 
   double cpu_seconds() const { return events * seconds_per_event; }
   std::string text() const;
 };
 
-/// Short trials say how many digits the case loses per event, how many events it has, and what one costs.
-/// @param precision  of the run; empty to find that which `spec.digits` needs
+/// Estimates by short trials how many digits a case loses per event, how many events it has, and their cost.
+/// @param precision  of the run; empty to find the one that `spec.digits` requires
 RunEstimate estimate_run(const casefile::CaseSpec& spec, const std::string& precision,
                          const DigitsOptions& options);
 
 /// A precision in which a case has a given number of correct digits to its end.
 struct FoundDigits {
   std::string precision{};  ///< of the run; empty where there is none
-  std::string narrow{};     ///< that agrees with it
+  std::string narrow{};     ///< narrower one that agrees with it
   Agreement agreement{};    ///< of the events of both
   double states = 0;        ///< digits to which the states at the end agree
   double seconds = 0;       ///< that finding it took
@@ -189,8 +189,8 @@ struct FoundDigits {
   std::string text() const;
 };
 
-/// Estimates the digits needed, and runs the case to its end in them and in more, until both have all events
-/// in common, with the digits that `spec.digits` asks for. @pre spec.digits
+/// Estimates the digits needed, and runs the case to its end with that number and with a larger one. Repeats
+/// this with more digits until both runs agree on all events to `spec.digits` digits. @pre spec.digits
 FoundDigits find_digits(const casefile::CaseSpec& spec, const DigitsOptions& options);
 
 struct ProveOptions : prove::ProofOptions {
@@ -200,12 +200,12 @@ struct ProveOptions : prove::ProofOptions {
 /// Nothing is written where the events cannot be proven, or the proof is interrupted.
 prove::Proof prove(const casefile::CaseSpec& spec, const ProveOptions& options);
 
-/// How many of the proven events a scalar gets right, from the first on.
+/// Number of leading events of a proof that a run in this scalar reproduces.
 std::size_t right_events(const std::string& precision, const casefile::CaseSpec& spec,
                          const prove::Proof& proof);
 
-/// Where the header of a certificate belongs to another case, a line each. @throws InputError for what is
-/// none
+/// Differences between the header of a certificate and the case, a line each; empty if it is of this case.
+/// @throws InputError if the file is not a certificate
 std::vector<std::string> check_certificate(const casefile::CaseSpec& spec, const std::string& certificate);
 
 }  // namespace edmill::app

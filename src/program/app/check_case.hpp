@@ -12,7 +12,7 @@ namespace edmill::app {
 
 struct CheckedCase {
   std::string file;
-  /// Name and value; no name: more of the one before.
+  /// Names and values; an empty name continues the entry before.
   std::vector<std::pair<std::string, std::string>> facts;
 
   std::string text() const;

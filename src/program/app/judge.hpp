@@ -1,4 +1,4 @@
-// Logs judged: by another log, or by the physics of a case, with what explains the violations.
+// Judges logs: by another log, or by the physics of a case, with a search for the causes of violations.
 #pragma once
 
 #include <atomic>
@@ -19,11 +19,11 @@ struct Judged {
   std::string json, junit, table;
 };
 
-/// Of collision logs, or where one has contacts that last, of their dose rates.
+/// Compares two collision logs, or only their dose rates if one of them is a log of contacts.
 /// @throws InputError
 Judged compare(const compare::ComparisonOptions& options);
 
-/// They override the case's section [audit].
+/// Options of an audit, which override the case's section [audit].
 struct AuditOptions {
   std::string log;                   ///< of collisions, or of contacts that last
   std::vector<std::string> columns;  ///< "ours=theirs [unit]"

@@ -1,4 +1,4 @@
-// A run with what it leaves in its folder: results, the case, and the page on request.
+// Executes a run and writes its folder: results, the case, and the page on request.
 #pragma once
 
 #include <filesystem>

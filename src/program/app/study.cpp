@@ -63,7 +63,7 @@ bool add_phases(const casefile::CaseSpec& spec, const BifurcationOptions& option
                 Bifurcation& found) {
   const double period = casefile::period_of(spec.mill).to<double>();
   const auto source = run::make_source("double", spec, false, options.interrupt);
-  constexpr std::size_t most = 10'000'000;  // of a ball that rests, and hops more slowly than what counts
+  constexpr std::size_t most = 10'000'000;  // a ball at rest may make slow hops only, which do not count
   std::size_t all = 0;
   for (std::size_t seen = 0; seen < options.skip + options.keep;) {
     const auto events = source->next(64);
@@ -78,7 +78,7 @@ bool add_phases(const casefile::CaseSpec& spec, const BifurcationOptions& option
   return true;
 }
 
-/// Dots: a line of no length has round ends.
+/// Draws points as lines of length zero with round ends.
 void write_drawing(std::ostream& out, const BifurcationOptions& options, const Bifurcation& found) {
   plot::Chart chart{
       "bifurcation",

@@ -41,8 +41,8 @@ struct SeedsOptions : StudyOptions {  ///< the file is the case, the folder is r
   std::uint64_t count = 0;
 };
 
-/// Runs of a case that differ by their seeds: the next ones from that of the case on. What they say together
-/// is in the result's `optimum`, and on a page.
+/// Runs a case with successive seeds, beginning with the seed of the case. The combined result is in
+/// `optimum` and on a page.
 /// @throws InputError
 std::optional<StudyResult> seeds(const SeedsOptions& options);
 

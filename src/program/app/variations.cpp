@@ -37,7 +37,7 @@ class Cases {
   explicit Cases(casefile::CaseSpec spec) : spec_(std::move(spec)) { spec_.outputs.clear(); }
 
   std::vector<Variation> runs;
-  std::vector<casefile::CaseSpec> specs;  ///< of the same places
+  std::vector<casefile::CaseSpec> specs;  ///< with the same indices
 
   void add(const std::string& what, const std::string& number, const std::vector<std::string>& settings) try {
     auto all = spec_.settings;
@@ -48,7 +48,7 @@ class Cases {
     specs.push_back(std::move(varied));
   } catch (const InputError&) {  // no such case
   }
-  /// A number of all laws together, within what it can be.
+  /// Adds a run in which a number is shifted in all laws, within its range.
   void add_shifted(const std::string& number, double by, double most) {
     std::vector<std::string> settings;
     for (const auto& section : sections_with(spec_, number)) {

@@ -1,4 +1,4 @@
-// What decides the dose rate of a run: the run again with other values of what is not known exactly.
+// Finds what decides the dose rate of a run: repeats the run with other values of uncertain parameters.
 #pragma once
 
 #include <atomic>
@@ -10,12 +10,12 @@
 
 namespace edmill::app {
 
-/// A run with something else than the case has.
+/// A run of the case with one change.
 struct Variation {
   std::string what;              ///< "restitution - 0.1"
   std::string number;            ///< that it varies: "restitution"; empty for the case as it is
   study::RunRecord record = {};  ///< none where the case allows no such value, or the run did not end
-  bool known = false;            ///< a difference of a twentieth would show
+  bool known = false;            ///< precise enough to show a difference of 5 %
   bool differs = false;          ///< from the case as it is, by more than both intervals
 };
 
@@ -35,7 +35,8 @@ struct Variations {
 Variations vary(const casefile::CaseSpec& spec, const std::string& precision, const study::RunRecord& own,
                 double uncertainty, const std::atomic<bool>* interrupt);
 
-/// The text for a run that has ended at its end with an interval; empty for others, or after an interrupt.
+/// The text for a run that has reached its end and has an interval; empty for other runs, or after an
+/// interrupt.
 std::string what_decides(const casefile::CaseSpec& spec, const std::string& precision, const io::Facts& run,
                          double uncertainty, const std::atomic<bool>* interrupt);
 

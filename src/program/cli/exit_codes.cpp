@@ -34,8 +34,8 @@ std::atomic<bool> flag{false};
 volatile std::sig_atomic_t received = 0, asked = 0;
 bool pipes_end_us = true;
 
-/// A batch system repeats SIGXCPU, or follows with SIGTERM, while results are being written; only who asks
-/// twice does not want them.
+/// Sets the flag. The program ends at once only at a second SIGINT or SIGTERM, since a batch system may
+/// repeat SIGXCPU, or send SIGTERM after it, while results are being written.
 extern "C" void on_signal(int signal) {
   if (signal == SIGINT || signal == SIGTERM) {
     if (asked) std::_Exit(128 + signal);
@@ -50,8 +50,8 @@ bool is_ignored(int signal) {
   return sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
 }
 
-/// Libraries may take signals before `main`, as UCX does, which comes with Debian 13's MPI: what the program
-/// was started with is noted before they are initialised.
+/// True if SIGHUP was ignored at the start. This is recorded before libraries are initialised, because some
+/// of them handle signals before `main`, such as UCX in Debian 13's MPI.
 bool hangup_is_ignored = false;
 #ifdef __ELF__
 void note_hangup(int, char**, char**) { hangup_is_ignored = is_ignored(SIGHUP); }
@@ -71,7 +71,8 @@ void throw_for_lack_of_memory() {
 #endif
 }
 
-/// Gives the stack its size: one that cannot grow ends the program without a word.
+/// Grows the stack to its final size at the start: if it could not grow later, the program would end without
+/// a message.
 /// @throws std::bad_alloc
 [[gnu::noinline]] void grow_stack() {
   std::array<volatile char, 1 << 20> room;
@@ -89,8 +90,8 @@ void open_standard_descriptors() {
   }
 }
 
-/// From now on a write to a file that is too large, or to a pipe that nobody reads, fails in place of
-/// killing; a SIGHUP that the program was started with ignored, as by nohup, stays so, whatever libraries do.
+/// Makes a write to a file that is too large, or to a pipe that nobody reads, fail instead of killing the
+/// program. If SIGHUP was ignored at the start, as by nohup, it stays ignored, whatever libraries do.
 void begin_with_signals() {
   if (hangup_is_ignored) std::signal(SIGHUP, SIG_IGN);
   pipes_end_us = !is_ignored(SIGPIPE);
@@ -98,7 +99,8 @@ void begin_with_signals() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-/// Ends the program as a pipe that nobody reads ends others; returns if it was ignored at the start.
+/// Ends the program by SIGPIPE, as other programs end if nobody reads their pipe; returns if that signal was
+/// ignored at the start.
 void end_by_pipe_signal() {
   if (!pipes_end_us) return;
   std::signal(SIGPIPE, SIG_DFL);
@@ -111,7 +113,7 @@ void end_by_pipe_signal() {
 /// @return the exit code
 int after_output(int code) {
   const int error = io::output_error();
-  // These have said what is wrong.
+  // These commands have reported their error.
   if (error == 0 || code == internal_error || code == bad_input || code == undecided) return code;
   if (error == EPIPE) end_by_pipe_signal();
   io::tell("edmill: standard output could not be written: {}\n", error == EBADF ? "it is closed"

@@ -63,21 +63,21 @@ void print_problem(const std::string& problem);
 /// Says why a command has no result. @return the exit code
 int tell_undecided(const std::string& why);
 
-/// Does a command as all that the program does: with its errors printed, and standard streams and signals as
-/// the program wants them. @return the exit code
+/// Executes a command as the whole program: prepares standard streams and signals, and prints errors.
+/// @return the exit code
 int as_program(const std::function<int()>& command);
 
 /// Becomes true at the first signal after `listen_for_signals`, or when another rank has seen one; a second
 /// SIGINT or SIGTERM ends the program at once.
 std::atomic<bool>& interrupt_flag();
 
-/// SIGINT, SIGTERM, SIGHUP, SIGXCPU and SIGUSR1; before it is called they end the program.
+/// From now on SIGINT, SIGTERM, SIGHUP, SIGXCPU and SIGUSR1 set the flag; before, they end the program.
 void listen_for_signals();
 
-/// 128 and the signal for `interrupted`, any other code as it is.
+/// Adds the signal number to the code `interrupted`; returns any other code unchanged.
 int plus_signal(int exit_code);
 
-/// 128 and the signal when one came, whatever the code.
+/// 128 plus the signal number if a signal has arrived, otherwise the code.
 int after_signals(int exit_code);
 
 }  // namespace edmill::cli

@@ -44,7 +44,7 @@ std::string version_text() {
                      parts.empty() ? "none" : parts);
 }
 
-/// Words for a command that are not near to its name.
+/// Synonyms of commands, which are not similar to their names.
 constexpr std::pair<const char*, const char*> synonyms[] = {
     {"simulate", "run"},     {"start", "run"},      {"execute", "run"},     {"go", "run"},
     {"solve", "run"},        {"example", "demo"},   {"continue", "resume"}, {"restart", "resume"},
@@ -69,7 +69,7 @@ std::vector<std::string> options_of(const CLI::App& command) {
   return names;
 }
 
-/// The first word that begins with a hyphen and is none of these; numbers may be values.
+/// The first word that begins with a hyphen but is none of the options; negative numbers may be values.
 std::string unknown_option(const std::vector<std::string>& words, const std::vector<std::string>& options) {
   for (const auto& word : words) {
     if (word == "--") break;
@@ -80,8 +80,8 @@ std::string unknown_option(const std::vector<std::string>& words, const std::vec
   return "";
 }
 
-/// What is wrong with the words of a command line that could not be read: an unknown command or option with
-/// the nearest that there is, else what the parser says.
+/// The problem of a command line that could not be parsed: an unknown command or option with the most similar
+/// known one, or else the message of the parser.
 std::string problem_of(const CLI::App& app, const std::vector<std::string>& words,
                        const CLI::ParseError& error) {
   std::vector<std::string> commands;

@@ -101,11 +101,11 @@ Json line_of(const ProvenEvent& event, std::size_t number) {
   return line;
 }
 
-/// The first line of a certificate. @throws std::exception for what is none
+/// The header of a certificate, its first line. @throws std::exception if it is not a certificate
 Json read_header(std::istream& in) {
   std::string line;
   std::getline(in, line);
-  std::vector<std::set<Json>> keys;  // of the objects around
+  std::vector<std::set<Json>> keys;  // of the enclosing objects
   const auto header = Json::parse(line, [&](int, Json::parse_event_t event, Json& key) {
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
     if (event == Json::parse_event_t::object_end) keys.pop_back();
@@ -121,8 +121,8 @@ Json read_header(std::istream& in) {
   return header;
 }
 
-/// "2.560368941527883137177675704e-03,1.2e-40": the midpoint to `digits` places and a radius that encloses
-/// `value` about what is printed.
+/// "2.560368941527883137177675704e-03,1.2e-40": the midpoint to `digits` places, and a radius with which the
+/// printed number encloses `value`.
 std::string decimal_of(const Enclosure& value, int digits) {
   const std::unique_ptr<char, void (*)(void*)> middle(arf_get_str(arb_midref(value.arb()), digits + 1),
                                                       flint_free);

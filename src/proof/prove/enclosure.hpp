@@ -12,7 +12,7 @@
 
 namespace edmill::prove {
 
-/// What an enclosure is too wide to tell. More bits may.
+/// Thrown if an enclosure is too wide for a decision, which `what` names. More bits may help.
 struct Undecided {
   std::string what;
 };
@@ -119,24 +119,24 @@ namespace edmill::prove {
 using Vector = Vec3<Enclosure>;
 using Matrix = Eigen::Matrix<Enclosure, 3, 3>;
 
-/// The vector of what `change` makes of each component.
+/// Applies `change` to each component of a vector.
 Vector each(const auto& v, const auto& change) { return {change(v[0]), change(v[1]), change(v[2])}; }
 
-/// Encloses an exact quantity, to the bits in force.
+/// Encloses an exact quantity, in the current precision.
 Enclosure enclosure_of(const casefile::Quantity& quantity);
 inline Vector enclosure_of(const std::array<casefile::Quantity, 3>& exact) {
   return each(exact, [](const auto& component) { return enclosure_of(component); });
 }
 
-/// With a midpoint of `bits` bits.
+/// An enclosure of `value` whose midpoint has `bits` bits.
 inline Enclosure rounded(const Enclosure& value, slong bits) {
   Enclosure result;
   arb_set_round(result.arb(), value.arb(), bits);  // what the midpoint loses is added to the radius
   return result;
 }
 
-/// A slightly wider enclosure with few digits: the midpoint goes 20 bits beyond the radius, one of an exact
-/// number to `bits`; the radius grows by 2^-20 and is rounded up to ten bits.
+/// A slightly wider enclosure with few digits: the midpoint keeps 20 bits beyond the radius (`bits` bits if
+/// the value is exact); the radius grows by 2^-20 and is rounded up to ten bits.
 Enclosure rounded_out(const Enclosure& value, slong bits);
 
 }  // namespace edmill::prove

@@ -18,7 +18,7 @@ using boost::multiprecision::cpp_int;
 using casefile::CaseSpec;
 using model::Joint;
 
-/// Without what does not move: a certificate lists no zeros.
+/// The joints of a motion, without swings of zero amplitude: a certificate lists no zeros.
 std::vector<Joint<Quantity>> moving_joints(const casefile::MotionSpec& motion) {
   auto joints = casefile::joints_of(motion);
   for (auto& joint : joints) {
@@ -28,7 +28,8 @@ std::vector<Joint<Quantity>> moving_joints(const casefile::MotionSpec& motion) {
   return joints;
 }
 
-/// An axis from -1, the origin, to 1, at this distance.
+/// A plane perpendicular to an axis, at this distance from the origin, on the negative (-1) or the positive
+/// (1) side.
 ExactWall plane(std::size_t axis, int side, const Quantity& distance) {
   ExactWall wall;
   wall.normal[axis] = side;
@@ -37,7 +38,7 @@ ExactWall plane(std::size_t axis, int side, const Quantity& distance) {
 }
 ExactWall round_wall(ExactWall::Kind kind, const Quantity& diameter) { return {kind, {}, {}, diameter / 2}; }
 
-/// The walls of a vessel in their order, and half its sizes where balls are placed at random by them.
+/// The walls of a vessel in order, and half its sizes if it can be filled with balls at random.
 struct Vessel {
   std::vector<ExactWall> walls;
   std::optional<QuantityVector> half;
@@ -84,7 +85,7 @@ ExactLaw law_of(const casefile::ContactSpec& spec, const std::string& file) {
                    "\", expected \"walton-braun\" or \"constant\": `prove` knows no others");
 }
 
-/// Which law two materials have: 0 between balls, 1 with walls, then those of pairs.
+/// Index of the law of two materials: 0 between balls, 1 with walls, then those of pairs.
 std::size_t law_between(const CaseSpec& spec, int one, int other, std::size_t otherwise) {
   for (std::size_t k = 0; k < spec.pairs.size(); ++k)
     if (spec.pairs[k].is_of(one, other)) return k + 2;
@@ -111,8 +112,9 @@ void fill_laws(const CaseSpec& spec, const std::vector<int>& materials, ExactCas
   }
 }
 
-/// Places of balls at random are multiples of 2^-52 of the room that their centres have: as whole numbers
-/// they are recovered from a run's placing in many digits, which the thread has chosen.
+/// The exact position of a ball placed at random. Its coordinates are multiples of 2^-52 of the room for its
+/// centre; the whole numbers are recovered from a placement in many digits, in the current precision of the
+/// thread.
 QuantityVector exact_place(const Vec3<mpfr>& local, const QuantityVector& room, const std::string& where) {
   QuantityVector place{};
   for (std::size_t axis = 0; axis < 3; ++axis) {

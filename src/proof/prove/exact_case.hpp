@@ -51,8 +51,9 @@ struct ExactCase {
   std::vector<std::vector<std::size_t>> law_of_balls;  ///< by ball and ball
 };
 
-/// @throws InputError for what cannot be proven: rounded vessels, pistons, saved states, random velocities
-/// and diameters, laws but walton-braun and constant
+/// The case in exact numbers.
+/// @throws InputError for cases that cannot be proven: rounded vessels, pistons, saved states, random
+/// velocities and diameters, laws other than walton-braun and constant
 ExactCase exact_case(const casefile::CaseSpec& spec);
 
 }  // namespace edmill::prove

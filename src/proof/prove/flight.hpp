@@ -1,5 +1,5 @@
-// Where the vessel is and how it moves, balls in free flight and their gaps, all enclosed, and proofs that
-// bodies do not meet while a flight is flown. docs/certificates.md, "Rules for the states", rules 4 and 5
+// Enclosures of the vessel's pose, of balls in free flight and of their gaps, and proofs that bodies do not
+// meet during a flight. docs/certificates.md, "Rules for the states", rules 4 and 5
 #pragma once
 
 #include <map>
@@ -17,7 +17,7 @@ inline Vector turned(const Matrix& m, const Vector& v) {
   return {row(0), row(1), row(2)};
 }
 
-/// By the transposed matrix.
+/// Multiplies by the transposed matrix.
 inline Vector turned_back(const Matrix& m, const Vector& v) {
   const auto column = [&](int k) { return m(0, k) * v[0] + m(1, k) * v[1] + m(2, k) * v[2]; };
   return {column(0), column(1), column(2)};
@@ -28,14 +28,14 @@ struct InVessel {
   Vector place, velocity, acceleration;
 };
 
-/// At a time, or during a bracket of times.
+/// The pose of the vessel at a time, or enclosed over a bracket of times.
 struct Pose {
   Matrix axes = Matrix::Identity();       ///< R: its columns are the axes of the vessel frame
   Vector centre, velocity, acceleration;  ///< of its origin [m], [m/s], [m/s^2]
   Vector omega, omega_rate;               ///< [rad/s], [rad/s^2]
 
-  /// About an axis of the frame so far, the unit vector e: E_kk = e_k^2 + cos (1 - e_k^2),
-  /// E_kl = e_k e_l (1 - cos) -/+ e_m sin.
+  /// Rotates about an axis of the current frame, the unit vector e: E_kk = e_k^2 + cos (1 - e_k^2), E_kl =
+  /// e_k e_l (1 - cos) -/+ e_m sin.
   /// @param turns  the angle
   /// @param speed, acceleration  [rad/s], [rad/s^2]
   void rotate(const Vector& e, const Enclosure& turns, const Enclosure& speed,
@@ -60,7 +60,7 @@ struct Pose {
         axes(k, l) = a(k, 0) * rotation(0, l) + a(k, 1) * rotation(1, l) + a(k, 2) * rotation(2, l);
   }
 
-  /// By a vector of the frame so far, which has these derivatives in it.
+  /// Translates by a vector of the current frame, given with its derivatives in that frame.
   void shift(const Vector& by, const Vector& by_rate, const Vector& by_second) {
     const Vector d = turned(axes, by), rate = turned(axes, by_rate), second = turned(axes, by_second);
     const Vector carried = cross<Enclosure>(omega, d);
@@ -80,7 +80,7 @@ struct Pose {
   }
 };
 
-/// The joints of a case, at the precision in force when it is made.
+/// The joints of a case, in the precision that is current at construction.
 class Motion {
  public:
   explicit Motion(const ExactCase& exact) : start_(enclosure_of(exact.start)) {
@@ -145,11 +145,11 @@ struct Flight {
   Vector velocity_at(const Enclosure& time, const Vector& gravity) const {
     return velocity + gravity * Enclosure(time - reference);
   }
-  /// In the vessel, which has this pose then.
+  /// The ball in the vessel frame, where `pose` is that of the vessel at `time`.
   InVessel seen(const Pose& pose, const Enclosure& time, const Vector& gravity) const {
     return pose.seen(position_at(time, gravity), velocity_at(time, gravity), gravity);
   }
-  /// With each component as `change` makes it.
+  /// A copy with `change` applied to each component.
   Flight with_each(const auto& change) const {
     return {reference, each(position, change), each(velocity, change), each(spin, change)};
   }
@@ -160,10 +160,10 @@ struct Gap {
   Enclosure value, rate, second;
 };
 
-/// The walls of a case as one ball meets them.
+/// The walls of a case for one ball, whose radius is subtracted.
 class Walls {
  public:
-  /// At the precision in force.
+  /// Computes in the current precision.
   Walls(const ExactCase& exact, const ExactBall& ball) {
     const Enclosure radius = enclosure_of(ball.radius);
     for (const auto& given : exact.walls) {
@@ -188,7 +188,7 @@ class Walls {
     return {w.offset - squared_norm<Enclosure>(p), -2 * dot<Enclosure>(p, u),
             -2 * (squared_norm<Enclosure>(u) + dot<Enclosure>(p, a))};
   }
-  /// Unit, into the vessel, where the ball touches the wall with its centre at `place`.
+  /// Inward unit normal where the ball touches the wall with its centre at `place`.
   Vector normal(std::size_t wall, const Vector& place) const {
     const Wall& w = walls_[wall];
     if (w.kind == ExactWall::plane) return -w.outward / w.length;
@@ -203,7 +203,7 @@ class Walls {
     Enclosure offset;  ///< |n| (distance - R) + n.point
     Enclosure room;    ///< R_v - R of round walls
 
-    /// Takes off what a round wall does not see: the component along a cylinder's axis, y.
+    /// Removes the component that a round wall does not depend on: that along a cylinder's axis, y.
     Vector across(Vector v) const {
       if (kind == ExactWall::cylinder) v[1] = Enclosure();
       return v;
@@ -215,7 +215,7 @@ class Walls {
 /// A flight between two impacts.
 struct Span {
   const Flight& flight;
-  Enclosure begin, end;                ///< [s], exact: it is flown within these
+  Enclosure begin, end;                ///< [s], exact: the flight lies within these
   int begin_wall = -1, end_wall = -1;  ///< the wall of the impact at either end; -1 for none
 };
 
@@ -226,7 +226,7 @@ class WallExclusion {
   WallExclusion(const Motion& motion, const Walls& walls, const Vector& gravity, Span span)
       : motion_(motion), walls_(walls), gravity_(gravity), span_(std::move(span)) {}
 
-  /// The windows: "r2p2p1". Empty when a bisection this deep does not prove it.
+  /// The windows of the proof as text: "r2p2p1". Empty if bisection to the greatest depth does not prove it.
   std::string windows(std::size_t wall) {
     std::string text;
     return bisect(wall, 0, 0, text) ? text : "";
@@ -234,7 +234,7 @@ class WallExclusion {
 
  private:
   static constexpr int deepest = 14;
-  /// In a window: the ball at its middle, and within all of it.
+  /// The ball in a window: at its middle, and enclosed over all of it.
   struct Window {
     Enclosure length_from_middle;
     InVessel middle, all;

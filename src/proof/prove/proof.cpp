@@ -21,7 +21,7 @@ std::string name_of(const auto& next) {
   return fmt::format("ball {} and {} {}", next.ball, next.with_wall ? "wall" : "ball", next.partner);
 }
 
-/// With the radius 2^-bits, unless it is an exact zero.
+/// Adds the radius 2^-bits; with `may_vanish` an exact zero is left unchanged.
 Enclosure blurred(Enclosure value, slong bits, bool may_vanish) {
   if (may_vanish && value.is_zero()) return value;
   arb_add_error_2exp_si(value.arb(), -bits);
@@ -54,7 +54,7 @@ Enclosure slip_gain(const Law& law, const Enclosure& change, const Enclosure& sl
   throw Undecided{"whether the contact slides or sticks"};
 }
 
-/// Whether a flight was long enough for its ball to move, by the rule on stalls. @throws Undecided
+/// True if the flight was long enough for its ball to move, by the stall rule. @throws Undecided
 bool has_moved(const Law& law, const Enclosure& flight_time) {
   const Enclosure reached = flight_time * Enclosure(model::StallRule().acceleration);
   if (law.least_separation.is_zero() || less(law.least_separation, reached)) return true;
@@ -62,7 +62,8 @@ bool has_moved(const Law& law, const Enclosure& flight_time) {
   throw Undecided{"whether a ball has had time to move"};
 }
 
-/// What an impact does to velocities and spins. (2.23'), (2.24'), (2.28'); docs/certificates.md, "Impulse"
+/// The effect of an impact on velocities and spins. (2.23'), (2.24'), (2.28'); docs/certificates.md,
+/// "Impulse"
 struct Impulse {
   Vector push;  ///< P: change of velocity of a body of the effective mass [m/s]
   Vector turn;  ///< Q: n x S gain [m/s]
@@ -70,9 +71,9 @@ struct Impulse {
 };
 
 /// @param normal      n, unit, from the partner to ball i
-/// @param contact     G, velocity of the surfaces at the contact against each other [m/s]
+/// @param contact     G, relative velocity of the surfaces at the contact [m/s]
 /// @param compliance  c = 1 + M/(m_i J_i) + M/(m_j J_j)
-/// @param in_stall    friction rests
+/// @param in_stall    the impact is frictionless
 /// @throws Undecided
 Impulse impulse(const Law& law, const Vector& normal, const Vector& contact, const Enclosure& compliance,
                 bool in_stall) {
@@ -108,7 +109,7 @@ class Prover {
     }
   }
 
-  /// Proves that this is the next event, and goes on to its other side.
+  /// Proves that this is the next event, and continues with the states after it.
   /// @throws Undecided
   ProvenEvent take(const Meeting& next) {
     const Precision scope(fine_.bits);
@@ -144,7 +145,7 @@ class Prover {
     return windows;
   }
 
-  /// Bits that the radii leave of the least known velocity.
+  /// Accuracy of the least accurate velocity, in bits after the point.
   slong accuracy() const {
     slong least = bits_;
     for (const auto& track : tracks_)
@@ -157,7 +158,7 @@ class Prover {
   }
 
  private:
-  /// What arithmetic at one precision needs.
+  /// The model in one precision.
   struct Tools {
     struct Ball {
       Walls walls;
@@ -173,7 +174,7 @@ class Prover {
     Flight flight, coarse;
     Enclosure begin;           ///< lower end of the bracket of its first event
     long event = -1;           ///< its number; -1 for the start
-    int wall = -1, with = -1;  ///< that it was an impact with
+    int wall = -1, with = -1;  ///< partner in that impact; -1 for none
     Enclosure since;           ///< when the flight began
     int unmoved = 0;           ///< impacts in a row before which the ball had no time to move
   };
@@ -200,7 +201,7 @@ class Prover {
       return fine_.balls[next.ball].walls.gap(next.partner,
                                               one.seen(fine_.motion.pose(time), time, fine_.gravity));
     const Flight& two = tracks_[next.partner].flight;
-    // The motion against each other is uniform: from the middle of a bracket without gravity.
+    // The relative motion is uniform, so it is extrapolated from the middle of a bracket without gravity.
     const Enclosure middle = time.middle();
     const Enclosure reach = fine_.balls[next.ball].radius + fine_.balls[next.partner].radius;
     PairGap pair(one, two, reach, fine_.gravity, middle);
@@ -213,7 +214,7 @@ class Prover {
            gap_at(next, time).rate.is_negative();
   }
 
-  /// Newton's method to the width of the flights, then an interval that is proven to hold the contact.
+  /// Newton's method to the width of the flights, then an interval that provably contains the contact.
   Enclosure bracket(const Meeting& next) const {
     Enclosure time = next.time, wide;
     for (slong bits = 256;; bits = std::min(2 * bits, fine_.bits)) {
@@ -227,7 +228,7 @@ class Prover {
       if (bits >= fine_.bits && less(wide.middle() * wide.middle(), wide.radius() * wide.radius())) break;
       if (bits >= fine_.bits && arb_is_exact(wide.arb())) break;
     }
-    // The last step went to the middle; what is left is its radius.
+    // The last step moved to its midpoint; its radius remains.
     Enclosure half = wide.radius() * Enclosure(1 + 0x1p-7);
     for (const double factor : {1.0, 1.25, 2.0}) {
       const auto room = half * Enclosure(factor);
@@ -261,7 +262,8 @@ class Prover {
     return texts;
   }
 
-  /// All flights of other balls that have not ended: those that end earlier asked for this one then.
+  /// Excludes all other balls whose flights have not ended; the flights that ended before have excluded this
+  /// one.
   void exclude_balls(int ball, int partner, const Enclosure& end, long through) const {
     const Track& track = tracks_[ball];
     for (int k = 0; k < static_cast<int>(tracks_.size()); ++k) {
@@ -281,7 +283,7 @@ class Prover {
     }
   }
 
-  /// Counts the ball's impacts that came without time to move, for the rule on stalls.
+  /// Counts the ball's consecutive impacts without time to move. @return true if this one is frictionless
   bool friction_rests(int ball, const Law& law, const Enclosure& time) {
     Track& track = tracks_[ball];
     if (has_moved(law, time - track.since)) {
@@ -372,12 +374,12 @@ class Prover {
 
 constexpr slong first_bits = 128, spare_bits = 96;
 
-/// Why there is no proof: no number of bits would help, or too many.
+/// Thrown if there is no proof: no number of bits would help, or too many would be needed.
 struct Impossible {
   std::string why;
 };
 
-/// All events at this number of bits, or as many as it decides. @return whether it decides all
+/// Proves events with this number of bits until one is undecided. @return true if all are proven
 bool attempt(Proof& proof, const std::vector<Meeting>& next, slong bits, const ProofOptions& options) {
   Prover prover(proof.exact, bits);
   Attempt& result = proof.attempts.emplace_back(Attempt{bits, 0, ""});
@@ -399,7 +401,7 @@ bool attempt(Proof& proof, const std::vector<Meeting>& next, slong bits, const P
   return result.undecided.empty();
 }
 
-/// Where to look for each event: the first ones of a run in the widest scalar.
+/// Candidates for the events to be proven: the first ones of a run in the widest scalar.
 /// @throws InputError when the case ends before
 std::vector<Meeting> candidates(const casefile::CaseSpec& spec, const ProofOptions& options) {
   const std::size_t collisions = options.collisions;
@@ -445,7 +447,7 @@ Proof prove(const casefile::CaseSpec& spec, const ProofOptions& options) {
             fmt::format("event {}: {} bits do not tell {}; the contacts may be simultaneous, or the widest "
                         "scalar has lost the sequence",
                         proof.attempts.back().events, bits, proof.attempts.back().undecided)};
-    // A certificate need not be longer than the proof asks for.
+    // A certificate need not be longer than the proof requires.
     const slong sure = proof.bits, enough = (sure - proof.accuracy + spare_bits + 31) / 32 * 32;
     if (enough < sure && enough > first_bits && !attempt(proof, next, enough, options))
       attempt(proof, next, sure, options);

@@ -46,17 +46,17 @@ struct Proof {
   ExactCase exact;
   slong bits = 0;
   std::vector<ProvenEvent> events;
-  std::vector<std::vector<std::string>> open_windows;  ///< of the flights at the end, by ball and wall
+  std::vector<std::vector<std::string>> open_windows;  ///< of flights that have not ended, by ball and wall
   slong accuracy = 0;  ///< bits after the point of the least known velocity at the end
   std::vector<Attempt> attempts;
-  double seconds = 0;  ///< that it took
+  double seconds = 0;  ///< duration of the proof
   bool interrupted = false;
-  std::string impossible;  ///< why the model itself cannot say what comes next, or no scalar knows where to
-                           ///< look; no proof then
+  std::string impossible;  ///< why there is no proof, if the model does not determine the next event or no
+                           ///< scalar finds it; otherwise empty
 };
 
-/// Proves the first events with 128 bits, and twice as many until all are proven; then once more with as many
-/// as the last try used.
+/// Proves the first events with 128 bits, doubled until all are proven; then once more with only as many bits
+/// as the last attempt used.
 /// @throws InputError for a case that `prove` does not know
 Proof prove(const casefile::CaseSpec& spec, const ProofOptions& options);
 
@@ -64,11 +64,11 @@ Proof prove(const casefile::CaseSpec& spec, const ProofOptions& options);
 /// docs/certificates.md
 void write_certificate(std::ostream& out, const Proof& proof);
 
-/// Where the header of a certificate belongs to another case than this one, a line each: "/balls/0/radius:
-/// found "1/250", expected "119/25000"". The name of the case, its digest, the bits and the number of events
-/// do not count: what is proven follows from the other numbers.
+/// The differences between the header of a certificate and this case, a line each: "/balls/0/radius: found
+/// "1/250", expected "119/25000"". The name of the case, its digest, the bits and the number of events are
+/// not compared: what is proven follows from the other numbers.
 /// @param name  of the file, for messages
-/// @throws InputError for what is no certificate, or has a key of the header twice
+/// @throws InputError when the file is not a certificate, or its header contains a key twice
 std::vector<std::string> other_case(std::istream& certificate, const std::string& name,
                                     const ExactCase& exact);
 

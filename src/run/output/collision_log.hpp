@@ -9,9 +9,8 @@
 
 namespace edmill::output {
 
-/// @param states  for the ball and for its partner position, velocity and spin before, velocity and spin
-/// after
-///                the impact, in the inertial frame, too. Those of a wall are empty.
+/// @param states  adds columns with position, velocity and spin before the impact, and velocity and spin
+/// after it, of the ball and of its partner, in the inertial frame; those of a wall are empty
 inline std::string collision_log_header(bool states) {
   std::string header = "index,time,ball,partner_kind,partner";
   for (const auto& quantity : model::logged_quantities)
@@ -37,7 +36,7 @@ model::ImpactRecord<Real> record_of(const engine::Impact<Real>& impact,
 
 /// One impact as a line of the log: SI; balls and impacts count from 0; every number has enough digits to
 /// round-trip in its scalar.
-/// @param states  with the bodies' states before and after
+/// @param states  adds the bodies' states before and after
 template <class Real>
 std::string collision_line(const engine::Impact<Real>& impact, const engine::Simulation<Real>& simulation,
                            bool states) {

@@ -1,4 +1,4 @@
-// Dose by its place. docs/outputs.md, "bodies", "coverage"
+// Spatial distribution of the dose. docs/outputs.md, "bodies", "coverage"
 #pragma once
 
 #include <algorithm>
@@ -11,14 +11,15 @@
 
 namespace edmill::output {
 
-/// Of the surface of a ball [m2].
+/// Surface area of a ball [m2].
 template <class Real>
 Real ball_area(const engine::Simulation<Real>& simulation, int ball) {
   const Real& radius = simulation.properties(ball).radius;
   return 4 * numerics::pi<Real>() * radius * radius;
 }
 
-/// On each ball and on each wall: half of the dose of an impact is on either body. docs/outputs.md, "bodies"
+/// Dose of each ball and each wall: half of the dose of an impact counts for either body. docs/outputs.md,
+/// "bodies"
 template <class Real>
 class BodiesOutput : public TableOutput<Real> {
  public:
@@ -61,7 +62,7 @@ class BodiesOutput : public TableOutput<Real> {
   std::vector<Tally<Real>> on_balls_, on_walls_;
 };
 
-/// Into how many equal parts the coordinates on walls are divided.
+/// Numbers of equal parts into which the coordinates on walls are divided.
 struct CoverageKeys {
   std::uint64_t angles = 36, heights = 24, rings = 6, parts = 12;
 
@@ -113,7 +114,8 @@ class WallCells {
   }
 
  private:
-  /// Which of `count` equal parts of [0, 1] holds a value; rounding may have put it outside.
+  /// Index of the part that contains a value if [0, 1] has `count` equal parts; a value outside, by rounding,
+  /// is in the first or the last.
   static std::size_t part(const Real& value, std::size_t count) {
     if (!(value > 0)) return 0;
     const Real place = value * Real(count);
@@ -124,7 +126,7 @@ class WallCells {
   std::size_t count_ = 0;
 };
 
-/// On cells of the vessel's walls.
+/// Dose and impacts by cells of the vessel's walls.
 template <class Real>
 class CoverageOutput : public TableOutput<Real> {
  public:
@@ -203,13 +205,13 @@ class CoverageOutput : public TableOutput<Real> {
     }
     const Real area = wall.area_of_cell();
     const auto& cell = cells_[wall.cell(column, row)];
-    // Walls of no area are those of a vessel that is just round.
+    // A wall can have no area, such as the cylinder of a capsule that is as high as wide.
     this->put(area, cell.impacts, cell.dose, io::value_if(area > 0, [&] { return Real(cell.dose / area); }));
   }
 
   WallCells<Real> walls_;
   std::vector<model::Coordinate> coordinates_;  ///< that walls have
-  std::vector<Cell> cells_;                     ///< wall after wall, row after row
+  std::vector<Cell> cells_;                     ///< those that at least one wall has
 };
 
 }  // namespace edmill::output

@@ -13,7 +13,7 @@ namespace edmill::output {
 using io::Handle;
 using io::hdf5_check;
 
-/// Where a chunk stands in the file [bytes].
+/// Position of a chunk in the file [bytes].
 struct ChunkPlace {
   std::uint64_t at = 0, size = 0;
   std::uint64_t end() const { return at + size; }
@@ -41,7 +41,7 @@ std::string bytes_of_chunk(hid_t set, hsize_t row, std::uint64_t size) {
   return bytes;
 }
 
-/// Appends a chunk that another file holds, as it is.
+/// Appends a chunk of another file without changing it.
 void append_chunk(hid_t set, std::size_t width, hsize_t before, hsize_t rows, const std::string& bytes) {
   const hsize_t size[2] = {before + rows, width}, offset[2] = {before, 0};
   hdf5_check(H5Dset_extent(set, size));
@@ -66,9 +66,9 @@ struct EventFile::Data {
   std::optional<Handle> file, group;
   std::vector<Column> columns;
   hsize_t written = 0, waiting = 0;
-  Sha256 digest;  ///< of the blocks as they stand in the file
+  Sha256 digest;  ///< of the blocks as written in the file
 
-  /// Does what HDF5 does to the file; a failure is reported with the file's name.
+  /// Calls `work`, which uses HDF5; a failure is reported with the file's name.
   template <class Work>
   void with_name(const Work& work) const {
     try {
@@ -104,7 +104,7 @@ struct EventFile::Data {
     written += waiting;
     waiting = 0;
   }
-  /// Takes over the full blocks of a file of the same columns.
+  /// Copies the full blocks of a file that has the same columns.
   void take_blocks(const std::filesystem::path& from, hsize_t rows) {
     std::ifstream in(from, std::ios::binary);
     std::error_code none;
@@ -196,7 +196,7 @@ void EventFile::archive(Archive& a) {
   const bool is_there = std::filesystem::exists(left, ignored);
   d.take_blocks(is_there ? left : d.destination.place, rows);
   if (d.digest.hex() != digest) throw d.destination.another_file();
-  // The blocks have the same places in both, so that the checkpoint holds for either.
+  // The blocks have the same places in both files, so that the checkpoint is valid for either.
   std::filesystem::rename(d.destination.temporary, left);
   d.destination.continue_with(left, is_there);
 }

@@ -32,23 +32,23 @@ class EventFile : public io::WholeFile {
 
   void add(std::size_t column, std::int64_t value);
   void add(std::size_t column, double value);
-  /// After a value, or three for a vector, was added to every column.
+  /// Ends a row, after a value, or three for a vector, was added to every column.
   void end_row();
 
   /// A table of its own beside the events: rows of `width` numbers.
   void add_table(const std::string& name, const std::string& unit, const std::string& description,
                  const std::vector<double>& values, std::size_t width);
 
-  /// Writes what is left. @throws std::runtime_error when anything was not written
+  /// Writes the remaining rows. @throws std::runtime_error when anything was not written
   void complete();
   /// @pre it is complete
   void commit() override;
   std::filesystem::path place() const override;
 
-  /// How far it is written, for a checkpoint; the temporary file is then no longer removed without `commit`.
-  /// HDF5 cannot open a file whose writer was killed. But a block never changes once it is written, so
-  /// loading makes the file anew from the blocks, which stand where the checkpoint says.
-  /// @throws InputError when they are not there, byte for byte
+  /// Saves or loads the progress of the file, for a checkpoint; from then on the temporary file is kept even
+  /// without `commit`. HDF5 cannot open a file whose writer was killed. But a block never changes once it is
+  /// written, so loading rebuilds the file from the blocks at the positions in the checkpoint.
+  /// @throws InputError when the blocks there differ in any byte
   void archive(Archive& a);
 
  private:

@@ -11,7 +11,7 @@
 
 namespace edmill::output {
 
-/// Whether a log holds the bodies' states before and after.
+/// The key that adds the bodies' states before and after each impact to a log.
 struct StatesKey {
   bool states = false;
 
@@ -69,9 +69,9 @@ inline std::vector<EventColumn> event_columns(const model::Partners& partners, b
   return columns;
 }
 
-/// NAME.h5: /events with a dataset for each column, so that a reader takes only those it needs, the balls and
-/// their final state beside it. Numbers are 64-bit whatever the scalar: the digits of a wide run are in the
-/// CSV.
+/// NAME.h5: /events with a dataset for each column, so that a reader takes only those it needs, and datasets
+/// with the balls and their final state. Numbers are 64-bit for every scalar: the digits of a wide run are in
+/// the CSV.
 template <class Real>
 class EventsOutput : public OneFileOutput<Real, EventFile> {
  public:

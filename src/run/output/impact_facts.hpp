@@ -1,4 +1,4 @@
-// Everything that is known of one impact, and what outputs can say of it.
+// All data of one impact, and the variables that outputs derive from it.
 #pragma once
 
 #include <array>
@@ -64,7 +64,7 @@ Real path_length(const Vec3<Real>& velocity, const Vec3<Real>& gravity, const Re
   return arc / (2 * strength);
 }
 
-/// One impact as outputs and the variables of model/impact_variables.def see it. Before and after mean just
+/// One impact, for outputs and for the formulas of model/impact_variables.def. Before and after mean just
 /// before and just after the impact.
 template <class Real>
 struct ImpactFacts {
@@ -98,7 +98,7 @@ struct ImpactFacts {
     return part < 0 ? Real(-part) : part;
   }
   Real tangential_size(const Vec3<Real>& v) const { return norm<Real>(v - normal * dot<Real>(v, normal)); }
-  /// Between the normal and a velocity, 0 to pi; 0 for a velocity of zero [rad].
+  /// Angle between the normal and a velocity, 0 to pi; 0 for a velocity of zero [rad].
   Real angle(const Vec3<Real>& v) const {
     const Real across = tangential_size(v), along = dot<Real>(v, normal);
     return across == 0 && along == 0 ? Real(0) : numerics::angle_between<Real>(across, along);
@@ -110,8 +110,8 @@ struct ImpactFacts {
     return body.ball ? path_length<Real>(body.velocity_before, gravity, body.flight_time) : Real(0);
   }
 
-  /// The state of a ball just before the impact, or at an instant since the last one: the simulation has the
-  /// bodies as they are after it.
+  /// State of a ball just before the impact, or at an instant since the previous one. The simulation itself
+  /// already has the states after the impact.
   /// @param at  not before the last impact, not after the present one [s]
   model::BallState<Real> state_before(int ball, const Real& at) const {
     const bool is_one = ball == impact.ball, is_two = !impact.with_wall && ball == impact.partner;
@@ -137,7 +137,7 @@ struct ImpactFacts {
   }
 };
 
-/// Value of the variable at a place of model::impact_variables, by its formula there; 0 or 1 for a flag.
+/// A function that evaluates a variable of model::impact_variables by its formula; 0 or 1 for a flag.
 template <class Real>
 using VariableFormula = Real (*)(const ImpactFacts<Real>&);
 

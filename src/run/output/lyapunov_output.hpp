@@ -37,7 +37,7 @@ struct LyapunovKeys {
   }
 };
 
-/// Directions are carried along in double whatever the run's scalar: exponents need few digits.
+/// Tangent directions evolve in double for every scalar: exponents need few digits.
 template <class Real>
 class LyapunovOutput : public TableOutput<Real> {
  public:
@@ -61,7 +61,7 @@ class LyapunovOutput : public TableOutput<Real> {
     if (a.loading()) spectrum_.reset();
   }
 
-  /// Directions turn before the record begins, too, and no more when it has ended.
+  /// Tangent directions also evolve before the record begins; they stop when it has ended.
   void every(const ImpactFacts<Real>& f) override {
     if (ended_) return;
     const auto& simulation = f.simulation;
@@ -152,7 +152,7 @@ class LyapunovOutput : public TableOutput<Real> {
                       static_cast<std::size_t>(wanted_));
     if (!saved_.tangents.empty()) spectrum_->restore(saved_);
   }
-  /// Before the first impact after the start of the record turns the directions.
+  /// Starts the record, before the first impact after its start changes the directions.
   void begin_record(const engine::Simulation<Real>& simulation, const Real& time) {
     if (begun_ || !this->timer().is_open() || time < this->timer().from()) return;
     const auto start = in_double(simulation.instant_of(this->timer().from()));
@@ -187,7 +187,7 @@ class LyapunovOutput : public TableOutput<Real> {
     };
   }
 
-  /// Whether impacts at the least separation speed have taken it away.
+  /// True if impacts at the least separation speed have annihilated the direction.
   bool is_lost(std::size_t k) const { return std::isinf(spectrum_->growth()[k]); }
   static constexpr double none = -std::numeric_limits<double>::infinity();
 

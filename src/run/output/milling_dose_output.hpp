@@ -9,7 +9,8 @@
 
 namespace edmill::output {
 
-/// What the table can show; a field has no value where nothing defines it: specific doses without powder.
+/// The columns that the table can have; a field is empty if it is undefined, such as a specific dose without
+/// powder.
 inline const std::vector<Column> dose_fields{
     {"milling_dose", number, "J", meaning_of("milling_dose")},
     {"milling_dose_rate", number, "W", "milling dose per second of the record"},

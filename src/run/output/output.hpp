@@ -1,4 +1,4 @@
-// One entry [[output]] at work.
+// Base classes of outputs: one output for each entry [[output]].
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,7 @@
 
 namespace edmill::output {
 
-/// What outputs know of the run that they record.
+/// Data about the run that outputs need.
 template <class Real>
 struct RunContext {
   std::filesystem::path folder;     ///< into which it writes
@@ -27,10 +27,10 @@ struct RunContext {
   std::optional<Real> powder_mass;  ///< [kg]
   casefile::Colour vessel_colour{};
   std::vector<casefile::Colour> ball_colours;   ///< of each ball
-  std::vector<model::WallSurface<Real>> walls;  ///< by id, in the vessel frame; none of a curved one's own
+  std::vector<model::WallSurface<Real>> walls;  ///< by id, in the vessel frame; empty for a CurvedVessel
   std::vector<io::FileNote> notes;              ///< where the run comes from
 
-  /// For outputs that map walls or draw them.
+  /// The walls, for outputs that map or draw them.
   /// @throws InputError when the vessel's walls have no coordinates
   const std::vector<model::WallSurface<Real>>& surfaces(const casefile::OutputSpec& spec) const {
     if (walls.empty())
@@ -63,7 +63,7 @@ struct Moment {
   std::function<model::BallState<Real>(int)> state_of;  ///< by the ball's id
 };
 
-/// The vessel at the impact.
+/// Pose of the vessel at the impact.
 template <class Real>
 model::AnyPose<Real> pose_of(const ImpactFacts<Real>& f) {
   return f.simulation.mill().motion.pose(f.impact.time);
@@ -74,7 +74,8 @@ Vec3<Real> own_contact_point(const ImpactFacts<Real>& f, const model::AnyPose<Re
   return f.simulation.mill().motion.position_in_vessel(pose, f.contact_point);
 }
 
-/// A timer and restrictions. Types derive from it and say what they do with an impact.
+/// Base class of outputs: a timer and filters for impacts. A derived type defines what it records of an
+/// impact.
 template <class Real>
 class Output {
  public:
@@ -93,20 +94,20 @@ class Output {
       if (r.formula(f) != r.value) return;
     record(f);
   }
-  /// At the end of the run, whatever ended it.
+  /// Must be called at the end of the run, whatever ended it.
   void finish(const engine::Simulation<Real>& simulation) {
     const Real end = simulation.seconds();
     if (timer_.recorded(end)) end_of_record(simulation, timer_.until(end));
   }
-  /// Writes what is left: nothing can fail for lack of space after it.
+  /// Writes all remaining data, so that no later step can fail for lack of disk space.
   /// @return its files, which are to be put in place in this order
   virtual std::vector<io::WholeFile*> complete() = 0;
-  /// Its state and how far its files are written, for a checkpoint.
+  /// Saves or loads its state and the progress of its files, for a checkpoint.
   virtual void archive(Archive& a) {
     a(timer_);
     archive_record(a);
   }
-  /// Whether its rows go after those of other runs.
+  /// True if it appends to a table shared by several runs.
   bool appends() const { return spec.append; }
 
  protected:
@@ -116,13 +117,13 @@ class Output {
   std::filesystem::path place() const { return run.folder / spec.folder / spec.file; }
   const OutputTimer<Real>& timer() const { return timer_; }
 
-  /// What it has gathered and not yet written; what follows from the case is not part of it.
+  /// Saves or loads the data gathered and not yet written, without what follows from the case.
   virtual void archive_record(Archive&) {}
-  /// An impact of the record.
+  /// Called for each impact of the record.
   virtual void record(const ImpactFacts<Real>&) {}
-  /// Any impact of the run, in the record or not.
+  /// Called for each impact of the run, in the record or not.
   virtual void every(const ImpactFacts<Real>&) {}
-  /// Any impact, before it is recorded: for rows that are due since the one before.
+  /// Called for each impact before it is recorded, to write rows that are due since the previous one.
   virtual void before(const ImpactFacts<Real>&) {}
   virtual void end_of_record(const engine::Simulation<Real>&, const Real& /*until*/) {}
 

@@ -27,7 +27,7 @@ class OutputTimer {
     if (!start_collision_) open(*start_time_);  // known at once: rows can be due before the first impact
   }
 
-  /// Called once for each impact, in order: whether it is recorded.
+  /// True if an impact is recorded. Must be called once for each impact, in order.
   bool admits(const Real& time, std::uint64_t index) {
     if (!on_ || closed_) return false;
     if (!from_) {
@@ -48,15 +48,15 @@ class OutputTimer {
     return true;
   }
 
-  /// Whether it is known where the record begins.
+  /// True if the start of the record is known.
   bool is_open() const { return from_.has_value(); }
-  /// Where it begins [s]. @pre is_open()
+  /// Start of the record [s]. @pre is_open()
   const Real& from() const { return *from_; }
-  /// Where it ends if the run goes on to `run_end` [s].
+  /// End of the record if the run continues to `run_end` [s].
   Real until(const Real& run_end) const { return until_ && *until_ < run_end ? *until_ : run_end; }
-  /// Whether the record has ended before or at `time`.
+  /// True if the record has ended before or at `time`.
   bool ends_by(const Real& time) const { return until_ && *until_ <= time; }
-  /// Whether there is a record in a run that ends at `run_end`.
+  /// True if a run that ends at `run_end` has a record.
   bool recorded(const Real& run_end) const { return on_ && from_ && *from_ <= run_end; }
 
   void archive(Archive& a) { a(closed_, recorded_, from_, until_); }
@@ -94,7 +94,8 @@ class IntervalClock {
       ++passed_;
     }
   }
-  /// The intervals up to the end of the record, the last one perhaps shorter; none for what rounding leaves.
+  /// Calls `row` for the remaining intervals up to the end of the record. The last one may be shorter; one
+  /// that exists only by rounding is omitted.
   template <class Row>
   void finish(const Real& from, const Real& until, Row&& row) {
     for (Real begin = from + interval_ * Real(passed_); until - begin > interval_ / 1000000000 && !full();

@@ -28,7 +28,8 @@ class Outputs : public engine::Observer<Real> {
   void on_end(const engine::Simulation<Real>& simulation);
   void archive(Archive& a) override;
   /// Writes the remaining rows of all files.
-  /// @param goes_on  the run will be resumed: it adds its rows to files of other runs only at its end
+  /// @param goes_on  the run will be resumed: files that it shares with other runs get its rows only at its
+  /// end
   /// @return the files to be put in place
   std::vector<io::WholeFile*> complete(bool goes_on);
 

@@ -22,16 +22,16 @@ class SceneOutput : public Output<Real> {
   }
 
  protected:
-  /// Where the case asks for a mark.
+  /// A mark at a contact point, with the radius and colour given in the case.
   SceneBall contact_at(const Vec3<Real>& point) const {
     const auto& mark = *this->spec.contact_point;
     return {mark.radius.template to<double>(), mark.colour, vector_cast<double>(point)};
   }
 
-  /// The walls at their places, from which pistons stand inward.
+  /// The walls at their places, without the displacement of pistons.
   const std::vector<model::Mesh>& walls() const { return walls_; }
 
-  /// Calls f(wall, moved) with how far each piston stands from its wall's place [m].
+  /// Calls f(wall, moved) with the displacement of each piston from its wall's place [m].
   static void for_each_piston(const model::AnyVessel<Real>& vessel, const Real& time, auto&& f) {
     const auto* pistons = vessel.pistons();
     for (std::size_t k = 0; pistons && k < pistons->count(); ++k) {
@@ -42,7 +42,7 @@ class SceneOutput : public Output<Real> {
     }
   }
 
-  /// Nobody looks at it yet: look_at.
+  /// The scene at a moment, without a viewpoint, which `look_at` sets.
   Scene scene(const Moment<Real>& at) const {
     const auto& mill = at.simulation.mill();
     const auto now = static_cast<double>(at.time);
@@ -102,7 +102,8 @@ class SnapshotOutput : public SceneOutput<Real> {
   }
 
  private:
-  /// Frames of a drive period, so that pictures of a periodic motion have one viewer, and of a time in it.
+  /// The vessel frames at `time` and throughout a drive period, so that all pictures of a periodic motion
+  /// have the same viewpoint.
   static std::vector<Frame<double>> frames_around(const model::AnyMotion<Real>& motion, double time) {
     constexpr int parts = 64;
     const auto period = static_cast<double>(motion.period());
@@ -159,7 +160,7 @@ struct AnimationKeys {
 };
 
 /// The record as one X3D page that plays it. (thesis D.4.2)
-/// Keys of a ball are its impacts, and frames between them: it flies straight as far as one sees.
+/// A ball has keys at its impacts and at the frames, between which its path looks straight.
 template <class Real>
 class AnimationOutput : public FramesOutput<Real> {
  public:
@@ -225,7 +226,8 @@ class AnimationOutput : public FramesOutput<Real> {
     to_fractions(paths_.contact);
     const auto& motion = simulation.mill().motion;
     const auto& vessel = simulation.mill().vessel;
-    // As many keys of the vessel as frames, and enough for turns of the drive or a piston between them.
+    // The vessel has at least as many keys as there are frames, and enough to show each turn of the drive or
+    // a piston.
     double frequency = 1 / static_cast<double>(motion.period());
     if (const auto* pistons = vessel.pistons())
       for (const auto& piston : pistons->given())

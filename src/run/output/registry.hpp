@@ -1,4 +1,5 @@
-// Every type of output, and those of a case at work. A new type is a file of its own and a row here.
+// The registry of output types, and construction of the outputs of a case. A new type is a file of its own
+// and a row here.
 #pragma once
 
 #include <fmt/format.h>
@@ -24,11 +25,11 @@
 
 namespace edmill::output {
 
-/// How a type of output is read from a case, and what makes it in any scalar.
+/// An entry of the registry: how a type of output is read from a case, and its class in any scalar.
 template <template <class> class Type>
 struct OutputRow : casefile::OutputType {};
 
-/// @tparam Keys  those that only this type has
+/// @tparam Keys  keys that only this type has
 template <template <class> class Type, class Keys = casefile::NoKeys>
 constexpr OutputRow<Type> row(std::string_view name, std::string_view extension, std::string_view what) {
   return {{name, extension, what, casefile::output_keys<Keys>}};

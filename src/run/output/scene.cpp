@@ -14,7 +14,7 @@ namespace edmill::output {
 
 namespace {
 
-// The picture of the report: 0.6 rad high, 4 to 3. Those of X3D browsers show more.
+// Field of view of the pictures in the report: 0.6 rad high, 4 to 3. X3D browsers show more.
 const double height_at_1 = std::tan(0.3), width_at_1 = 4.0 / 3 * height_at_1;
 constexpr double margin = 1.05;
 
@@ -31,7 +31,8 @@ void look_at(const std::vector<model::Mesh>& walls, const std::vector<Frame<doub
     high = high.cwiseMax(place);
   }
   scene.target = (low + high) / 2;
-  // Along -Z, so that the arm of a SPEX points up; what is nearer must be nearer to the middle too.
+  // The view is along -Z, so that the arm of a SPEX points up. A nearer point must be nearer to the centre to
+  // be visible.
   double distance = 0;
   for (const auto& place : places) {
     const Vec3<double> off = margin * (place - scene.target).cwiseAbs();
@@ -78,7 +79,7 @@ void add_ball(pugi::xml_node parent, const SceneBall& ball, const std::string& n
   add(shape, "Sphere", {{"radius", numbers({ball.radius})}});
 }
 
-/// Axis and angle.
+/// The rotation of a frame as axis and angle.
 std::string rotation(const Frame<double>& frame) {
   Eigen::Matrix3d axes;
   axes << frame.x, frame.y, frame.z;
@@ -195,7 +196,7 @@ void add_array(pugi::xml_node parent, const std::string& name, const char* type,
   array.text() = values.c_str();
 }
 
-/// Cells by their points, one after the other.
+/// Adds cells, each given by the indices of its points.
 void add_cells(pugi::xml_node piece, const char* name, const std::vector<std::vector<int>>& cells) {
   std::string offsets;
   std::size_t end = 0;

@@ -34,7 +34,7 @@ struct SceneVessel {
 
 struct Scene {
   SceneVessel vessel;
-  Vec3<double> eye = Vec3<double>::Zero(), target = Vec3<double>::Zero();  ///< of who looks at it [m]
+  Vec3<double> eye = Vec3<double>::Zero(), target = Vec3<double>::Zero();  ///< viewer and viewed point [m]
   std::vector<SceneBall> balls{};
   std::optional<SceneBall> contact{};  ///< marks the contact point
   double time;                         ///< [s]
@@ -50,20 +50,20 @@ Frame<double> vessel_frame(const model::AnyMotion<Real>& motion, double time) {
   return {own.to_inertial(pose, Vec3<double>::Zero()), own.axis_x(pose), own.axis_y(pose), own.axis_z(pose)};
 }
 
-/// What moves in an animation: keys are fractions of its duration, from 0 to 1.
+/// The motion in an animation: keys are fractions of its duration, from 0 to 1.
 struct SceneMotion {
   double duration;  ///< of one playback [s]
   std::vector<std::pair<double, Frame<double>>> vessel;
   using Path = std::vector<std::pair<double, Vec3<double>>>;
-  std::vector<std::pair<std::size_t, Path>> pistons;  ///< by wall, from where the scene shows it [m]
+  std::vector<std::pair<std::size_t, Path>> pistons;  ///< by wall, relative to the place in the scene [m]
   std::vector<Path> balls;                            ///< of each ball
   Path contact;                                       ///< where the scene marks the contact point
 
   void archive(Archive& a) { a(duration, vessel, pistons, balls, contact); }
 };
 
-/// Puts the viewer where the walls are in the picture in all of these frames.
-/// @param walls  in the vessel frame, those that move where they reach farthest
+/// Places the viewer so that all walls are visible in all of these frames.
+/// @param walls  in the vessel frame; a wall that moves is in its outermost position
 void look_at(const std::vector<model::Mesh>& walls, const std::vector<Frame<double>>& frames, Scene& scene);
 
 /// A page of X3D 3.3, still or, with `motion`, moving and repeated for ever.

@@ -16,7 +16,7 @@ enum class BinnedBy { energy, speed, impact_energy };
 inline constexpr std::array<std::string_view, 3> choices_of(BinnedBy) {
   return {"energy", "speed", "impact_energy"};
 }
-/// The spectra of each.
+/// Names of the spectra for each choice.
 inline const std::array<std::vector<std::string>, 3> spectra_by{
     {{"normal", "tangential", "total"}, {"approach", "slip"}, {"impact"}}};
 
@@ -56,14 +56,14 @@ struct SpectraKeys {
   }
 };
 
-/// Edges low 10^(k / bins_per_decade), up to high, where the last bin may be shorter. They are made in a
-/// wider scalar: the same bits everywhere.
+/// Edges low 10^(k / bins_per_decade) up to high; the last bin may be shorter. They are computed in a wider
+/// scalar, so that they are the same bits everywhere.
 /// @pre 0 < low < high, bins_per_decade > 0
 template <class Real>
 std::vector<Real> edges_of(const SpectraKeys& keys) {
   using Fine = std::conditional_t<std::is_void_v<Wider<Real>>, Real, Wider<Real>>;
   const Fine first = keys.low.to<Fine>(), last = keys.high.to<Fine>();
-  const Fine short_of_last = last * (1 - Fine(1) / 1000000000);  // what rounding would leave is no bin
+  const Fine short_of_last = last * (1 - Fine(1) / 1000000000);  // no bin that exists only by rounding
   std::vector<Real> edges{keys.low.to<Real>()};
   for (std::uint64_t k = 1;; ++k) {
     using std::pow;

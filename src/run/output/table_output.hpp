@@ -1,4 +1,4 @@
-// An output that is one table, and what its columns are called.
+// An output that is one table, and helpers for the names of its columns.
 #pragma once
 
 #include <string>
@@ -39,12 +39,13 @@ inline Column::Type type_of(const model::ImpactVariable& variable) {
   return variable.kind == model::VariableKind::number ? number : integer;
 }
 
-/// What a variable of an impact means, by its name.
+/// The meaning of a variable of an impact, by its name.
 inline std::string meaning_of(std::string_view variable) {
   return std::string(model::impact_variables[*model::find_variable(variable)].meaning);
 }
 
-/// CSV, which takes each row when it is complete, or HDF5 when the file's name ends in .h5, made at the end.
+/// An output that is one table: CSV, written row by row, or HDF5 if the file's name ends in .h5, written at
+/// the end.
 template <class Real>
 class TableOutput : public OneFileOutput<Real, io::AtomicFile> {
  public:
@@ -68,7 +69,7 @@ class TableOutput : public OneFileOutput<Real, io::AtomicFile> {
   /// The next cells of the row, from left to right; a vector is three of them.
   void put(const auto&... cells) { (put_one(cells), ...); }
   /// The number of a bin from 1, or below or above all, and its edges.
-  /// @param bin  as `bin_of` has it
+  /// @param bin  as returned by `bin_of`
   void put_bin(const std::vector<Real>& edges, std::size_t bin) {
     const bool below = bin == 0, above = bin == edges.size();
     put(below   ? "below"
@@ -83,7 +84,7 @@ class TableOutput : public OneFileOutput<Real, io::AtomicFile> {
     else
       put(value);
   }
-  /// "from 0.5 s to 10 s: 9.5 s", which rates are per.
+  /// The window that rates refer to, as text: "from 0.5 s to 10 s: 9.5 s".
   std::string window(const Real& until) const {
     const Real &from = this->timer().from(), duration = until - from;
     return "from " + to_text<Real>(from) + " s to " + to_text<Real>(until) +

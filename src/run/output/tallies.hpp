@@ -1,5 +1,5 @@
-// What tables gather: statistics of a variable, and counts for each partner, which are the walls by id, other
-// balls, and their total.
+// Accumulators of tables: statistics of a variable, and counts for each partner, which are the walls by id,
+// other balls, and their total.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ class Accumulator {
     sum_ += value;
     ++count_;
   }
-  /// What was added to another one.
+  /// Adds all values of another accumulator.
   void add(const Accumulator& other) {
     if (other.count_ == 0) return;
     if (count_ == 0 || other.least_ < least_) least_ = other.least_;
@@ -42,9 +42,9 @@ class Accumulator {
 
   void archive(Archive& a) { a(count_, sum_, least_, largest_); }
 
-  /// Nothing where nothing defines the statistic, such as the average of nothing.
-  /// @param duration  that the sum is spread over [s]
-  /// @param whole     that the sum is a share of
+  /// The value of a statistic; empty if it is undefined, such as the average of no values.
+  /// @param duration  time for rates [s]
+  /// @param whole     total for percentages
   std::optional<Real> value(Statistic s, const Real& duration, const Real& whole) const {
     switch (s) {
       case Statistic::sum:
@@ -69,17 +69,17 @@ class Accumulator {
   Real least_{0}, largest_{0};
 };
 
-/// What a list with an entry for each partner has for that of an impact.
+/// The entry for the partner of an impact, in a list with one entry for each partner.
 template <class Real, class List>
 auto& of_partner(const ImpactFacts<Real>& f, List& list) {
   return f.impact.with_wall ? list[f.impact.partner] : list.back();
 }
 
-/// Several partners together, as columns of tables count them.
+/// Headings of columns that count several partners.
 inline const model::PartnerInfo walls_column{"walls", "", "with all walls"},
     total_column{"total", "", "of all impacts"};
 
-/// A column for several partners, whose places are in a row.
+/// A column for several consecutive partners.
 struct PartnerGroup {
   model::PartnerInfo column;
   int first, last;  ///< of the partners that it counts
@@ -97,7 +97,7 @@ inline std::vector<PartnerGroup> groups_of(const model::Partners& partners, bool
   return list;
 }
 
-/// Adds "wall_0 energy [J]" and so on to "total energy [J]".
+/// Adds a column for each partner and one for their total: "wall_0 energy [J]" to "total energy [J]".
 inline void add_partner_columns(std::vector<io::Column>& columns, const model::Partners& partners,
                                 const io::Column& of_each) {
   for (int place = 0; place <= partners.count(); ++place) {
@@ -107,13 +107,14 @@ inline void add_partner_columns(std::vector<io::Column>& columns, const model::P
   }
 }
 
-/// 0 below the first edge, k from edge k - 1 up to below edge k, edges.size() from the last edge on.
+/// The bin of a value: 0 below the first edge, k from edge k - 1 up to below edge k, edges.size() from the
+/// last edge on.
 template <class Real>
 std::size_t bin_of(const std::vector<Real>& edges, const Real& value) {
   return static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), value) - edges.begin());
 }
 
-/// Impacts with one partner and an energy of them [J].
+/// Number of impacts with one partner, and the sum of one of their energies [J].
 template <class Real>
 struct Tally {
   std::uint64_t impacts = 0;
@@ -129,12 +130,12 @@ struct Tally {
   }
   void archive(Archive& a) { a(impacts, energy); }
 };
-/// With each partner.
+/// A tally for each partner.
 template <class Real>
 using PartnerTally = std::vector<Tally<Real>>;
 
 /// Calls `put` with the value of each partner and with their total.
-/// @param value_of  of what the list has for a partner
+/// @param value_of  function that extracts the value from the tally of a partner
 template <class Real>
 void put_partners(const PartnerTally<Real>& list, auto&& put, auto&& value_of) {
   decltype(value_of(list.front())) total{0};

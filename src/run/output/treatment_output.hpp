@@ -1,4 +1,4 @@
-// How often powder is hit: as much of it as has been hit n times. docs/outputs.md, "treatment"
+// How often powder is hit: the fraction of it that has been hit n times. docs/outputs.md, "treatment"
 #pragma once
 
 #include <vector>
@@ -37,9 +37,9 @@ Real exp_of_minus(const Real& x) {
   }
 }
 
-/// Counts impacts on each ball and each cell of the walls. Powder that is mixed between impacts is hit by
-/// each with the same probability, so that the number of hits has Poisson's distribution (Delogu and Cocco);
-/// powder that stays where it lies, in an even layer, has that of its own place.
+/// Counts impacts on each ball and each cell of the walls. If powder is mixed between impacts, each impact
+/// hits it with the same probability, so that the number of hits has Poisson's distribution (Delogu and
+/// Cocco). If powder stays in place, in an even layer, the mean is that of its own patch.
 template <class Real>
 class TreatmentOutput : public TableOutput<Real> {
  public:
@@ -75,7 +75,7 @@ class TreatmentOutput : public TableOutput<Real> {
     Real whole(0);
     for_each_patch(simulation, [&](const Real& area, std::uint64_t) { whole += area; });
     for_each_patch(simulation, [&](const Real& area, std::uint64_t impacts) {
-      // Half of what an impact works lies on either body.
+      // Half of the powder that an impact works is on each body.
       const Real layer = area / whole;
       if (layer > 0) add_poisson(share_ / 2 * Real(impacts) / layer, layer, in_place);
     });

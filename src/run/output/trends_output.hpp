@@ -1,5 +1,5 @@
-// What a run does in the course of time: variables of impacts in each interval, of single impacts and of
-// balls, and the place of one ball.
+// Time series of a run: variables of impacts in each interval, of single impacts and of balls, and the
+// positions of one ball.
 #pragma once
 
 #include "base/trigonometry.hpp"
@@ -126,7 +126,7 @@ struct TrendsBallsKeys {
   }
 };
 
-/// What the balls do at the end of each interval. (thesis D.4.7)
+/// Statistics over the balls at the end of each interval. (thesis D.4.7)
 template <class Real>
 class TrendsBallsOutput : public IntervalOutput<Real> {
  public:
@@ -191,7 +191,7 @@ struct TraceKeys {
   }
 };
 
-/// Where one ball is: at each of its impacts, or at the end of each interval. (thesis D.4.8)
+/// Position of one ball at each of its impacts, or at the end of each interval. (thesis D.4.8)
 template <class Real>
 class TraceOutput : public IntervalOutput<Real> {
  public:

@@ -1,4 +1,4 @@
-// What the balls do to the vessel. docs/outputs.md, "vessel_load"
+// Forces and torques of the balls on the vessel. docs/outputs.md, "vessel_load"
 #pragma once
 
 #include "casefile/output_entry.hpp"

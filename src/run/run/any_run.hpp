@@ -1,4 +1,4 @@
-// A run whose scalar is chosen by name: what commands and other languages hold.
+// A run whose scalar is chosen by name, for commands and other languages.
 #pragma once
 
 #include <atomic>
@@ -27,10 +27,10 @@ inline double cpu_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// How far a run is.
+/// Progress of a run.
 struct Progress {
   double now;                 ///< simulated time [s]
-  std::optional<double> end;  ///< of it; nothing when only other rules stop the run
+  std::optional<double> end;  ///< simulated time at the end [s]; empty if only other rules stop the run
   std::uint64_t collisions;   ///< since the start of the run
   double milling_dose;        ///< since the program started it, or resumed it [J]
 };
@@ -38,7 +38,7 @@ struct Progress {
 /// A contact law of a program, with numbers as decimal texts in all digits of the run's scalar.
 using LawInTexts = CustomLaw<std::string>;
 
-/// What a run has besides its case.
+/// Settings of a run besides its case.
 struct RunSetup {
   const std::atomic<bool>* interrupt = nullptr;                   ///< ends the run when it becomes true
   double max_cpu_time = std::numeric_limits<double>::infinity();  ///< of the run [s]
@@ -48,7 +48,7 @@ struct RunSetup {
 
 class AnyRun;
 
-/// An impact as watchers see it.
+/// An impact as passed to watchers.
 struct SeenImpact {
   std::uint64_t index;
   double time;                                    ///< [s]
@@ -63,16 +63,17 @@ class Watcher {
   virtual void on_impact(const SeenImpact& impact, AnyRun& run) = 0;
 };
 
-/// A case from its initial state to its results, in one scalar. Numbers leave it as doubles, or as texts with
-/// all digits of the scalar.
+/// A case from its initial state to its results, in one scalar. Numbers are returned as doubles, or as texts
+/// with all digits of the scalar.
 class AnyRun {
  public:
   virtual ~AnyRun() = default;
 
-  /// Has the outputs of the case, case.toml, final_state.csv and summary.json written into a folder. To be
-  /// called before the run begins.
-  /// @param checkpoint  what checkpoints hold besides the state; with a state, the run continues from there
-  /// @param without_locks  called where the file system does not keep a second run out of the folder
+  /// Makes the run write the outputs of the case, case.toml, final_state.csv and summary.json to a folder.
+  /// Must be called before the run begins.
+  /// @param checkpoint  what checkpoints contain besides the state; if it has a state, the run continues from
+  /// there
+  /// @param without_locks  called if the file system cannot lock the folder against a second run
   /// @throws InputError when a file cannot be written, another process or run writes into the folder, or an
   /// unfinished run has left its checkpoint there
   virtual void write_to(const std::filesystem::path& folder,
@@ -83,7 +84,7 @@ class AnyRun {
 
   /// Predicts the first contacts. @throws UndecidedError when no scalar can decide about one
   virtual void begin() = 0;
-  /// Simulates to the end that the case asks for.
+  /// Simulates to the end of the case.
   /// @throws UndecidedError when no scalar can make a decision; the summary covers the time up to then
   virtual void finish() = 0;
   /// Ends the run after the present impact; for watchers.
@@ -96,12 +97,12 @@ class AnyRun {
   virtual io::Facts facts() const = 0;           ///< of summary.json
   virtual std::string summary_json() const = 0;  ///< as in summary.json
 
-  /// Whether it can be resumed from its checkpoint.
+  /// True if the run can be resumed from its checkpoint.
   virtual bool goes_on() const = 0;
-  /// Puts the files in place, and removes those of an earlier run that this one does not have; to be called
-  /// once, at the end.
-  /// @param when_written  called while no other run can write into the folder, and a killed run could still
-  /// continue; what it returns is in the checkpoint until that is removed
+  /// Moves the files into place and removes those of an earlier run that this one does not have. Must be
+  /// called once, at the end.
+  /// @param when_written  called when all is written, while the folder is locked and the checkpoint still
+  /// valid; its result is stored in the checkpoint until that is removed
   virtual void commit(const std::function<std::string()>& when_written) = 0;
 };
 

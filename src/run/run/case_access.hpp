@@ -1,4 +1,4 @@
-// The way from a public Case to what was read, for edmill's own programs.
+// Access from a public Case to its parsed contents, for edmill's own programs.
 #pragma once
 
 #include "casefile/case_spec.hpp"

@@ -1,4 +1,4 @@
-// The events of a run in order, in a number type that holds the values of every scalar.
+// The events of a run in order, in a number type that represents the values of every scalar.
 #pragma once
 
 #include <atomic>
@@ -12,7 +12,7 @@
 
 namespace edmill::run {
 
-/// Holds a number of any scalar exactly.
+/// Represents a number of any scalar exactly.
 #if defined(EDMILL_WITHOUT_MPFR)
 using Number = mpfr_of<200>;
 #else
@@ -29,17 +29,17 @@ class EventSource {
   /// The next `count` events; fewer at the end of the run, or when it is interrupted.
   /// @throws UndecidedError
   virtual std::vector<Event> next(std::size_t count) = 0;
-  /// Goes on for about `count` events that are not wanted. @return how many; 0 at the end of the run
+  /// Skips about `count` events. @return the number of events skipped; 0 at the end of the run
   /// @pre `next` was not called
   virtual std::size_t pass(std::size_t count) = 0;
   /// Whether the run has ended in inelastic collapse.
   virtual bool has_collapsed() const = 0;
-  /// The time up to which it has come [s].
+  /// The simulated time reached so far [s].
   virtual double reached() const = 0;
-  /// Positions, velocities and spins of all balls, ball by ball, at the instant up to which it has come.
+  /// Positions, velocities and spins of all balls, ball by ball, at the time reached so far.
   virtual std::vector<Number> states() const = 0;
-  /// Continues in fewer digits, from the states that it has with all their digits. Nothing for scalars of a
-  /// fixed number of digits.
+  /// Continues with fewer digits, from the current states in their full digits. Has no effect for scalars of
+  /// a fixed number of digits.
   virtual void continue_in(unsigned digits) = 0;
 };
 

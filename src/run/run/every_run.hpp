@@ -1,4 +1,4 @@
-// What observes every run, whoever starts it.
+// Observers of every run, whoever starts it.
 #pragma once
 
 #include <tuple>
@@ -47,8 +47,8 @@ class StopRuleWatch : public engine::Observer<Real> {
   decltype(watches_of(model::StopRuleList{})) watches_;
 };
 
-/// Each is made from the case, `Observer(const model::Case<Real>&)`. Where it has numbers for the summary, it
-/// adds them by `note(summary)`. A new one is a file in run/ and a line here.
+/// The observers of every run. Each is constructed from the case, `Observer(const model::Case<Real>&)`, and
+/// may add numbers to the summary with `note(summary)`. A new one is a file in run/ and a line here.
 template <class Real>
 using EveryRunList = std::tuple<StopRuleWatch<Real>>;
 

@@ -1,4 +1,4 @@
-// From the name of a scalar to a run in it.
+// Makes a run in the scalar of a given name.
 #include "base/scalar_list.hpp"
 #include "run/any_run.hpp"
 #include "run/event_source.hpp"
@@ -8,7 +8,7 @@ namespace edmill::run {
 std::unique_ptr<AnyRun> make_run(const std::string& precision, const casefile::CaseSpec& spec,
                                  const RunSetup& setup) {
   return with_scalar(precision, [&]<class Real>() {
-    // In files and texts only the digits that the case asks for and a few more.
+    // Files and texts contain only the digits that the case asks for and a few more.
     auto digits = ChosenDigits<Real>();
     if constexpr (requires { digits.shown; })
       if (spec.digits) digits.shown = static_cast<unsigned>(*spec.digits) + 3;

@@ -1,4 +1,5 @@
-// A run in progress with what watches its clocks, and its summary; included by the instantiation files only.
+// A run in progress, observers for its time limit, progress and checkpoints, and its summary; included by the
+// instantiation files only.
 #pragma once
 
 #include <atomic>
@@ -30,7 +31,7 @@ struct Guests {
   Checkpoints checkpoints{};                       ///< they include the observers
 };
 
-/// Reading a clock costs more than a collision, so it is not read at each one.
+/// Limits how often a clock is read, since that costs more than a collision.
 template <class Real>
 struct SeldomLook {
   int every = std::is_same_v<Real, double> ? 1024 : 16, since = 0;
@@ -57,7 +58,7 @@ class CpuLimit : public engine::Observer<Real> {
   SeldomLook<Real> look_;
 };
 
-/// Reports how far a run is.
+/// Reports the progress of a run.
 template <class Real>
 class ProgressWatch : public engine::Observer<Real> {
  public:
@@ -107,7 +108,7 @@ class CheckpointWatch : public engine::Observer<Real> {
   SeldomLook<Real> look_;
 };
 
-/// The stages of a run: up to the start of statistics, then with them to the end, with checkpoints in
+/// Runs the stages of a run: up to the start of statistics, then with them to the end, with checkpoints in
 /// between.
 template <class Real>
 class RunDriver {
@@ -135,8 +136,8 @@ class RunDriver {
   RunDriver(const RunDriver&) = delete;
   RunDriver& operator=(const RunDriver&) = delete;
 
-  /// To the end of the run, or to `limit` when that is earlier.
-  /// @return paused at the limit
+  /// Simulates to the end of the run, or to `limit` when that is earlier.
+  /// @return the reason for the end; `paused` at the limit
   /// @throws UndecidedError when no scalar could make a decision
   engine::EndReason go(const Instant<Real>& limit = Instant<Real>::never()) {
     using engine::EndReason;
@@ -206,7 +207,7 @@ class RunDriver {
   EveryRun<Real> every_run_;
   RunStatistics<Real> statistics_;
   std::optional<CheckpointWatch<Real>> watch_;
-  Instant<Real> first_, start_, end_;  ///< of the run, of statistics, of the run
+  Instant<Real> first_, start_, end_;  ///< start of the run, start of statistics, end of the run
   bool counting_ = false;              ///< statistics have begun
   model::Energy<Real> energy_at_start_;
 };
@@ -229,7 +230,7 @@ io::Summary<Real> blank_summary(const casefile::CaseSpec& spec, const casefile::
 }
 
 /// Summary of what has been simulated so far.
-/// @param driver  none where the first contacts of the balls could not be decided
+/// @param driver  empty if the first contacts of the balls could not be decided
 template <class Real>
 io::Summary<Real> summary_of(const casefile::CaseSpec& spec, const casefile::InitialCase<Real>& built,
                              const std::optional<RunDriver<Real>>& driver) {
@@ -280,7 +281,8 @@ io::Summary<Real> summary_of(const casefile::CaseSpec& spec, const casefile::Ini
   summary.energy_closure = summary.wall_work - summary.milling_dose + summary.supplied_energy -
                            ((last.kinetic + last.potential) - (first.kinetic + first.potential));
   driver->every_run().note(summary);
-  // An instant is whole periods and a rest, whose sum is rounded: where the case names the time, it is that.
+  // An instant consists of whole periods and a remainder, whose sum is rounded: if the case gives the time,
+  // its exact value is used.
   const auto name = [&](Real& seconds, const Instant<Real>& when, const casefile::Quantity& given) {
     if (seconds == simulation.clock().seconds(when)) seconds = given.template to<Real>();
   };
@@ -306,7 +308,7 @@ io::SavedState<Real> saved_state(const casefile::InitialCase<Real>& built,
   return saved;
 }
 
-/// Adds what follows from the numbers.
+/// Sets the end reason, the warnings and the error.
 template <class Real>
 void finish_summary(io::Summary<Real>& summary, model::EndReason end_reason, const std::string& error) {
   summary.end_reason = end_reason;

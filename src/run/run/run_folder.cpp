@@ -22,7 +22,7 @@ RunFolder::RunFolder(fs::path place, const casefile::CaseSpec& spec, std::option
     if (checkpoint_) io::Destination(place_ / output.folder / output.file).require_file();
     take(place_ / output.folder);
   }
-  // A run that continues may yet be refused, and leaves everything as it is then.
+  // A run that continues may still be refused, and must then leave everything unchanged.
   if (begins) remove_leftovers();
 }
 
@@ -74,7 +74,7 @@ void RunFolder::commit(std::vector<io::WholeFile*> files) {
 void RunFolder::remove_checkpoint(const std::string& result) {
   if (!checkpoint_) return;
   if (checkpoint_->result.empty()) {
-    // A run that is killed between the steps below must not continue: its temporary files are going.
+    // A run killed between the steps below must not continue, since its temporary files are being removed.
     checkpoint_->state.clear();
     checkpoint_->result = result;
     io::write_checkpoint(place_, *checkpoint_);

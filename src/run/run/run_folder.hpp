@@ -1,4 +1,4 @@
-// The folder of a run: who may write there, what stands there, and how results come into place. docs/files.md
+// The folder of a run: locks, checkpoints, and how results are put in place. docs/files.md
 #pragma once
 
 #include <filesystem>
@@ -32,21 +32,22 @@ struct Checkpoints {
   std::string_view restored;
 };
 
-/// Every run that writes files has one, and keeps other processes out of the folder while it lives.
+/// The folder that a run writes to. Other processes cannot use it during the lifetime of this object.
 class RunFolder {
  public:
-  /// @param checkpoint  of a run that makes checkpoints; with a state, of one that continues
+  /// @param checkpoint  given if the run makes checkpoints; if it contains a state, the run continues from
+  /// there
   /// @throws InputError when the folder cannot be used, another process writes there, or it holds the
   /// checkpoint of another run
   RunFolder(std::filesystem::path place, const casefile::CaseSpec& spec,
             std::optional<io::Checkpoint> checkpoint = std::nullopt);
   RunFolder(const RunFolder&) = delete;
   RunFolder& operator=(const RunFolder&) = delete;
-  /// Without a checkpoint temporary files are of no further use.
+  /// Removes temporary files unless a checkpoint needs them.
   ~RunFolder();
 
   const std::filesystem::path& place() const { return place_; }
-  /// Whether the file system keeps other processes out.
+  /// True if the file system locks the folder against other processes.
   bool locked() const { return locks_.front().held(); }
   bool has_checkpoint() const { return checkpoint_.has_value(); }
   /// Instructions to the driver about checkpoints. They must not outlive this folder.
@@ -54,10 +55,11 @@ class RunFolder {
 
   /// Writes a file of the run itself, which `commit` puts in place. @throws std::runtime_error
   void write(const std::string& name, const std::function<void(std::ostream&)>& put);
-  /// Puts these results in place, which are complete, then the run's own files, and removes what an earlier
-  /// run has left of its own.
+  /// Moves these complete results into place, then the run's own files, and removes those that an earlier run
+  /// has left.
   void commit(std::vector<io::WholeFile*> files);
-  /// For a run that has ended: nothing can continue it. @param result  for the checkpoint, while it is there
+  /// Removes the checkpoint of a run that has ended. @param result  stored in the checkpoint until it is
+  /// removed
   void remove_checkpoint(const std::string& result);
 
  private:
@@ -65,7 +67,7 @@ class RunFolder {
   void remove_leftovers() const;
 
   std::filesystem::path place_;
-  std::vector<std::filesystem::path> folders_;  ///< with those of the outputs
+  std::vector<std::filesystem::path> folders_;  ///< including those of the outputs
   std::vector<io::FolderLock> locks_;           ///< in the same order
   std::optional<io::Checkpoint> checkpoint_;
   std::list<io::AtomicFile> own_files_;

@@ -1,5 +1,5 @@
-// A run in one scalar: as a source of its events, by its handle, and as the public Run; included by the
-// instantiation files only.
+// A run in one scalar: as EventSource, as AnyRun, and as the public Run; included by the instantiation files
+// only.
 #pragma once
 
 #include <algorithm>
@@ -81,7 +81,8 @@ class RunningCase : public EventSource, private engine::Observer<Real> {
     simulation_.emplace(built_.the_case, states, reached_, interrupt_);
     simulation_->attach(*this);
   }
-  /// By a window that is short compared with the duration of many events, so that few are computed in vain.
+  /// Advances by a window that is short compared with the duration of many events, so that few are computed
+  /// in vain.
   void advance() {
     reached_ = simulation_->clock().after(reached_, simulation_->clock().period() / 16);
     const bool last = !(reached_ < end_);
@@ -97,7 +98,7 @@ class RunningCase : public EventSource, private engine::Observer<Real> {
   void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override {
     if (stop_rules_) {
       auto numbered = impact;
-      numbered.index = impacts_;  // simulations that went before have had impacts, too
+      numbered.index = impacts_;  // earlier simulations have had impacts, too
       stop_rules_->on_impact(numbered, simulation);
     }
     ++impacts_;
@@ -129,7 +130,7 @@ std::unique_ptr<EventSource> make_source_in(const casefile::CaseSpec& spec, bool
   return std::make_unique<RunningCase<Real>>(spec, to_end, interrupt);
 }
 
-/// As programs see it, each number converted by `of`.
+/// Converts to the public type, each number with `of`.
 template <class To, class Real, class Of>
 Impact<To> to_public(const engine::Impact<Real>& i, const Real& time, const Of& of) {
   const auto& o = i.outcome;
@@ -155,7 +156,7 @@ BallState<To> to_public(const model::BallState<Real>& s, const Of& of) {
   return {vector(s.position), vector(s.velocity), vector(s.spin)};
 }
 
-/// Numbers of turns are exact until the scalar is chosen.
+/// Converts user-defined joints to a motion, with exact numbers of turns per period.
 template <class Real>
 model::AnyMotion<Real> to_motion(const Joints<Real>& given, const Real& period) {
   const auto per_period = [](const TurnsPerPeriod& t) {
@@ -181,8 +182,8 @@ model::AnyMotion<Real> to_motion(const Joints<Real>& given, const Real& period) 
   return model::ChainMotion<Real>(joints);
 }
 
-/// What a case says of the walls of its own vessel.
-/// @throws InputError when the program's vessel would have it
+/// Replaces the vessel of a case by the program's own, and discards what the case says about walls.
+/// @throws InputError when the case has moving walls or materials of walls, which cannot be transferred
 template <class Real>
 void forget_walls(model::Mill<Real>& mill, const model::AnyVessel<Real>& own) {
   auto& of_walls = mill.pairs.of_walls;
@@ -195,7 +196,7 @@ void forget_walls(model::Mill<Real>& mill, const model::AnyVessel<Real>& own) {
   mill.vessel = own;
 }
 
-/// The case with the parts that the user gives.
+/// Builds the case with the parts that the program defines.
 template <class Real>
 casefile::InitialCase<Real> build(const casefile::CaseSpec& spec, const OwnParts<Real>& own) {
   auto mill = casefile::build_mill<Real>(spec);
@@ -213,7 +214,7 @@ casefile::InitialCase<Real> build(const casefile::CaseSpec& spec, const OwnParts
   return casefile::build_case_in<Real>(mill, spec);
 }
 
-/// A law in texts as a law in numbers.
+/// Adapts a contact law with numbers as texts to one with numbers.
 template <class Real>
 class LawOfTexts : public CustomLaw<Real> {
  public:
@@ -260,7 +261,7 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
       guests_.observers.push_back(&cpu_limit_.emplace(setup.max_cpu_time));
   }
 
-  /// The arithmetic of the run, for a call from elsewhere.
+  /// Arithmetic settings of the run, for calls from outside.
   struct Scope {
     StandardArithmetic arithmetic;
     decltype(std::declval<const ChosenDigits<Real>&>().use()) digits;
@@ -292,7 +293,7 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
     if (!driver_) driver_.emplace(built_, guests_);
   }
   void finish() override { advance(std::nullopt); }
-  /// @param limit  nothing for the end of the case @return whether the run can go on
+  /// @param limit  empty for the end of the case @return true if the run can be continued
   bool advance(const std::optional<Real>& limit) {
     const auto scope = use();
     if (end_reason_ != model::EndReason::paused) return false;
@@ -317,7 +318,8 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
     const auto scope = use();
     return to_text<Real>(now());
   }
-  /// As it was asked for, where the run stands there: the sum of periods and a rest is rounded.
+  /// The current time [s]: the exact value that was requested if the run is there, since the sum of periods
+  /// and a remainder is rounded.
   Real now() const {
     const auto& now = driver_->simulation().now();
     const auto& end = built_.the_case.stop.end_time;
@@ -347,7 +349,7 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
     const auto scope = use();
     return io::summary_json(result());
   }
-  /// So far, with its warnings; of a run that has ended always the same, processor time included.
+  /// The summary so far, with warnings. After the end of the run it does not change, processor time included.
   io::Summary<Real> result() const {
     if (ended_) return *ended_;
     auto s = summary_of(*spec_, built_, driver_);
@@ -376,7 +378,7 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
     if (own_laws_ || !spec_->outputs.empty() || !calls_.empty() || !watchers_.empty())
       show(impact, simulation);
   }
-  /// Apart, so that an impact that nobody looks at costs a few instructions.
+  /// A separate function, so that an impact that nobody observes costs a few instructions.
   [[gnu::noinline]] void show(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) {
     if (own_laws_) require_no_gain(impact);
     if (outputs_ && !spec_->outputs.empty()) outputs_->on_impact(impact, simulation);
@@ -396,8 +398,8 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
     if (outputs_ && !spec_->outputs.empty()) a(*outputs_);
   }
 
-  /// Nothing is put in place before everything is written. The summary comes last: results that it
-  /// names exist.
+  /// Writes all files before any is put in place. The summary is put in place last, so that the results that
+  /// it names exist.
   void write_results() {
     const DriveClock<Real> clock(built_.the_case.mill.motion.period());
     auto files = outputs_->complete(goes_on());
@@ -434,7 +436,7 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
   std::vector<std::function<void(const Impact<Real>&)>> calls_;
   std::optional<RunDriver<Real>> driver_;
   bool advanced_ = false;
-  std::pair<Instant<Real>, Real> asked_{Instant<Real>::long_ago(), Real(0)};  ///< of the last advance [s]
+  std::pair<Instant<Real>, Real> asked_{Instant<Real>::long_ago(), Real(0)};  ///< end of the last advance [s]
   model::EndReason end_reason_ = model::EndReason::paused;
   std::string error_;
   mutable std::optional<io::Summary<Real>> ended_;

@@ -22,11 +22,11 @@ class RunStatistics : public engine::Observer<Real> {
  public:
   struct Totals {
     std::uint64_t collisions = 0;
-    std::uint64_t touched = 0;   ///< by the least separation speed
-    std::uint64_t in_stall = 0;  ///< friction rested
+    std::uint64_t touched = 0;   ///< impacts at the least separation speed
+    std::uint64_t in_stall = 0;  ///< frictionless impacts
     std::uint64_t fast = 0;      ///< above io::Intervals::fast
     numerics::CompensatedSum<Real> milling_dose, touched_dose, stall_dose, supplied_energy, wall_work;
-    numerics::CompensatedSum<Real> speed_by_dose;  ///< approach speed times dose, not of contacts at rest
+    numerics::CompensatedSum<Real> speed_by_dose;  ///< approach speed times dose, without contacts at rest
 
     void archive(Archive& a) {
       a(collisions, touched, in_stall, fast, milling_dose, touched_dose, stall_dose, supplied_energy,
@@ -35,7 +35,7 @@ class RunStatistics : public engine::Observer<Real> {
   };
 
   /// @param balls    of the case
-  /// @param counted  what of an impact's dose works the powder
+  /// @param counted  the part of an impact's dose that works the powder
   explicit RunStatistics(const model::Partners& partners,
                          const std::vector<model::BallProperties<Real>>& balls = {},
                          const model::CountedDose<Real>& counted = {})
@@ -79,10 +79,10 @@ class RunStatistics : public engine::Observer<Real> {
     a(totals_, counted_dose_, batches_, doses_, impact_energies_, dissipated_energies_);
   }
 
-  /// By the partners' places.
+  /// Totals by partner.
   const std::vector<Totals>& by_partner() const { return totals_; }
 
-  /// A part of the totals, of all partners together.
+  /// One of the totals, summed over all partners.
   std::uint64_t count(std::uint64_t Totals::*part) const {
     std::uint64_t total = 0;
     for (const auto& t : totals_) total += t.*part;
@@ -99,12 +99,12 @@ class RunStatistics : public engine::Observer<Real> {
   Real wall_work() const { return sum(&Totals::wall_work); }
   const numerics::WeightedQuantiles& impact_energies() const { return impact_energies_; }
   const numerics::WeightedQuantiles& dissipated_energies() const { return dissipated_energies_; }
-  /// What of the dose works the powder [J].
+  /// The part of the dose that works the powder [J].
   Real counted_dose() const { return counts_.all() ? milling_dose() : counted_dose_.value(); }
 
-  /// Intervals of the rates, from the batches that are whole at an instant.
-  /// The rates themselves are over `duration` [s], whose last period need not be whole: how far that moves
-  /// them is part of the interval.
+  /// Confidence intervals of the rates, from the batches that are complete at an instant. The rates
+  /// themselves refer to `duration` [s], whose last period may be incomplete; the difference that this makes
+  /// is part of the interval.
   io::Intervals intervals(const Instant<Real>& until, const Real& period, const Real& duration) const {
     auto batches = batches_;
     const auto all = totals_now();
@@ -141,8 +141,8 @@ class RunStatistics : public engine::Observer<Real> {
   }
 
  private:
-  /// Doses of impacts that follow each other by chance scatter from period to period, by more than this over
-  /// the root of the number of balls.
+  /// True if the dose is nearly the same in every period. Doses of random impacts scatter from period to
+  /// period by more than `least_scatter` over the root of the number of balls.
   bool repeats(const io::Intervals::Rate& dose, double periods) const {
     constexpr double least_scatter = 0.05, least_share = 0.2;
     const auto e = numerics::estimate(dose.means);
@@ -152,8 +152,9 @@ class RunStatistics : public engine::Observer<Real> {
             dose.half_width < least_share * *e.half_width);
   }
 
-  /// Whether balls that are alike differ in their doses by more than their scatter over the record, which
-  /// is that of eight parts: shorter ones depend on each other. @param place  of the first ball's
+  /// True if identical balls differ in their doses by more than their scatter over the record allows. The
+  /// scatter is that of eight parts, since shorter parts are correlated. @param place  of the first ball's
+  /// dose
   bool stay_apart(const numerics::Batches<Real>& batches, std::size_t place) const {
     constexpr std::size_t parts = 8;
     constexpr double significance = 3e-5;
@@ -176,7 +177,7 @@ class RunStatistics : public engine::Observer<Real> {
     if (static_cast<std::size_t>(ball) < doses_.size()) doses_[static_cast<std::size_t>(ball)] += dose;
   }
 
-  /// In the order of the intervals, then of each ball.
+  /// The totals now, in the order of the intervals, then the dose of each ball.
   std::vector<double> totals_now() const {
     std::vector<double> now;
     double impacts = 0, dose = 0, work = 0;
@@ -200,10 +201,10 @@ class RunStatistics : public engine::Observer<Real> {
   std::size_t balls_;
   numerics::WeightedQuantiles impact_energies_,
       dissipated_energies_;    ///< by dose, without contacts at rest [J]
-  std::vector<double> doses_;  ///< of the first balls that are alike; half of a dose with another [J]
+  std::vector<double> doses_;  ///< by ball, for the first identical ones; half of a dose with another [J]
 };
 
-/// What of a run is not to be trusted, and why.
+/// Warnings about results that are not reliable, with the reasons.
 /// @param wanted_precision  of the dose rate, relative
 std::vector<io::Warning> warnings_of(const io::Facts& summary, const std::optional<double>& wanted_precision);
 

@@ -18,7 +18,8 @@ namespace {
 using Vector = Vec3<mpfr>;
 using Tangent = tangent::Tangent<mpfr>;
 
-/// What a parameter of the case, or a number of the initial state, changes.
+/// The model and the initial state after a small change of one parameter of the case or one number of the
+/// initial state.
 struct Perturbation {
   model::Mill<mpfr> mill;  ///< with the parameter larger by `step`
   std::vector<model::BallProperties<mpfr>> balls;
@@ -154,7 +155,7 @@ class Linearised : public engine::Observer<mpfr> {
   Perturbation base_;
   std::vector<Perturbation> others_;
   unsigned digits_;
-  /// By perturbation and ball, at its last impact.
+  /// Tangents by perturbation and ball, at the ball's last impact.
   std::vector<std::vector<Tangent>> tangents_;
   std::vector<std::vector<EventDerivative>>& found_;
 };
@@ -194,7 +195,7 @@ Parameter number_of(const casefile::CaseSpec& spec, const std::string& key) {
   return number;
 }
 
-/// Reads the events of runs in more and more digits, with their derivatives.
+/// Runs the case in more and more digits and collects its events with their derivatives.
 class Differentiator : private engine::Observer<mpfr> {
  public:
   Differentiator(const casefile::CaseSpec& spec, const SensitivityOptions& options)
@@ -206,7 +207,7 @@ class Differentiator : private engine::Observer<mpfr> {
     }
   }
 
-  /// With so many digits for the run. @return the digits that it needs
+  /// Runs the case with this many digits. @return the digits that it needs
   double run(unsigned digits) {
     const unsigned step_digits = std::min(digits, most_digits_of_step), evaluation = digits + 2 * step_digits;
     Linearised linearised = [&] {
@@ -268,7 +269,8 @@ class Differentiator : private engine::Observer<mpfr> {
     (*parts[number.coordinate / 3])[number.coordinate % 3] = 1;
     return same;
   }
-  /// A parameter at an end of its range, a restitution of 1, is changed to the other side.
+  /// Changes a parameter by `step`; one at the end of its range, such as a restitution of 1, in the other
+  /// direction.
   Perturbation with_parameter(const std::string& key, const Built& base, const mpfr& step,
                               unsigned step_digits) const {
     const auto value = casefile::value_of_key(spec_, key);
@@ -286,7 +288,8 @@ class Differentiator : private engine::Observer<mpfr> {
         "parameter that varies continuously",
         key, value.number));
   }
-  /// Balls are placed, and a run begins, by the parameters of the case.
+  /// Derivative of the initial state: the parameters of a case also determine where balls are placed and when
+  /// the run begins.
   static std::vector<Tangent> change_of_start(const Built& base, const Built& other, const mpfr& step) {
     const auto begin = [](const Built& built) {
       return DriveClock<mpfr>(built.the_case.mill.motion.period()).seconds(built.start);
@@ -302,7 +305,7 @@ class Differentiator : private engine::Observer<mpfr> {
     return change;
   }
 
-  /// Of two balls the lower number comes first, as in other lists of events.
+  /// Puts the ball with the lower number first in each event, as in other lists of events.
   void put_lower_first() {
     for (std::size_t k = 0; k < result.events.size(); ++k) {
       auto& event = result.events[k];
@@ -312,7 +315,7 @@ class Differentiator : private engine::Observer<mpfr> {
     }
   }
 
-  /// An error of the run has grown as the derivatives have: by the largest of them.
+  /// The digits that the run needs: its errors have grown like the derivatives, by the largest of them.
   double needed() const {
     mpfr largest(1);
     for (const auto& event : result.derivatives)
@@ -320,7 +323,7 @@ class Differentiator : private engine::Observer<mpfr> {
         for (const auto& t : d.states_after)
           for (const auto* v : {&t.position, &t.velocity})
             for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, abs((*v)[axis]));
-    // The digits of a second derivative, by which an error of the state moves the first one.
+    // Includes the digits of a second derivative, by which an error of the state changes the first one.
     return options_.digits + 25 + 2 * static_cast<double>(log10(largest));
   }
 

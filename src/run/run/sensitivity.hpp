@@ -25,7 +25,7 @@ struct SensitivityOptions {
   /// of x, y, z, vx, vy, vz, wx, wy, wz.
   std::vector<std::string> by;
   std::size_t events = 0;
-  unsigned digits = 17;  ///< of each derivative that are right
+  unsigned digits = 17;  ///< correct digits of each derivative
   bool states = false;   ///< the file has the derivatives of the balls' states after each impact, too
   std::string file;      ///< CSV; none when empty
   const std::atomic<bool>* interrupt = nullptr;
@@ -33,14 +33,14 @@ struct SensitivityOptions {
 };
 
 struct Sensitivities {
-  std::vector<std::string> by, units;  ///< of each number as the case has it, "rpm"; "m/s" of a start
+  std::vector<std::string> by, units;  ///< unit of each number as in the case, "rpm"; "m/s" for a velocity
   std::vector<Event> events;
   std::vector<std::vector<EventDerivative>> derivatives;  ///< by event, and by number
   std::string precision;                                  ///< of the run
   bool interrupted = false;
 };
 
-/// Runs the first events in as many digits as their growth takes, and carries the derivatives along.
+/// Computes the first events in the digits that the growth of errors requires, with their derivatives.
 /// @throws InputError for a key that the case does not give as a number, and a case that ends before
 /// @throws UndecidedError when a rule orders two contacts at one time
 Sensitivities sensitivity(const casefile::CaseSpec& spec, const SensitivityOptions& options);

@@ -1,4 +1,4 @@
-// What of a run is not to be trusted.
+// Warnings about the results of a run.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -76,7 +76,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// Evenly over the jobs in the order of their costs, the first and the last among them.
+/// At most `most` jobs, evenly spaced in the order of their costs and including the first and the last.
 std::vector<Job> chosen(std::vector<Job> jobs, std::size_t most) {
   std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.cost < b.cost; });
   if (jobs.size() <= most) return jobs;
@@ -234,7 +234,7 @@ void Forecast::make(const std::vector<Job>& jobs, Executor& executor, const Reco
 
 std::optional<double> Forecast::seconds(const Job& job) const {
   if (rates_.empty() || !std::isfinite(job.end_time)) return std::nullopt;
-  // The rate changes slowly with the cost: that of the nearest job that was tried.
+  // The rate changes slowly with the cost, so the rate of the nearest job that was tried is used.
   auto above = rates_.lower_bound(job.cost);
   if (above == rates_.end() ||
       (above != rates_.begin() && job.cost / std::prev(above)->first < above->first / job.cost))

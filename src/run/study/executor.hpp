@@ -1,4 +1,4 @@
-// Runs on all threads of all ranks, longest first, and how long they will take.
+// Execution of runs on all threads of all ranks, longest first, and a forecast of how long they take.
 #pragma once
 
 #include <atomic>
@@ -41,12 +41,12 @@ struct Job {
   std::vector<std::string> overrides;
   std::string digest;  ///< of the case that these give
   double cost = 0;     ///< balls times simulated time: about in proportion to processor time
-  /// Of the run [s]; no end where only other rules stop it.
+  /// Start and end of the run [s]; the end is infinite if only other rules stop it.
   double initial_time = 0, end_time = std::numeric_limits<double>::infinity();
   /// Processor time after which the run ends without a result [s].
   double max_cpu_time = std::numeric_limits<double>::infinity();
 
-  /// What another rank needs to know.
+  /// Saves or loads what another rank needs to know.
   void archive(Archive& a) { a(case_file, overrides, digest, max_cpu_time); }
 };
 
@@ -73,7 +73,7 @@ class Executor {
   void run(std::vector<Job> jobs, const RecordFunction& done, const std::function<void()>& tick);
 
   bool interrupted() const { return interrupt_; }
-  /// Of all ranks that have reported.
+  /// Number of threads of all ranks that have reported.
   int threads() const;
 
  private:
@@ -93,10 +93,10 @@ class Executor {
 class Forecast {
  public:
   /// Runs at most `trials` of the jobs for `trial_time` [s] of processor time each, of all costs.
-  /// @param done  called with the records of trials that got to their end: results as any other
+  /// @param done  called with the records of completed trials, which are results like any others
   void make(const std::vector<Job>& jobs, Executor& executor, const RecordFunction& done);
 
-  /// Processor time of a job [s]; nothing where its end is not known beforehand.
+  /// Processor time of a job [s]; empty if its end is not known beforehand.
   std::optional<double> seconds(const Job& job) const;
   /// Wall time of jobs on so many threads [s].
   std::optional<double> wall_time(const std::vector<Job>& jobs, int threads) const;

@@ -57,7 +57,7 @@ class Search {
 
   bool stopped() const { return out_of_budget_ || study_.interrupted(); }
 
-  /// Takes runs from the budget, where it has so many.
+  /// Takes runs from the budget if it has this many left.
   bool spend(std::uint64_t runs) {
     if (used_ + runs > spec_.runs_max) {
       out_of_budget_ = true;
@@ -72,7 +72,7 @@ class Search {
     return (x == v.low || x == v.high ? fmt::format("{}", x) : fmt::format("{:.6g}", x)) + v.unit;
   }
 
-  /// A new point, within bounds and the budget.
+  /// Adds a point if it is new, within bounds and within the budget.
   bool add_point(Coordinates at) {
     Point point;
     for (std::size_t k = 0; k < at.size(); ++k) {
@@ -174,7 +174,7 @@ class Search {
     return best;
   }
 
-  /// At 5 % for all comparisons together.
+  /// Points that cannot be distinguished from the leader, at 5 % for all comparisons together.
   std::vector<std::size_t> contenders(std::size_t leader) const {
     std::vector<std::size_t> group;
     const auto count = study_.points().size();
@@ -205,7 +205,7 @@ std::string line_of(const OptimizeSpec& spec, const Study& study, std::size_t in
                             text_of(point.estimate(energy), energy), counted(point.done(), "run"));
 }
 
-/// Says so where the best value of a variable is the end of its range.
+/// A note if the best value of a variable is at the end of its range; otherwise empty.
 std::string bound_of(const OptimizeVariable& v, const std::string& value) {
   if (!v.values.empty()) return "";
   const auto number = casefile::parse_decimal(value.substr(0, value.size() - v.unit.size()));

@@ -17,7 +17,7 @@ struct Optimum {
 /// the grid finer around the best, until the budget is used. Depends on the results only, not on their order.
 Optimum optimize(const casefile::OptimizeSpec& spec, Study& study);
 
-/// How long that will take at most, in words, by short trials; nothing is written.
+/// The longest time that the search will take, in words, from short trials; nothing is written.
 std::string forecast(const casefile::OptimizeSpec& spec, Study& study);
 
 /// The result as text.

@@ -20,7 +20,7 @@ struct RunRecord {
   std::string end_reason() const { return facts.has("end_reason") ? facts.text("end_reason") : ""; }
   double cpu_seconds() const { return facts.find("cpu_seconds").value_or(0); }
   bool done() const { return status == "done"; }
-  /// Whether repeating the run would give the same result.
+  /// True if repeating the run would give the same result.
   bool lasting() const {
     return done() || status == model::name(model::EndReason::inelastic_collapse) ||
            status == model::name(model::EndReason::stalled) ||
@@ -36,7 +36,7 @@ RunRecord failed_run(const std::string& digest, const std::string& status, const
 
 /// One line of JSON, with version and commit of this program.
 std::string to_json(const RunRecord& record);
-/// Nothing for a text that is not a record, or a record of another version or commit.
+/// The record in a text; empty if it is not a record, or one of another version or commit.
 std::optional<RunRecord> from_json(const std::string& text);
 
 /// A number that tables average.
@@ -44,20 +44,21 @@ struct Quantity {
   std::string name;
   std::string path;           ///< in the summary
   std::string interval = {};  ///< path of the half-width of a run's own interval; empty without one
-  /// What pages and terminals show: a title, and the unit with its size in SI.
+  /// What reports and terminals display: a title, and the unit with its size in SI.
   const char *title = "", *unit = "";
   double size = 1;
 
-  /// Nothing where nothing defines it, such as rates of a wall that the run's vessel does not have.
+  /// The value in a record; empty if it is undefined, such as a rate of a wall that the run's vessel does not
+  /// have.
   std::optional<double> of(const RunRecord& record) const { return record.facts.find(path); }
 };
-/// Dose rate, specific dose rate and milling time: what a study is made for.
+/// The main results of a study, such as dose rate, specific dose rate and milling time.
 const std::vector<Quantity>& main_quantities();
-/// What the table of runs has before these: times, energies, the charge ratio.
+/// Columns of the table of runs that precede these: times, energies, the charge ratio.
 std::vector<Quantity> amounts();
-/// All of them, with the rates of collisions and impacts with so many walls.
+/// All quantities, including the rates of collisions and impacts with this many walls.
 std::vector<Quantity> quantities(int walls);
-/// The one of a name, which is no collision rate.
+/// The quantity with this name. @pre it is not a collision rate
 Quantity quantity_named(const std::string& name);
 
 }  // namespace edmill::study

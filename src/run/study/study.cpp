@@ -66,7 +66,7 @@ std::string setting_of(const Point& point, const std::string& key) {
   return "";
 }
 
-/// What both tables begin with.
+/// The columns that both tables begin with.
 std::vector<Column> point_columns(const std::vector<std::string>& keys) {
   std::vector<Column> columns{{"point", Type::integer}, {"name", Type::text}};
   for (const auto& key : keys) columns.push_back({key, Type::text});

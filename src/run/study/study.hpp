@@ -33,7 +33,7 @@ struct Point {
   std::size_t failed() const;
   /// A quantity of all runs that are done, in the order of their seeds; empty when one of them lacks it.
   std::vector<double> values(const Quantity& quantity) const;
-  /// What these runs, with their own intervals, say of it.
+  /// Estimate of a quantity from these runs and their own intervals.
   numerics::OfSeeds estimate(const Quantity& quantity) const;
 };
 
@@ -41,14 +41,14 @@ struct Point {
 /// runs)".
 std::string text_of(const numerics::OfSeeds& found, const Quantity& quantity);
 
-/// What the runs of a point say together, with their steady states: lines for a terminal.
+/// Combined results of the runs of a point, with their steady states, as lines for a terminal.
 std::string describe(const Point& point);
 
-/// The value that a point has for a key, as text; empty where it leaves that of the case.
+/// The value of a key at a point, as text; empty if the point keeps that of the case.
 std::string value_of(const Point& point, const std::string& key);
 /// Keys whose values differ between the points, in their order.
 std::vector<std::string> varied_keys(const std::vector<Point>& points);
-/// The name of a point: that of its file, or its values of the keys that vary.
+/// The name of a point: the one in its file, or else its values of the keys that vary.
 std::string name_of(const std::vector<Point>& points, std::size_t index);
 /// Each point with its main quantities: lines for a terminal.
 std::string list_of(const std::vector<Point>& points);
@@ -59,7 +59,7 @@ std::vector<Point> points_of(const casefile::SweepSpec& spec);
 /// The run of a point with a seed. A case that is invalid at this point gives a record without a run.
 Run make_run(const casefile::StudySpec& spec, const Point& point, std::uint64_t seed);
 
-/// How many runs were found on disk, done now, and failed.
+/// Numbers of runs: all, found on disk, done now, and failed.
 struct StudyCounts {
   std::size_t total = 0, kept = 0, ran = 0, failed = 0;
 };
@@ -80,12 +80,13 @@ class Study {
 
   /// Does every run without a record, then writes the tables.
   void run();
-  /// In words, how many runs are left to do and how long they will take, by short trials. Nothing is written.
+  /// The number of runs left to do and how long they will take, in words, from short trials. Nothing is
+  /// written.
   std::string forecast();
-  /// Runs may be added until there are so many.
+  /// Sets the largest number of runs that may be added, for the forecast.
   void expect_at_most(std::uint64_t runs) { most_runs_ = runs; }
   void write_tables() const;
-  /// Beside the tables, under the study's name.
+  /// Writes a page next to the tables, under the study's name.
   void write_page(const std::string& html) const;
 
   const std::string& file() const { return spec_.file; }
@@ -98,19 +99,19 @@ class Study {
   io::Table<double> run_table() const;
 
  private:
-  /// At the first run of a study: no other process may write into its folder from then on.
+  /// Locks the folder at the first run of a study, so that no other process writes into it.
   void take_folder();
   std::vector<std::filesystem::path> table_places() const;
   std::vector<Job> collect_jobs();
   void put(const RunRecord& record);
   void tick();
-  /// @param done  called with the records of trials that got to their end
+  /// @param done  called with the records of completed trials
   std::string forecast(const std::vector<Job>& jobs, const RecordFunction& done);
   std::string time_left(double spent) const;
   io::Table<double> log_table() const;
   std::filesystem::path record_file(const std::string& digest) const;
   std::vector<std::string> keys() const;
-  /// Those of the tables' columns: enough for every run.
+  /// The quantities in the tables' columns, for the vessel with the most walls.
   std::vector<Quantity> quantities() const;
 
   casefile::StudySpec spec_;

@@ -1,4 +1,4 @@
-"""What callables of a run are called with, and what laws of Python answer, for type checkers."""
+"""Types of the arguments of observers, and of contact laws written in Python, for type checkers."""
 from __future__ import annotations
 
 import decimal
@@ -10,7 +10,7 @@ Vector = tuple[Number, Number, Number]
 
 
 class Impact(Protocol):
-    """What an observer gets of an impact, in SI units. The normal points from the partner to the ball."""
+    """The impact that an observer receives, in SI units. The normal points from the partner to the ball."""
     index: int  #: from 0
     time: Number
     ball: int
@@ -29,7 +29,7 @@ class Impact(Protocol):
 
 
 class Running(Protocol):
-    """The run that an observer is called with."""
+    """The run that an observer receives."""
     time: Number  #: [s]
     ball_count: int
 
@@ -52,13 +52,13 @@ class RestitutionLaw:
 
 
 class ContactLaw(Protocol):
-    """A contact law of Python. Each function is called for every impact that it is given for."""
+    """A contact law written in Python. Both functions are called for every impact to which the law applies."""
 
     def restitution(self, approach_speed: Number) -> Number:
-        """From 0 to 1; the approach speed is in m/s."""
+        """Normal restitution, from 0 to 1, for an approach speed in m/s."""
 
     def restitution_of_slip(self, normal_change: Number, slip_speed: Number, compliance: Number) -> Number:
-        """e_t, the part of the slip that is left, from -1 to 1. (2.24')
+        """e_t, the fraction of the slip that remains after the impact, from -1 to 1. (2.24')
 
         normal_change  |g_n| + g_n' [m/s]: the normal impulse over the effective mass
         slip_speed     |g_t| [m/s]

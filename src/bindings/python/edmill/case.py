@@ -59,7 +59,7 @@ def _toml(tree: Mapping[str, Any], path: str = "") -> str:
 
 
 class EditError(_edmill.InputError):
-    """Changes that make no valid case."""
+    """Raised for changes that do not give a valid case."""
 
     def __init__(self, text: str):
         super().__init__(text)
@@ -90,7 +90,7 @@ class Case:
 
     @classmethod
     def parse(cls, text: str, name: str = "case.toml", settings: Sequence[str] = ()) -> Case:
-        """A case of the text of a case file; `name` stands for the file in messages."""
+        """A case from the text of a case file; `name` is the name of the file in messages."""
         made = cls.__new__(cls)
         made._set(checked_text("text", text), checked_text("name", name), settings)
         return made
@@ -118,7 +118,7 @@ class Case:
             raise _edmill.InputError(str(error).replace("--set ", "setting ")) from None
 
     def with_settings(self, *settings: str) -> Case:
-        """The case with "section.key=value" over it."""
+        """A copy of the case to which settings "section.key=value" are applied."""
         return Case.parse(self._text, self._name, [*self._settings, *settings])
 
     def edit(self, changes: Mapping[str, Any] | None = None, **keys: Any) -> Case:
@@ -165,12 +165,12 @@ class Case:
 
     @property
     def radii(self) -> np.ndarray:
-        """Of the balls, in the order of their numbers [m]."""
+        """Radii of the balls, in the order of their numbers [m]."""
         return np.array(self._case.balls)[:, 0]
 
     @property
     def masses(self) -> np.ndarray:
-        """Of the balls, in the order of their numbers [kg]."""
+        """Masses of the balls, in the order of their numbers [kg]."""
         return np.array(self._case.balls)[:, 1]
 
     @property
@@ -197,5 +197,5 @@ class Case:
 
 
 def case_of(given: Case | Mapping[str, Any] | str | os.PathLike) -> Case:
-    """A case as it is, or of a file or dictionary."""
+    """Returns a case unchanged, or makes one from a file or dictionary."""
     return given if isinstance(given, Case) else Case(given)

@@ -1,4 +1,4 @@
-"""What arguments must be: each check names the argument, what was found and what is expected."""
+"""Checks of arguments; their messages name the argument, what was found and what is expected."""
 from __future__ import annotations
 
 import decimal
@@ -23,7 +23,7 @@ def text(name: str, value: Any) -> str:
 
 
 def texts(name: str, values: Any, each: str) -> list[str]:
-    """A list of texts, no single one. `each` is what a text is, in quotes."""
+    """A list of texts, but not a single text. `each` describes one of them, for messages."""
     good = isinstance(values, Iterable) and not isinstance(values, (str, bytes))
     require(name, values, good, f"a list of {each}")
     listed = list(values)
@@ -51,7 +51,7 @@ def whole(name: str, value: Any, low: int, high: int) -> int:
 
 
 def number(name: str, value: Any) -> float:
-    """Finite, 0 or above."""
+    """A finite number, 0 or above."""
     good = is_number(value) and math.isfinite(value) and value >= 0
     require(name, value, good, "a number, 0 or above")
     return float(value)

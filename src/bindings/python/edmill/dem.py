@@ -20,7 +20,7 @@ class Deck:
     """A case as the input of a DEM code."""
     files: dict[str, str]  #: name and text; the first is the one to run
     command: str  #: that runs it
-    notes: list[str]  #: what is not as in the case
+    notes: list[str]  #: differences from the case
 
     def write(self, folder: str | os.PathLike = ".") -> list[pathlib.Path]:
         """Writes the files into a folder, which is made when absent."""

@@ -1,4 +1,4 @@
-"""Other codes' results against those of edmill, and against the physics."""
+"""Compares results of other codes with those of edmill and with the physics."""
 from __future__ import annotations
 
 import csv
@@ -16,7 +16,7 @@ from . import _edmill
 from .case import Case, case_of
 from .checks import flag, number, place, require, scalar, text, whole
 
-LARGEST = 2**63 - 1  #: of counts
+LARGEST = 2**63 - 1  #: largest count
 
 
 class Judgement(dict):
@@ -78,7 +78,7 @@ def check(case: Case | Mapping | str | os.PathLike) -> dict[str, str]:
 
 @dataclasses.dataclass(frozen=True)
 class ProvenEvent:
-    """An impact that is proven to be the next one; each number is within its radius of what is given. SI."""
+    """An impact that is proven to be the next one; each true value is within the radius of the given number. SI."""
     index: int
     time: Decimal
     time_radius: Decimal
@@ -101,11 +101,11 @@ class Proof:
 
 @dataclasses.dataclass(frozen=True)
 class Agreement:
-    """How far two scalars give the same events."""
+    """The number of first events that are the same in two scalars, and the digits to which they agree."""
     narrow: str
     wide: str
     events: int  #: in common, from the first on
-    digits: dict[str, float | None]  #: by quantity, of its largest size; None where no digit differs
+    digits: dict[str, float | None]  #: by quantity, relative to its largest magnitude; None where no digit differs
 
 
 @dataclasses.dataclass(frozen=True)
@@ -146,7 +146,7 @@ def certify(case: Case | Mapping | str | os.PathLike, collisions: int | None = N
 
 @dataclasses.dataclass(frozen=True)
 class Derivative:
-    """With respect to one parameter of a case, or one number of the initial state; SI per unit of it. Numbers are
+    """Derivatives with respect to one parameter of a case, or one number of the initial state; SI per unit of it. Numbers are
     `decimal.Decimal` where more than 17 digits were asked for."""
     by: str
     unit: str  #: of the parameter as the case has it, "rpm"; empty for a ratio

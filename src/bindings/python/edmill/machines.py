@@ -1,4 +1,4 @@
-"""Mills that one can buy, new cases of them, and what outputs can show."""
+"""Commercial mills, new cases for them, and the variables of outputs."""
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -9,7 +9,7 @@ from .checks import text, texts
 
 
 def machines() -> dict[str, dict[str, tuple[str, str]]]:
-    """Mills by their names; of each, the keys of the case with value and source."""
+    """Mills by name, each with the keys of its case, their values and sources."""
     return {name: {key: (value, source) for key, value, source in rows} for name, rows in _edmill.machines()}
 
 

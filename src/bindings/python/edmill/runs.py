@@ -1,4 +1,4 @@
-"""Runs of a case, and what they gather."""
+"""Runs of a case and their results."""
 from __future__ import annotations
 
 import csv
@@ -34,7 +34,7 @@ class Interrupted(KeyboardInterrupt):
 
 
 class Run:
-    """What a run came to. The numbers of summary.json are attributes: `run.milling_dose_rate` and so on.
+    """The result of a run. The numbers of summary.json are attributes: `run.milling_dose_rate` and so on.
 
     In precisions wider than double, numbers of events and states are `decimal.Decimal` with all digits."""
 
@@ -60,7 +60,7 @@ class Run:
         self._laws: dict[str, Any] = {}  # of Python
 
     def __getstate__(self) -> dict[str, Any]:
-        """Laws of Python stay behind: most cannot be pickled."""
+        """Omits laws written in Python, most of which cannot be pickled."""
         return self.__dict__ | {"_laws": None if self._laws else {}}
 
     def __getattr__(self, name: str) -> Any:
@@ -82,7 +82,7 @@ class Run:
 
     @property
     def specific_dose_rate(self) -> Value | None:
-        """Of the powder [W/kg]; None without powder."""
+        """Milling dose rate per mass of the powder [W/kg]; None without powder."""
         return self._value("specific_milling_dose_rate")
 
     @property
@@ -112,7 +112,7 @@ class Run:
 
     @property
     def impact_rates(self) -> dict[str, Value]:
-        """The same of collisions that the least separation speed does not decide, with their 95 % intervals."""
+        """Collisions per second that the least separation speed does not decide, with each partner and of all, with 95 % intervals."""
         return self._rates("impact_rate")
 
     @property
@@ -124,7 +124,7 @@ class Run:
 
     @property
     def warnings(self) -> list[str]:
-        """Why numbers are not to be trusted; empty where nothing speaks against them."""
+        """Reasons to doubt numbers of the run; empty if there are none."""
         return list(self.summary["warnings"].values())
 
     def _simulate_again(self, folder: str, report: bool) -> None:
@@ -171,7 +171,7 @@ class Run:
 
 
 def _array(rows: Any, dtype: np.dtype, number: type) -> np.ndarray:
-    """Events of a run in double are an array already; wide numbers become objects."""
+    """An array of events or states. In double the rows are an array already; wide numbers become objects."""
     if isinstance(rows, np.ndarray):
         return rows
     if number is not float:
@@ -180,7 +180,7 @@ def _array(rows: Any, dtype: np.dtype, number: type) -> np.ndarray:
 
 
 def _line(until: float | None):
-    """A line of text on standard error: how it shows and how it ends."""
+    """Two functions that show and end a line of text on standard error."""
     of = "" if until is None else f" of {until:g} s"
 
     def show(time: float, collisions: int) -> None:
@@ -190,7 +190,7 @@ def _line(until: float | None):
 
 
 def _bar(module: str, until: float | None):
-    """The same of a bar of tqdm: of widgets in a notebook from tqdm.auto, of text from tqdm."""
+    """Two functions that show and end a bar of tqdm: a widget in a notebook (tqdm.auto), or text (tqdm)."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of notebooks without widgets
         bar = importlib.import_module(module).tqdm(total=until, unit="s", unit_scale=True, desc="simulated")
@@ -203,7 +203,7 @@ def _bar(module: str, until: float | None):
 
 
 class _Progress:
-    """Shows how far a run is, in the best way that works: one that fails gives way to the next, and none ends the run."""
+    """Shows the progress of a run in the first way that works. A way that fails is replaced by the next; none ends the run."""
 
     def __init__(self, until: float | None):
         self._ways = [lambda: _bar("tqdm.auto", until), lambda: _bar("tqdm", until), lambda: _line(until)]
@@ -228,7 +228,7 @@ class _Progress:
 
 
 def _law_of(name: str, law: Any, case: Case) -> ContactLaw | None:
-    """A law, or a function that is the restitution of one, with the friction of the case."""
+    """Returns a law unchanged, or makes one from a function that gives the restitution, with the friction of the case."""
     if law is None or all(callable(getattr(law, method, None)) for method in ("restitution", "restitution_of_slip")):
         return law
     require(name, law, callable(law), "a function of the approach speed, or an object with restitution(approach_speed) and "

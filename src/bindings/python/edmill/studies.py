@@ -99,7 +99,7 @@ def _study(work, name: str, source: Any, folder: Any, jobs: int, progress: bool)
 
     if not isinstance(source, Mapping):
         return on(place("source", source, "a file or a dictionary of its sections"))
-    # Paths in a study are those from its file on: they are meant from here on.
+    # Paths in a study are relative to its file, so the file is written to the working directory.
     with contextlib.ExitStack() as files:
         def written(text: str, suffix: str) -> str:
             file = files.enter_context(tempfile.NamedTemporaryFile("w", suffix=suffix, dir=".", encoding="utf-8"))
@@ -115,7 +115,7 @@ def _study(work, name: str, source: Any, folder: Any, jobs: int, progress: bool)
 
 
 def _with_settings(section: dict[str, Any], name: str, case: Case) -> dict[str, Any]:
-    """What is set over a case becomes values that do not vary, but for keys that the study varies."""
+    """Adds the settings of a case to the grid as single values, except for keys that the study varies."""
     settings = dict(setting.split("=", 1) for setting in case.settings)
     if not settings:
         return section
@@ -171,7 +171,7 @@ def seeds(case: Case, count: int, folder: str | os.PathLike, precision: str | No
 
 
 class Variations(dict):
-    """Dose rates by what is changed, the case as it is first. `differing` are those that differ from it."""
+    """Dose rates by the change, first the unchanged case. `differing` lists the changes whose rates differ from it."""
 
     def __init__(self, rows, text: str):
         super().__init__({what: None if rate is None else Value(rate, half_width) for what, rate, half_width, _ in rows})

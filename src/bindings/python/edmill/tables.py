@@ -41,7 +41,7 @@ class Records(np.ndarray):
 
 
 def _column(cells: list[str]) -> np.ndarray:
-    """Whole numbers, or numbers, NaN where a cell is empty, or texts."""
+    """A column as integers if possible, otherwise as floats, with NaN for empty cells, otherwise as texts."""
     for kind in (np.int64, np.float64) if cells else (np.float64,):
         try:
             return np.array([cell or "nan" for cell in cells], dtype=kind)
@@ -65,8 +65,8 @@ def read_table(file: str | pathlib.Path) -> Records:
 
 
 class Tables(Mapping):
-    """The CSV files of a folder by their names without ending, those with the same name with their folders; read when they are
-    asked for. Logs in HDF5 are not among them."""
+    """The CSV files of a folder by their names without extension, or by their paths if several have the same name. A file is
+    read when it is accessed. Logs in HDF5 are not included."""
 
     def __init__(self, folder: pathlib.Path | None):
         files = [] if folder is None else sorted(pathlib.Path(folder).rglob("*.csv"))

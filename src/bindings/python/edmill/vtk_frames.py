@@ -19,7 +19,7 @@ from collections.abc import Iterable, Iterator
 
 import numpy
 
-#: What a table needs of each ball, under the names that codes give it; the last two are optional.
+#: Names of the arrays of each quantity in different codes; mass, radius and diameter are optional.
 NAMES = {"id": ("id", "ID", "particle_id"), "velocity": ("v", "velocity", "Velocity"),
          "spin": ("omega", "angular_velocity", "Angular velocity"), "mass": ("mass", "Mass"),
          "radius": ("radius", "Radius"), "diameter": ("diameter", "Diameter")}
@@ -89,7 +89,7 @@ def _time_of(file: pathlib.Path, said: float | None, timestep: float | None) -> 
 
 
 def _in_order(file: pathlib.Path):
-    """Numbers in names by value: box_900 before box_1000."""
+    """Sort key that orders numbers in names by value: box_900 before box_1000."""
     return [int(part) if part.isdigit() else part for part in re.split(r"(\d+)", str(file))]
 
 

@@ -13,8 +13,8 @@ inline constexpr Parameter effective_modulus{"effective_modulus", Dimension::pre
                                              "E*, 1/E* = (1 - nu_i^2)/E_i + (1 - nu_j^2)/E_j",
                                              Range::positive};
 
-/// With a dissipative part: M x" + k (x^(3/2) + 3/2 A x^(1/2) x') = 0 with k = 4/3 E* R^(1/2), until the
-/// force vanishes. The restitution depends on v* = (3/2 A)^(1/2) ((k/M)^2 v)^(1/10) alone. Sources: Ramirez,
+/// Viscoelastic spheres: M x" + k (x^(3/2) + 3/2 A x^(1/2) x') = 0 with k = 4/3 E* R^(1/2), until the force
+/// vanishes. The restitution depends only on v* = (3/2 A)^(1/2) ((k/M)^2 v)^(1/10). Sources: Ramirez,
 /// Poeschel, Brilliantov and Schwager 1999; the rational approximation by Mueller and Poeschel 2011.
 template <class Number>
 struct Viscoelastic : CoulombSlip<Number> {
@@ -64,8 +64,8 @@ struct ElasticPlastic : CoulombSlip<Number> {
     CoulombSlip<Number>::parameters(law, visit);
   }
 
-  /// v_y [m/s], at which the energy of the approach takes Hertz's pressure to p_y:
-  /// M v_y^2 = 16/15 E* a^5 / R^2, a = pi p_y R / (2 E*).
+  /// Yield speed v_y [m/s], at which the energy of the approach raises Hertz's pressure to p_y: M v_y^2 =
+  /// 16/15 E* a^5 / R^2, a = pi p_y R / (2 E*).
   Number yield_speed(const ContactBodies<Number>& bodies) const {
     using std::sqrt;
     const Number radius = bodies.effective_radius();

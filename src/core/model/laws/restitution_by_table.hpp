@@ -1,4 +1,4 @@
-// Restitution as a table gives it: by approach speed, by slip, or by the load of powder.
+// Tabulated restitution: by approach speed, by slip, or by the load of powder.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace edmill::model {
 template <class Number>
 using LawTable = std::vector<std::array<Number, 2>>;
 
-/// Straight lines between the points, constant below the first and above the last one.
+/// Linear interpolation between the points, constant below the first and above the last one.
 /// @pre there are points
 template <class Number>
 Number value_at(const LawTable<Number>& points, const Number& argument) {
@@ -27,8 +27,8 @@ Number value_at(const LawTable<Number>& points, const Number& argument) {
   return low[1] * (1 - share) + high[1] * share;
 }
 
-/// The normal restitution by approach speed. What grows or falls in the table does so between its points, and
-/// another code has the same law in three lines.
+/// Normal restitution by approach speed, linear between the points of a table. The interpolation is monotonic
+/// where the table is, and takes three lines in another code.
 template <class Number>
 struct RestitutionBySpeed : CoulombSlip<Number> {
   static constexpr const char* name = "restitution-by-speed";
@@ -54,9 +54,10 @@ struct RestitutionBySpeed : CoulombSlip<Number> {
   Number restitution(const Number& approach_speed) const { return value_at(points, approach_speed); }
 };
 
-/// One normal restitution, and the tangential one by slip over approach: so are the contacts of DEM codes,
-/// which stick for a part of their duration and slip for the rest (docs/dem.md). Beyond the last point a
-/// contact slides throughout: its tangential impulse stays that of the point.
+/// A constant normal restitution, and a tangential one as a function of slip over approach speed. This
+/// describes the contacts of DEM codes, which stick for a part of their duration and slip for the rest
+/// (docs/dem.md). Beyond the last point a contact slides throughout: its tangential impulse remains that at
+/// this point.
 template <class Number>
 struct RestitutionBySlip {
   static constexpr const char* name = "restitution-by-slip";

@@ -1,11 +1,11 @@
-// Restitutions that are given, and the slip that Coulomb friction leaves.
+// Constant restitutions, and the slip that remains with Coulomb friction.
 #pragma once
 
 #include "model/parts/parameter.hpp"
 
 namespace edmill::model {
 
-/// Both restitutions given.
+/// Both restitutions are constant.
 template <class Number>
 struct ConstantRestitution {
   static constexpr const char* name = "constant";
@@ -22,8 +22,9 @@ struct ConstantRestitution {
   const Number& restitution_of_slip(const Number&, const Number&, const Number&) const { return tangential; }
 };
 
-/// What a law of the normal restitution alone takes for the slip: e_t = max(beta, 1 - mu c (|g_n| + g_n') /
-/// |g_t|), sliding all through the impact, or reversed by the part beta. (2.24')
+/// The tangential part of laws that define only the normal restitution: e_t = max(beta, 1 - mu c (|g_n| +
+/// g_n') / |g_t|). The contact slides throughout the impact, or its slip is reversed by the factor beta.
+/// (2.24')
 template <class Number>
 struct CoulombSlip {
   Number friction{0};         ///< mu

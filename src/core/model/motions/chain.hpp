@@ -17,30 +17,30 @@
 
 namespace edmill::model {
 
-/// A vector that is turned about an axis. (Rodrigues)
+/// Rotates a vector about an axis. (Rodrigues)
 template <class Real>
 Vec3<Real> turned_about(const Vec3<Real>& v, const Vec3<Real>& axis, const numerics::SinCos<Real>& angle) {
   return v * angle.cos + cross<Real>(axis, v) * angle.sin + axis * Real(dot<Real>(axis, v) * (1 - angle.cos));
 }
 
-/// Bounds on a chain's motion that hold at all times (docs/theory.md, section 3), on the sizes of vectors in
-/// the frame that moves: of the angular velocity and its first three derivatives, of the acceleration of the
-/// origin and its first two, all as the frame itself sees them.
+/// Bounds on a chain's motion that are valid at all times (docs/theory.md, section 3): on the norms, as
+/// observed in the moving frame, of the angular velocity and its first three derivatives, and of the
+/// acceleration of the origin and its first two.
 template <class Real>
 struct ChainBounds {
   enum class Speeds {
-    summed,  ///< constant speeds about parallel axes have signs: a jar may turn against its disc
-    apart    ///< the size of each counts, as rounding sees them
+    summed,  ///< constant speeds about parallel axes add with their signs: a jar may turn against its disc
+    apart    ///< their magnitudes are added, as rounding errors require
   };
 
   std::array<Real, 4> turning{};       ///< [rad/s], [rad/s^2], ...
   std::array<Real, 3> acceleration{};  ///< [m/s^2], ...
   Real speed{0};                       ///< of the origin [m/s]
   Real distance{0};                    ///< of the origin from that of the ground [m]
-  Real errors{20};  ///< what rounding does to any of these at most, relative and in units of u
+  Real errors{20};  ///< bound on the relative rounding errors of any of these quantities, in units of u
 
   ChainBounds(const Joints<Real>& joints, Speeds speeds) {
-    std::optional<Vec3<Real>> common;  // of all axes so far, in the present frame
+    std::optional<Vec3<Real>> common;  // direction of all axes so far, in the present frame
     bool parallel = true;
     Real sum(0), sizes(0);  // of the constant speeds about it
     for (const auto& joint : joints.list) {
@@ -98,13 +98,14 @@ struct ChainBounds {
     }
     return rates;
   }
-  /// A phase that is known to a few roundings of so many turns has an error 2 pi times as large; then a sine,
-  /// a product with a matrix and with the vectors behind it.
+  /// Rounding errors of a joint in units of u: that of a phase, which is a few roundings of its number of
+  /// turns and 2 pi times as large in radians; then of a sine, and of products with a matrix and with the
+  /// vectors of the following frames.
   static Real error_of(const Joint<Real>& joint, const Real& period) {
     const auto of_phase = [&](const Real& frequency) {
       return Real(7 * (4 + 3 * magnitude<Real>(frequency * period)));
     };
-    // Of constant angles and phases as well, where they are more than the turn that this leaves for them.
+    // Constant angles and phases count, too, if they exceed the one turn that is included above.
     const auto of_turns = [](const Real& turns) {
       const Real size = magnitude(turns);
       return size > 1 ? Real(14 * size) : Real(0);
@@ -144,7 +145,7 @@ struct ChainBounds {
   }
 };
 
-/// Bounds over a box on the distance from an axis through the origin, and along it.
+/// Bounds over a box on the coordinate along an axis through the origin, and on the distance from this axis.
 template <class Real>
 Real bound_along(const Vec3<Real>& axis, const Vec3<Real>& middle, const Vec3<Real>& half) {
   return magnitude<Real>(dot<Real>(axis, middle)) + dot<Real>(axis.cwiseAbs(), half);
@@ -181,7 +182,7 @@ SweptBox<Real> swept_box(const Joints<Real>& joints, const Vec3<Real>& sizes) {
     }
     const Vec3<Real> middle = (box.low + box.high) / Real(2), half = (box.high - box.low) / Real(2);
     const Real farthest = norm<Real>(Vec3<Real>(middle.cwiseAbs() + half));
-    // By the constant angle, and by the most that the swings add; or all around.
+    // Rotated by the constant angle, and by at most the sum of the swings; or by a full turn.
     const auto angle = numerics::sin_cos_turns<Real>(joint->angle);
     const Real more = joint->speed == 0 ? Real(2 * numerics::pi<Real>() * swing * farthest) : 2 * farthest;
     Vec3<Real> reach = Vec3<Real>::Constant(more);
@@ -190,7 +191,7 @@ SweptBox<Real> swept_box(const Joints<Real>& joints, const Vec3<Real>& sizes) {
       reach += turned_about<Real>(unit, axis, angle).cwiseAbs() * half[k];
     }
     const Vec3<Real> centre = turned_about<Real>(middle, axis, angle);
-    // What is at a height along the axis stays there, and what is at a distance from it keeps that.
+    // A rotation preserves the coordinate along its axis and the distance from it.
     for (int k = 0; k < 3; ++k) {
       const Real height = magnitude<Real>(axis[k]) * bound_along(axis, middle, half);
       const Real away = sqrt(magnitude<Real>(1 - axis[k] * axis[k])) * bound_across(axis, middle, half);
@@ -205,7 +206,7 @@ SweptBox<Real> swept_box(const Joints<Real>& joints, const Vec3<Real>& sizes) {
   return {box.low - margin, box.high + margin};
 }
 
-/// Where the vessel frame is and how it moves, in inertial coordinates.
+/// Position, orientation and motion of the vessel frame, in inertial coordinates.
 template <class Real>
 struct ChainPose {
   Vec3<Real> x, y, z;                         ///< axes of the vessel frame
@@ -215,8 +216,9 @@ struct ChainPose {
   void archive(Archive& a) { a(x, y, z, centre, velocity, acceleration, omega, omega_rate); }
 };
 
-/// Each joint moves the frame of what is behind it, from the ground to the vessel. Speeds of joints need not
-/// have a common period: whole drive periods of the clock are taken off each phase exactly.
+/// Motion of a vessel on a chain of joints, from the ground to the vessel; each joint moves all frames that
+/// follow it. The speeds of joints need not have a common period: whole drive periods of the clock are
+/// subtracted from each phase exactly.
 template <class Real>
 class ChainMotion {
  public:
@@ -228,7 +230,7 @@ class ChainMotion {
       : joints_(with_frequencies(joints)),
         bounds_(joints_, ChainBounds<Real>::Speeds::summed),
         terms_(joints_, ChainBounds<Real>::Speeds::apart) {
-    // Of the joints so far; terms that vanish in every pose are left out.
+    // State of the chain up to each joint, by which terms that vanish in every pose are omitted.
     bool level = true, turned = false, uneven = false;
     int common = -1;  // the one axis that all rotations are about
     for (const auto& joint : joints_.list) {
@@ -268,11 +270,11 @@ class ChainMotion {
   const Real& period() const { return joints_.period; }  ///< of the clock [s]
 
   Pose pose(const Instant<Real>& when) const { return made<true>(when); }
-  /// Made anew: the rates would need derivatives beyond those of the pose.
+  /// Computed without the known pose, whose rates would need derivatives beyond those that it has.
   Pose pose_nearby(const Instant<Real>& when, const Pose&, const Instant<Real>&) const { return pose(when); }
-  /// `position_in_vessel` at the pose of an instant of the same period as `known`, whose pose is given. With
-  /// R and C the orientation and the centre, R' = [w] R and R'' = [w'] R + [w]^2 R: within a moment their
-  /// Taylor polynomials are as sharp as the scalar.
+  /// `position_in_vessel` at an instant of the same period as `known`, from the pose at `known`. With R and C
+  /// the orientation and the centre, R' = [w] R and R'' = [w'] R + [w]^2 R: for at most `moment_` their
+  /// Taylor polynomials are as accurate as the scalar.
   Vec3<Real> position_nearby(const Instant<Real>& when, const Pose& pose_known, const Instant<Real>& known,
                              const Vec3<Real>& position) const {
     const Real dt = when.offset - known.offset;
@@ -359,7 +361,7 @@ class ChainMotion {
   Real acceleration_in_vessel(const FlightBounds<Real>& f) const {
     return acceleration_in_vessel(bounds_, f);
   }
-  /// The flight's position and velocity, and all parts of the pose as ChainBounds counts them.
+  /// Errors of the flight's position and velocity, and of all parts of the pose by ChainBounds::errors.
   ErrorBounds<Real> coordinate_errors(const Real& u, const FlightBounds<Real>& f) const {
     const Real fallen = f.gravity * f.elapsed;
     const Real position = 12 * f.reach + 8 * (fallen * f.elapsed) + 2 * (f.speed * (f.elapsed + 3 * f.lag));
@@ -384,11 +386,11 @@ class ChainMotion {
     Swings<Real> swings;
     numerics::SinCos<Real> fixed;  ///< of the constant angle
     bool moves;
-    // What the joints before do:
-    bool level;     ///< none rotates: the axes are those of the ground
-    bool turned;    ///< there is an angular velocity
-    bool parallel;  ///< which has the direction of this axis
-    bool uneven;    ///< which changes
+    // Effect of the preceding joints:
+    bool level;     ///< none of them rotates: the axes are those of the ground
+    bool turned;    ///< the frame has an angular velocity
+    bool parallel;  ///< the angular velocity is along this axis
+    bool uneven;    ///< the angular velocity varies
   };
 
   template <bool with_rates>
@@ -403,8 +405,8 @@ class ChainMotion {
     }
     return p;
   }
-  /// What a joint turns in a drive period is exact, its frequency rounded: so the pose at the end of a period
-  /// is that at the begin of the next in every scalar that the mill is passed to.
+  /// Computes frequencies from the turns per drive period, which are exact, so that the pose at the end of a
+  /// period is that at the begin of the next in every scalar.
   static Joints<Real> with_frequencies(Joints<Real> joints) {
     for (auto& joint : joints.list) {
       if (joint.rotates) joint.speed = joint.per_period.template value<Real>() / joints.period;
@@ -506,8 +508,9 @@ class ChainMotion {
   }
   static Vec3<Real>& column(Pose& p, int k) { return k == 0 ? p.x : k == 1 ? p.y : p.z; }
 
-  /// How long [s] the Taylor polynomials of second order leave less than a quarter of u of a turn and of the
-  /// centre's distance: a fraction of the period by a power of two, the same on every machine.
+  /// Longest interval [s] for which the Taylor polynomials of second order have an error below u/4 of a turn
+  /// and of the centre's distance. It is the period over a power of two, so that it is the same on every
+  /// machine.
   Hint<Real> moment() const {
     const auto& w = bounds_.turning;
     const auto& b = bounds_.acceleration;

@@ -1,5 +1,5 @@
-// The joints of a chain, as a case gives them, and harmonic functions of time whose phases stay as sharp as
-// at the start.
+// The joints of a chain, as a case gives them, and harmonic functions of time whose phases stay as accurate
+// as at the start.
 #pragma once
 
 #include <algorithm>
@@ -16,19 +16,19 @@
 
 namespace edmill::model {
 
-/// A share of a turn as a binary fraction of 1024 bits, or more where a scalar needs them. What many drive
-/// periods turn is reduced to less than a turn by whole numbers, so that a phase is as sharp after 1e9
-/// periods as in the first one.
+/// A fraction of a turn as a binary fraction of 1024 bits, or more if a scalar needs them. The angle after
+/// many drive periods is reduced to less than a turn in integer arithmetic, so that a phase is as accurate
+/// after 1e9 periods as in the first one.
 struct TurnFraction {
   static constexpr std::size_t words = 16;
   /// The most significant word first; [0, 1) turns.
   std::vector<std::uint64_t> bits = std::vector<std::uint64_t>(words);
-  std::int64_t whole = 0;  ///< turns beside them
+  std::int64_t whole = 0;  ///< whole turns, to be added
 
-  /// Words that `times` takes for a scalar of so many binary digits.
+  /// Number of words that `times` uses for a scalar with this many binary digits.
   static constexpr std::size_t words_for(int digits) { return static_cast<std::size_t>(digits) / 64 + 2; }
 
-  /// All turns, rounded.
+  /// Whole turns and fraction, rounded to the scalar.
   template <class Real>
   Real value() const {
     Real sum(0);
@@ -36,8 +36,8 @@ struct TurnFraction {
     return Real(whole) + sum;
   }
 
-  /// What `count` times the fraction leaves over whole turns, from -1/2 to 1/2. Error: the rounding of the
-  /// result, and |count| units of a bit that is 64 places and more beyond those of the scalar.
+  /// `count` times the fraction, reduced by whole turns to -1/2 to 1/2. Error: the rounding of the result,
+  /// and |count| units of a bit at least 64 places below the last of the scalar.
   template <class Real>
   Real times(std::int64_t count) const {
     if constexpr (std::numeric_limits<Real>::digits > 0) {
@@ -99,7 +99,7 @@ std::vector<Swing<To>> converted_swings(const std::vector<Swing<From>>& from, co
   return to;
 }
 
-/// Constant speed: whole periods of the clock are taken off its phase exactly.
+/// Rotation at constant speed; whole periods of the clock are subtracted from its phase exactly.
 template <class Real>
 struct Drive {
   Real frequency{0};  ///< [1/s]
@@ -153,7 +153,7 @@ class Swings {
   std::vector<Driven> list_;
 };
 
-/// Turns what comes behind it about an axis, or shifts it.
+/// One joint of a chain: it rotates all that follows it about an axis, or translates it.
 template <class Number>
 struct Joint {
   bool rotates = true;
@@ -165,12 +165,12 @@ struct Joint {
   std::vector<Swing<Number>> swings{};  ///< along the axis, or about it
 };
 
-/// From the ground to the vessel, and the period of the clock.
+/// A chain of joints from the ground to the vessel, and the period of the clock.
 template <class Number>
 struct Joints {
   std::vector<Joint<Number>> list;
   Number period{};  ///< [s]
-  /// First and last of the run: translations at constant speed are bounded between them [s].
+  /// Start and end of the run [s], between which translations at constant speed are bounded.
   std::array<Number, 2> times{};
 };
 

@@ -140,7 +140,7 @@ inline constexpr Parameter spex_speed{"speed", Dimension::angular_speed, "of the
                                       "1098 rpm"};
 inline constexpr Parameter no_angle{nullptr, Dimension::angle, "", Range::any, "0 rad"};
 
-/// Each of these mills has `keys` for the four.
+/// The parameters of SPEX mills. Each of these mills defines `keys` for the four.
 template <class Number>
 struct SpexSizes {
   Number arm, theta_max, gamma_max, period;

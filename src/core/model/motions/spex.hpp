@@ -202,24 +202,24 @@ class SpexMotion {
     return centre_acceleration + cross<Real>(omega_rate, d) + cross<Real>(omega, turning);
   }
 
-  /// Bound on the sum of both angles [rad].
+  /// Upper bound on the sum of both angles [rad].
   Real angles() const { return theta_max_ + gamma_max_; }
   /// Bound on the vessel's angular speed [rad/s].
   const Real& turning() const { return turning_; }
   Vec3<Real> middle() const { return {Real(0), arm_, Real(0)}; }
-  /// Distance from the origin of what is within `vessel_reach` of the vessel's centre, at most [m].
+  /// Upper bound on the distance from the origin of points within `vessel_reach` of the vessel's centre [m].
   Real reach(const Real& vessel_reach) const { return arm_ + vessel_reach; }
-  /// No point of a vessel whose points are within `vessel_reach` of its centre is faster [m/s].
+  /// Upper bound on the speed of points of the vessel within `vessel_reach` of its centre [m/s].
   Real wall_speed(const Real& vessel_reach) const {
     const Real from_fulcrum = arm_ + vessel_reach;
     return angular_speed_ * (theta_max_ * from_fulcrum + gamma_max_ * (from_fulcrum - arm_));
   }
-  /// No point of the vessel that is within `distance` of the origin is faster [m/s].
+  /// Upper bound on the speed of points of the vessel within `distance` of the origin [m/s].
   Real speed_within(const Real& distance) const { return turning() * distance; }
-  /// What its acceleration is like at most [m/s^2].
+  /// Upper bound on the acceleration of points of the vessel within `distance` of the origin [m/s^2].
   Real acceleration_within(const Real& distance) const { return turning() * angular_speed_ * distance; }
-  /// Longest window [s] that `coordinate_bounds` serves: an eighth of a period, or a quarter of a turn's
-  /// time.
+  /// Longest window [s] for which `coordinate_bounds` is valid: an eighth of a period, or the time of a
+  /// quarter of a radian at the largest angular speed.
   Real longest_window() const {
     const Real quarter = turning() > 0 ? Real(1 / (4 * turning())) : period_;
     return period_ / 8 < quarter ? Real(period_ / 8) : quarter;
@@ -234,8 +234,8 @@ class SpexMotion {
     const Real nearest = arm_ * (1 - swing * swing) - along;
     return {{-sideways, nearest, Real(-upright)}, {sideways, Real(arm_ + along), upright}};
   }
-  /// For a ball whose speed stays below `speed` [m/s] over a window of `length` [s] that it enters inside a
-  /// vessel of these sizes. Derivation: docs/theory.md, section 3.
+  /// Bounds for a ball whose speed stays below `speed` [m/s] over a window of `length` [s] that it enters
+  /// inside a vessel of these sizes. Derivation: docs/theory.md, section 3.
   CoordinateBounds<Real> coordinate_bounds(const Vec3<Real>& sizes, const Real& vessel_reach,
                                            const Real& gravity, const Real& speed, const Real& length) const {
     const Real& w = angular_speed_;
@@ -287,11 +287,11 @@ class SpexMotion {
   Real acceleration_in_vessel(const FlightBounds<Real>& f) const {
     return f.gravity + 4 * turning() * f.speed + 2 * turning() * (angular_speed_ + 2 * turning()) * f.reach;
   }
-  /// Rounding of a coordinate in the vessel frame. The constants are counted in docs/theory.md, section 4; a
-  /// test compares them with measured errors.
+  /// Bounds on the rounding of a coordinate in the vessel frame. The constants are derived in docs/theory.md,
+  /// section 4; a test compares them with measured errors.
   /// @param u  half the distance from 1 to the next number
   ErrorBounds<Real> coordinate_errors(const Real& u, const FlightBounds<Real>& f) const {
-    const Real angle = 10 + 16 * angles();  // ulps of 1 that the pose and the products leave
+    const Real angle = 10 + 16 * angles();  // error of the pose and the products, in ulps of 1
     const Real time = f.elapsed + 3 * f.lag;
     const Real position = 6 * f.reach + 4 * (f.gravity * f.elapsed * f.elapsed) + f.speed * time;
     const Real y = u * (angle * f.reach + 2 * position);
@@ -301,8 +301,8 @@ class SpexMotion {
                           2 * turning() * (angular_speed_ + turning()) * y;
     return {y, y_rate, y_second};
   }
-  /// What rounding a wider flight and motion to this scalar adds to these bounds, at offsets that are the
-  /// same numbers in both. Derivation: docs/theory.md, section 4.
+  /// Additional errors from rounding a wider flight and motion to this scalar, at offsets that are the same
+  /// numbers in both. Derivation: docs/theory.md, section 4.
   ErrorBounds<Real> state_errors(const Real& u, const FlightBounds<Real>& f) const {
     const Real angle = 9 * angles();
     const Real time = period_ + f.lag;  // ulps of 1 s that the start and the whole periods leave

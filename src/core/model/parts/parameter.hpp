@@ -1,4 +1,4 @@
-// What a case file and a reader need to know of one of its keys.
+// Description of a key of case files, for the parser and for readers.
 #pragma once
 
 #include <vector>
@@ -27,24 +27,24 @@ struct Range {
   friend constexpr bool operator==(const Range& range, Kind kind) { return range.kind == kind; }
 };
 
-/// A key of a case file that gives one member of a struct: a quantity, three along the axes, a count, a flag,
-/// a text, a colour or a table with keys of its own, as the member's type says. Every struct that a file
-/// gives lists its keys; reading, range, reference and digest follow.
+/// A key of a case file that sets one member of a struct: a quantity, three along the axes, a count, a flag,
+/// a text, a colour or a table with keys of its own, depending on the member's type. Every struct that is
+/// read from a file lists its keys; parsing, range checks, reference and digest are derived from this list.
 struct Parameter {
-  const char* key;  ///< "*" where names are the user's; null for a constant, which a file does not give
+  const char* key;  ///< "*" if users choose the names; null for a constant that cannot be set in a file
   Dimension dimension = Dimension::none;
   const char* meaning;
   Range range = Range::any;
-  const char* fallback = nullptr;   ///< as in a file
-  const char* otherwise = nullptr;  ///< what holds without the key, for readers, where it is no value
+  const char* fallback = nullptr;   ///< default value, as in a file
+  const char* otherwise = nullptr;  ///< description of the default, for readers, if it is not a value
   enum class Digest {
     value,  ///< the value alone, always
-    named,  ///< key and value where it is not the default: what 1.0 did not have keeps the digests of its
-            ///< cases
+    named,  ///< key and value unless it is the default, so that a key that 1.0 did not have leaves the
+            ///< digests of its cases unchanged
     none    ///< a run does not depend on it
   } digest = Digest::value;
-  const char* kind = nullptr;  ///< what it takes, for readers, where the member's type does not say it
-  const char* of = nullptr;    ///< the types that alone have it, for readers; null for all
+  const char* kind = nullptr;  ///< the kind of value, for readers, if the member's type does not imply it
+  const char* of = nullptr;    ///< the only types that have this key, for readers; null for all
 
   constexpr Parameter(const char* name, Dimension quantity, const char* text, Range values = Range::any,
                       const char* usual = nullptr, const char* else_true = nullptr,
@@ -56,13 +56,13 @@ struct Parameter {
         fallback(usual),
         otherwise(else_true),
         digest(use) {}
-  /// What has no dimension: a number, or no number.
+  /// A parameter without a dimension, numeric or not.
   constexpr Parameter(const char* name, const char* text, Range values = Range::any,
                       const char* usual = nullptr, const char* else_true = nullptr,
                       Digest use = Digest::value)
       : Parameter(name, Dimension::none, text, values, usual, else_true, use) {}
 
-  /// With another value of a member.
+  /// A copy with another value of one member.
   template <class Value>
   constexpr Parameter with(Value Parameter::*member, Value value) const {
     Parameter p = *this;
@@ -72,7 +72,7 @@ struct Parameter {
   constexpr Parameter as(const char* kind_for_readers) const {
     return with(&Parameter::kind, kind_for_readers);
   }
-  /// @param default_for_readers  what is true without the key
+  /// @param default_for_readers  description of the default
   constexpr Parameter usually(const char* default_for_readers) const {
     return with(&Parameter::otherwise, default_for_readers);
   }
@@ -90,9 +90,9 @@ void for_each_number(auto& value, const auto& use) {
   }
 }
 
-/// The part with each number converted. A part lists its parameters by
-/// `parameters(part, visit)`, which calls visit(parameter, number) or visit(parameter, three numbers) for
-/// each. A part with lists takes their lengths by `take_shape(from)`.
+/// Converts each number of a part. A part lists its parameters with `parameters(part, visit)`, which calls
+/// visit(parameter, number) or visit(parameter, three numbers) for each. A part that contains lists copies
+/// their lengths with `take_shape(from)`.
 template <template <class> class Part, class To, class From, class Convert>
 Part<To> converted(const Part<From>& from, const Convert& convert) {
   std::vector<To> values;

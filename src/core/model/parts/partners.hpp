@@ -1,4 +1,4 @@
-// What a ball can collide with, as tables count it: the walls by id, then other balls.
+// Collision partners of a ball, in the order of tables: the walls by id, then other balls.
 #pragma once
 
 #include <string>
@@ -22,7 +22,7 @@ inline std::vector<WallInfo> numbered_walls(int count, const std::string& meanin
 struct PartnerInfo {
   std::string key;      ///< in files: "wall_0"
   std::string label;    ///< for readers: "cap -y"
-  std::string meaning;  ///< of what counts its impacts: "with wall 0, the cap at -y"
+  std::string meaning;  ///< of a column for its impacts: "with wall 0, the cap at -y"
 };
 
 /// The key of a partner by its place.
@@ -30,7 +30,7 @@ inline std::string partner_key(int place, int walls) {
   return place < walls ? "wall_" + std::to_string(place) : "ball_ball";
 }
 
-/// By place: the walls of a vessel by id; other balls are always the last.
+/// All partners in order: the walls of a vessel by id; other balls are always the last.
 class Partners {
  public:
   Partners() : Partners(std::vector<WallInfo>{}) {}

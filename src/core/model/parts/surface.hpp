@@ -14,7 +14,7 @@
 
 namespace edmill::model {
 
-/// What a coordinate on a wall measures; columns of tables come in this order.
+/// The quantities that coordinates on walls measure, in the order of columns in tables.
 enum class Coordinate { angle, height, radius, u, v };
 
 struct CoordinateInfo {
@@ -31,13 +31,14 @@ constexpr const CoordinateInfo& info_of(Coordinate c) {
   return coordinate_infos[static_cast<std::size_t>(c)];
 }
 
-/// A place on a wall, by shares of its area from 0 to 1: equal parts of u and of v are equal areas.
+/// A position on a wall in coordinates from 0 to 1 that preserve area: equal parts of u and of v have equal
+/// areas.
 template <class Real>
 struct WallPlace {
   Real u, v;
 };
 
-/// Sides of a polygon that stands for a circle in pictures.
+/// Number of sides of the polygon that approximates a circle in pictures.
 inline constexpr int picture_sides = 48;
 
 /// Flat faces with corners among `points`, for pictures.
@@ -76,7 +77,7 @@ Real turns(const Real& x, const Real& z) {
 }
 
 /// A surface of revolution about the y axis of its frame: u along the angle from x to z, v along its profile.
-/// Own has `ring(v)`, and its inverse `share(d)` of a place in the frame.
+/// Own provides `ring(v)` and its inverse, `share(d)`, for a position d in the frame.
 template <class Real, class Own>
 struct Revolved {
   static constexpr std::array coordinates{Coordinate::angle, Coordinate::height};
@@ -97,7 +98,7 @@ struct Revolved {
     const auto [radius, height] = own().ring(Real(k) / Real(n));
     return Own::coordinates[1] == Coordinate::radius ? radius : frame.outside({Real(0), height, Real(0)})[1];
   }
-  /// At equal parts of v.
+  /// Rings at equal steps of v.
   Rings<Real> rings() const {
     Rings<Real> rings;
     for (int part = 0; part <= Own::parts; ++part) rings.push_back(circle(Real(part) / Real(Own::parts)));
@@ -282,7 +283,7 @@ class WallSurface {
   WallSurface(const Surface& surface) : kind_(surface) {}
 
   const Kind& kind() const { return kind_; }
-  /// Walls of this kind, for readers.
+  /// Name of this kind of walls, for readers.
   const char* name() const {
     return visit([](const auto& s) { return s.name; });
   }
@@ -290,7 +291,7 @@ class WallSurface {
   std::array<Coordinate, 2> coordinates() const {
     return visit([](const auto& s) { return s.coordinates; });
   }
-  /// Where a point of the wall is [m]; rounding may put it a little outside.
+  /// The coordinates of a point p [m] of the wall; rounding may put them a little outside of 0 to 1.
   WallPlace<Real> map(const Vec3<Real>& p) const {
     return visit([&](const auto& s) { return s.map(p); });
   }
@@ -302,7 +303,7 @@ class WallSurface {
   Real area() const {
     return visit([](const auto& s) { return s.area(); });
   }
-  /// Where the k-th of n equal parts begins, in the unit of the coordinate.
+  /// Begin of the k-th of n equal parts, in the unit of the coordinate.
   /// @param axis  0 along u, 1 along v
   Real edge(int axis, std::size_t k, std::size_t n) const {
     return visit([&](const auto& s) { return s.edge(axis, k, n); });

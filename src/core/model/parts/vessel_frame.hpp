@@ -1,4 +1,4 @@
-// What a search has to know of motions and vessels about a ball in the vessel frame.
+// Bounds and states of a ball in the vessel frame, shared by motions, vessels and searches.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ using Majorant = std::array<Real, 5>;
 inline constexpr int binomial[5][5] = {
     {1, 0, 0, 0, 0}, {1, 1, 0, 0, 0}, {1, 2, 1, 0, 0}, {1, 3, 3, 1, 0}, {1, 4, 6, 4, 1}};
 
-/// k-th derivative of a product a^(shift) * b^(shift_b), from bounds on a and b. (Leibniz)
+/// Bound on the k-th derivative of the product a^(shift) * b^(shift_b), from bounds on a and b. (Leibniz)
 template <class A, class B>
 typename A::value_type product_bound(const A& a, int shift, const B& b, int k, int shift_b = 0) {
   typename A::value_type sum{0};
@@ -47,13 +47,13 @@ struct CoordinateBounds {
   Majorant<Real> x, y, z;
 };
 
-/// Bounds on what rounding does to a function of time and to its first two derivatives.
+/// Bounds on the rounding errors of a function of time and of its first two derivatives.
 template <class Real>
 struct ErrorBounds {
   Real value, rate, second;
 };
 
-/// What bounds the rounding of a flight's coordinates.
+/// Bounds on a flight, from which bounds on the rounding of its coordinates follow.
 template <class Real>
 struct FlightBounds {
   Real reach;                                    ///< of the flight from the origin at most [m]

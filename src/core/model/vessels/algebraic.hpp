@@ -48,7 +48,7 @@ struct AlgebraicForm {
     for (const auto& t : terms) sum += product(t.factor, t.powers, p, r);
     return sum;
   }
-  /// At most, where no coordinate is larger than these.
+  /// Bound on the absolute value where no coordinate is larger than these.
   Real size(const Vec3<Real>& sizes, const Real& r) const {
     Real sum(0);
     for (const auto& t : terms) sum += product(magnitude(t.factor), t.powers, sizes, r);
@@ -63,8 +63,8 @@ struct AlgebraicForm {
   }
 };
 
-/// Wall k is where the k-th polynomial is zero; it is the gap, which need not be a length. The ball's radius
-/// is one of its variables, so that an inset only changes that.
+/// A vessel whose wall k is where the k-th polynomial is zero. The polynomial is the gap, which need not be a
+/// length. The ball's radius is one of its variables, so that an inset only changes the radius.
 template <class Real>
 class AlgebraicVessel {
  public:
@@ -122,7 +122,7 @@ class AlgebraicVessel {
   Real reach() const { return norm<Real>(half_sizes()); }
   Real extent() const { return half_sizes().sum(); }
   Vec3<Real> half_sizes() const { return shape_->half_sizes - Vec3<Real>(radius_, radius_, radius_); }
-  /// To about a thousandth.
+  /// Accurate to about a thousandth.
   Real volume() const { return shape_->volume; }
   Real widest_ball() const { return shape_->widest - 2 * radius_; }
   AlgebraicVessel inset(const Real& by) const { return AlgebraicVessel(shape_, radius_ + by); }
@@ -179,8 +179,8 @@ class AlgebraicVessel {
     });
   }
   static constexpr bool is_flat(int) { return false; }
-  /// The error of a coordinate through the derivatives by it, and a rounding for each product and sum; one
-  /// part in sixteen is for the squares of errors.
+  /// Error of a coordinate, propagated by the derivatives, and a rounding for each product and sum; a margin
+  /// of one part in sixteen covers the squares of errors.
   ErrorBounds<Real> curved_errors(int index, const ErrorBounds<Real>& y, const Real& u,
                                   const Real& frame_speed, const Real& acceleration,
                                   const Real& beyond) const {
@@ -231,7 +231,7 @@ class AlgebraicVessel {
         for (const auto& form : row) sum += form.size(sizes, r);
       return sum;
     }
-    /// The sum of all third derivatives at most.
+    /// Bound on the sum of all third derivatives.
     Real third(const Real& size, const Real& r) const {
       Real sum(0);
       for (const auto& t : gap.terms) {
@@ -255,8 +255,9 @@ class AlgebraicVessel {
   AlgebraicVessel(std::shared_ptr<const Shape> shape, const Real& radius)
       : shape_(std::move(shape)), radius_(radius) {}
 
-  /// The radius of the ball about p that touches the wall, by Newton's method: inside, the gap falls with the
-  /// radius, and less and less. Where it rises the ball is larger than the vessel is wide there.
+  /// The radius of the ball about p that touches the wall, by Newton's method: inside, the gap decreases with
+  /// the radius, and more and more slowly. Where it increases, the ball is larger than the vessel is wide
+  /// there.
   Real touching(int index, const Vec3<Real>& p) const {
     const auto& wall = of(index);
     const Real sharp = 8 * epsilon<Real>() * shape_->half_sizes.maxCoeff();
@@ -278,14 +279,14 @@ class AlgebraicVessel {
     return values;
   }
 
-  /// Whether the centre of a ball of this radius may be here. Beyond the ball that touches, a square such as
-  /// (R - r)^2 - x^2 - z^2 becomes positive again; there it rises with the radius.
+  /// True if the centre of a ball of this radius can be at p. For a much larger ball, a gap such as (R - r)^2
+  /// - x^2 - z^2 becomes positive again, but there it increases with the radius.
   bool has_room(const Vec3<Real>& p, const Real& r) const {
     return std::all_of(shape_->walls.begin(), shape_->walls.end(), [&](const Wall& wall) {
       return wall.gap.at(p, r) >= 0 && wall.by_radius.at(p, r) < 0;
     });
   }
-  /// Whether a face of the box has a place of the vessel, by a lattice.
+  /// True if the vessel reaches a face of the box, tested on a lattice of points.
   bool reaches_out() const {
     constexpr int steps = 24;
     const auto& half = shape_->half_sizes;
@@ -312,7 +313,8 @@ class AlgebraicVessel {
     }
     return low;
   }
-  /// Diameter of the largest ball, by a walk uphill from the best place of a lattice, and volume, by count.
+  /// Diameter of the largest ball, by hill climbing from the best point of a lattice, and volume, by counting
+  /// points.
   std::pair<Real, Real> measures() const {
     constexpr int steps = 48;
     const auto& half = shape_->half_sizes;

@@ -10,7 +10,7 @@
 
 namespace edmill::model {
 
-/// How far a wall stands inward of its place in the vessel: distance + speed t + swings.
+/// Inward displacement of a wall from its place in the vessel: distance + speed t + swings.
 template <class Number>
 struct Piston {
   int wall;         ///< id
@@ -52,14 +52,14 @@ class Pistons {
     moved.rate += piston.speed;
     return moved;
   }
-  /// That of a wall, which may stand still.
+  /// Displacement of a wall and its derivatives; zero if the wall has no piston.
   Moved<Real> of_wall(int wall, const Instant<Real>& when) const {
     for (std::size_t k = 0; k < given_.size(); ++k)
       if (given_[k].wall == wall) return at(k, when);
     return {};
   }
 
-  /// No piston's n-th derivative is larger, n from 1 to 4 [m/s^n].
+  /// Upper bound on the n-th derivative of any piston, n from 1 to 4 [m/s^n].
   Real bound(int n) const {
     Real most(0);
     for (const auto& piston : given_) {
@@ -73,7 +73,7 @@ class Pistons {
     }
     return most * (1 + rounding_margin<Real>());
   }
-  /// The derivative bounds serve windows of at most this length [s]: a quarter of a radian of each swing.
+  /// Longest window [s] for which the derivative bounds are valid: a quarter of a radian of each swing.
   Real longest_window() const {
     Real longest = period_;
     for (const auto& piston : given_)
@@ -83,8 +83,8 @@ class Pistons {
       }
     return longest;
   }
-  /// What rounding does to a displacement and its derivatives at most, that of the case's numbers included.
-  /// A piston stays in the vessel, so that speed t is below |distance| + extent.
+  /// Bounds on the rounding errors of a displacement and its derivatives, including those of the case's
+  /// numbers. A piston stays in the vessel, so that speed t is below |distance| + extent.
   /// @param extent  of the vessel, beyond half of which no piston goes [m]
   ErrorBounds<Real> errors(std::size_t k, const Real& u, const Real& extent) const {
     const auto& piston = given_[k];
@@ -107,7 +107,7 @@ class Pistons {
   std::vector<Swings<Real>> swings_;
 };
 
-/// Those of a vessel that may have pistons; else null.
+/// The pistons of a vessel; null if it cannot have any.
 template <class V>
 const Pistons<typename V::Scalar>* pistons_of(const V& vessel) {
   if constexpr (requires { vessel.pistons(); })

@@ -32,12 +32,12 @@ class PolyhedronVessel {
     Real distance;      ///< d > 0, of the plane from the origin [m]
   };
 
-  /// What was found and what was expected, of planes that are no vessel.
+  /// Why planes do not form a vessel: what was found, and what was expected.
   struct Problem {
     std::string found, expected;
   };
 
-  /// @throws InputError when the planes do not close a vessel about the origin, or one is no wall of it
+  /// @throws InputError when the planes do not close a vessel about the origin, or one is not a wall of it
   explicit PolyhedronVessel(const std::vector<Plane>& planes) {
     if (const auto problem = fill(planes))
       throw InputError("vessel: found " + problem->found + ", expected " + problem->expected);
@@ -76,7 +76,8 @@ class PolyhedronVessel {
     for (auto& plane : smaller.planes_) plane.distance -= by;
     return smaller;
   }
-  /// A closed room that is not empty has a corner. Where planes moved inwards, the origin may be outside.
+  /// True if there are no corners: a closed, non-empty vessel has some. Testing the origin would not suffice,
+  /// since it may be outside after an inset.
   bool is_empty() const {
     const auto faces = make_faces();
     return std::all_of(faces.begin(), faces.end(), [](const Polygon& face) { return face.empty(); });
@@ -120,8 +121,8 @@ class PolyhedronVessel {
     return bounds;
   }
   static bool is_flat(int) { return false; }
-  /// The sum over three coordinates of one error each, a rounding for each product and sum, and that of the
-  /// normal to a unit vector of the scalar.
+  /// Errors of the three coordinates, a rounding for each product and sum, and that of normalising the
+  /// normal.
   ErrorBounds<Real> curved_errors(int wall, const ErrorBounds<Real>& coordinate, const Real& u,
                                   const Real& frame_speed, const Real& acceleration,
                                   const Real& beyond) const {
@@ -208,7 +209,7 @@ class PolyhedronVessel {
     for (const auto& plane : planes_) largest = plane.distance > largest ? plane.distance : largest;
     return largest;
   }
-  /// Once, where more than three planes meet.
+  /// Adds a corner unless it is known already, as where more than three planes meet.
   void add_corner(Polygon& face, const Vec3<Real>& p) const {
     for (const auto& known : face)
       if (norm<Real>(Vec3<Real>(known - p)) * 100000000 < size()) return;
@@ -231,7 +232,7 @@ class PolyhedronVessel {
       sum += cross<Real>(Vec3<Real>(face[k] - face[0]), Vec3<Real>(face[k + 1] - face[0]));
     return norm<Real>(sum) / 2;
   }
-  /// Whether a direction leads to no plane: it would be an edge's.
+  /// True if there is a direction that meets no plane; the directions of the edges suffice for the test.
   bool is_open() const {
     for (const auto& a : planes_)
       for (const auto& b : planes_) {

@@ -16,12 +16,13 @@
 
 namespace edmill::model {
 
-/// All points within `rounding` of a core: a cylinder about y of radius a and half height b, a segment when a
-/// is zero. The surface is smooth, but each gap function is that of one wall, and holds in the region of the
-/// places whose nearest point of the core is on that part of it. A search watches the walls of the region
-/// where a ball is, and the borders of the region, which are functions after those of the walls. A border is
-/// a little beyond the plane or cylinder between two regions, where the two gap functions differ by less than
-/// their rounding: a ball that crosses it is well inside the next region. theory.md, section 2
+/// All points within `rounding` of a core: a cylinder about y of radius a and half height b, or a segment if
+/// a is zero. The surface is smooth, but each gap function belongs to one wall, and is valid in the region of
+/// the points whose nearest point of the core is on the corresponding part. A search considers the walls of
+/// the region that the ball is in, and the borders of the region, which are functions after those of the
+/// walls. A border is a little beyond the plane or cylinder between two regions, where the two gap functions
+/// differ by less than their rounding: a ball that crosses it is well inside the next region. theory.md,
+/// section 2
 template <class Real>
 class RoundedVessel {
  public:
@@ -39,7 +40,7 @@ class RoundedVessel {
   RoundedVessel(const Real& core_radius, const Real& core_half, const Real& edge_radius)
       : a_(core_radius), b_(core_half), rounding_(edge_radius) {
     using std::sqrt;
-    // Its square is far below the rounding of a gap's.
+    // The square of the slack is far below the rounding of a gap.
     slack_ = sqrt(epsilon<Real>()) * (a_ + b_ + rounding_) / 64;
   }
   template <class To>
@@ -90,8 +91,8 @@ class RoundedVessel {
   }
   Real widest_ball() const { return 2 * (a_ < b_ ? Real(a_ + rounding_) : Real(b_ + rounding_)); }
 
-  /// A ball that is no smaller than the rounding touches the caps and the cylinder only: the place of its
-  /// centre is a cylinder with sharp edges.
+  /// A ball no smaller than the rounding touches the caps and the cylinder only: the region of its centre is
+  /// a cylinder with sharp edges.
   RoundedVessel inset(const Real& by) const {
     if (is_sharp_ || !(by < rounding_)) return sharp(by);
     RoundedVessel smaller(*this);
@@ -174,7 +175,7 @@ class RoundedVessel {
     }
     return on;
   }
-  /// Whether the gap to this wall is the one that counts at p, to within its rounding.
+  /// True if the gap function of this wall is valid at p, to within its rounding.
   bool is_valid(int wall, const Vec3<Real>& p) const {
     if (is_sharp_) return true;
     const std::size_t border = static_cast<std::size_t>(wall_count());
@@ -182,7 +183,8 @@ class RoundedVessel {
       if (bounds_region(f - border, wall) && gap(static_cast<int>(f), p) < 0) return false;
     return true;
   }
-  /// How far a ball at p may move while the gaps of its region are smooth: not near the axis on an edge.
+  /// How far a ball at p may move while the gaps of its region are smooth [m]; empty if there is no limit.
+  /// The gap of an edge is not smooth near the axis.
   std::optional<Real> smooth_way(const Vec3<Real>& p) const {
     using std::sqrt;
     if (is_sharp_ || !(a_ > 0) || !(p[1] > b_ || p[1] < -b_)) return std::nullopt;
@@ -194,7 +196,7 @@ class RoundedVessel {
     auto near = active(p);
     const Real y = magnitude(p[1]);
     const std::size_t border = static_cast<std::size_t>(wall_count());
-    // Far inside: no wall of a core point that is farther than the way from all of the surface.
+    // Far inside: all of the surface is farther away than `way`.
     const Vec3<Real> d = from_core(p);
     const Real room = rounding_ - way;
     const bool far = !is_sharp_ && room > 0 && squared_norm<Real>(d) < room * room;
@@ -238,7 +240,8 @@ class RoundedVessel {
                 24 * u * (v * v + far * bend)};
   }
 
-  /// By the true distance: the normal does not depend on the gap function that found the contact.
+  /// Computed from the true distance, so that the normal does not depend on the gap function that found the
+  /// contact.
   Vec3<Real> normal(int wall, const Vec3<Real>& p) const {
     if (is_sharp_ && is_cap(wall)) return {Real(0), Real(wall == 3 ? 1 : -1), Real(0)};
     Vec3<Real> d = is_sharp_ ? Vec3<Real>(p[0], Real(0), p[2]) : from_core(p);
@@ -280,15 +283,15 @@ class RoundedVessel {
     return smaller;
   }
   bool is_cap(int f) const { return a_ > 0 && (f == 3 || f == 4); }
-  /// Sign with which a function of y alone grows with y, else 0; `across_y` is that of a function of the
-  /// distance from the axis.
+  /// Sign of the derivative of a function of y alone, otherwise 0; `across_y` is the sign of a function of
+  /// the distance from the axis.
   int along_y(int f) const {
     if (is_cap(f)) return f == 3 ? 1 : -1;
     constexpr std::array signs{-1, 1, 1, -1, 0, 0};
     return f < wall_count() ? 0 : signs[static_cast<std::size_t>(f - wall_count())];
   }
   int across_y(int f) const { return f == 2 || f == wall_count() + 4 ? -1 : 1; }
-  /// Whether the border is one of the region of the wall.
+  /// True if the border bounds the region of the wall.
   static bool bounds_region(std::size_t border, int wall) {
     constexpr std::array<std::array<bool, 6>, 5> of = {{{false, false, false, true, false, true},
                                                         {false, false, true, false, false, true},
@@ -301,7 +304,7 @@ class RoundedVessel {
     using std::sqrt;
     return a_ > 0 ? Real(sqrt(square)) : Real(0);
   }
-  /// From the nearest point of the core.
+  /// Vector from the nearest point of the core to p.
   Vec3<Real> from_core(const Vec3<Real>& p) const {
     using std::sqrt;
     const Real y = p[1] > b_ ? Real(p[1] - b_) : p[1] < -b_ ? Real(p[1] + b_) : Real(0);
@@ -311,8 +314,8 @@ class RoundedVessel {
     const Real rest = 1 - a_ / r;
     return {p[0] * rest, y, p[2] * rest};
   }
-  /// k-th derivative of r^2 - 2 a r + a^2 + (y - b)^2, where r >= a/2. The derivatives of r follow from those
-  /// of its square.
+  /// Bound on the k-th derivative of r^2 - 2 a r + a^2 + (y - b)^2, where r >= a/2. The derivatives of r
+  /// follow from those of its square.
   Real edge_bound(const CoordinateBounds<Real>& c, int k) const {
     using std::sqrt;
     const Real drift = c.x[0] - (a_ + rounding_);

@@ -17,7 +17,7 @@ inline int code_of(compare::Verdict verdict) {
   return verdict == Verdict::differ ? outputs_differ : verdict == Verdict::too_few ? too_few_data : ok;
 }
 
-/// What becomes of a judgement.
+/// Options of a command that judges, its output files and its exit code.
 class Judgement {
  public:
   void add_to(CLI::App& command, const char* meaning_of_quiet) {

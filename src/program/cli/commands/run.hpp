@@ -25,8 +25,8 @@
 
 namespace edmill::cli {
 
-/// Keeps a folder for a run whose digits are sought first: errors of the folder come before the search.
-/// Leaves none empty.
+/// Reserves the folder of a run before its number of digits is searched, so that errors of the folder are
+/// reported first. Removes folders that it has made and that are still empty.
 class ReservedFolder {
  public:
   ReservedFolder(const std::string& folder, bool saves, const casefile::CaseSpec& spec) {
@@ -126,7 +126,7 @@ class RunCommand {
     return plus_signal(code_of(result.end_reason));
   }
 
-  /// For runs that write nothing. @return what `work` finds in the case
+  /// Does trial runs, which write nothing, with a progress line. @return the result of `work`
   auto after_trials(const casefile::CaseSpec& spec, const auto& work) const {
     app::DigitsOptions options;
     options.interrupt = &interrupt_flag();
@@ -164,8 +164,8 @@ class RunCommand {
   }
 };
 
-/// Prints the outcome of a study. @return an exit code; `ok` after an interrupt too, whose signal the caller
-/// knows
+/// Prints the outcome of a study. @return an exit code; `ok` also after an interrupt, since the caller adds
+/// the signal
 inline int end_of_study(const std::optional<app::StudyResult>& result, bool quiet) {
   if (!result) return ok;
   if (!result->estimate.empty()) {

@@ -1,4 +1,4 @@
-// The commands that print the command line in other forms, made of what it knows itself.
+// The commands that print the manual page, the reference and the completion, generated from the command line.
 #pragma once
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@
 
 namespace edmill::cli {
 
-/// Text for troff: backslashes, hyphens and leading dots mean something there.
+/// Escapes text for troff, where backslashes, hyphens and leading dots have a meaning.
 inline std::string in_roff(const std::string& text) {
   std::string out;
   bool at_line_begin = true;
