@@ -19,7 +19,8 @@ class ApproachSpeeds : public edmill::Observer<double> {
     for (std::size_t k = 0; k < counts_.size(); ++k)
       std::printf("%4.1f m/s and more: %lu\n", width * static_cast<double>(k),
                   static_cast<unsigned long>(counts_[k]));
-    std::printf("%.3g mJ in an impact, on average\n", 1000 * energy_ / static_cast<double>(impacts_));
+    if (impacts_ > 0)
+      std::printf("%.3g mJ in an impact, on average\n", 1000 * energy_ / static_cast<double>(impacts_));
   }
 
  private:
@@ -40,7 +41,7 @@ int main(int argc, char** argv) {
     speeds.print();
     const auto summary = run.summary();
     std::printf("milling dose %.6g J in %.6g s\n", summary.milling_dose, run.time());
-  } catch (const edmill::Error& error) {
+  } catch (const std::exception& error) {
     return std::fprintf(stderr, "%s\n", error.what()), 2;
   }
 }

@@ -7,6 +7,10 @@ docs=$(cd "$(dirname "$0")/.." && pwd)
 folder=$(realpath -m "$1")
 manual=$(realpath -m "${2:-$folder.manual}")
 [ -n "${2:-}" ] || "$docs/sphinx/make.sh" "$manual" >/dev/null
+if [ -e "$folder" ] && [ -n "$(ls -A "$folder")" ] && [ ! -f "$folder/samples/report.html" ]; then
+  echo "$folder has other files: give a folder that is empty, or one that this script has made" >&2
+  exit 1
+fi
 rm -rf "$folder"
 mkdir -p "$folder/samples"
 cp -r "$manual/html" "$folder/manual"

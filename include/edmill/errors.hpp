@@ -8,7 +8,7 @@
 
 namespace edmill {
 
-/// Base class of all exceptions that edmill throws.
+/// Base class of the errors that edmill finds; failures of files are `std::runtime_error`s.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -22,7 +22,7 @@ let text = '';  // of the case
 /// As it is written in the field, with its unit.
 function written(field) {
   const value = $(field).value.trim();
-  return value === '' || !units[field] || /[a-z]/i.test(value) ? value : value + units[field];
+  return value === '' || !units[field] || /[a-df-z]/i.test(value) ? value : value + units[field];
 }
 
 /// What is not chosen stays as the case has it.
@@ -40,7 +40,7 @@ function choose(name) {
   $('case').value = name;
   text = cases[name] ?? '';
   for (const field of [...Object.keys(fields), 'vessel-kind']) $(field).value = '';
-  for (const field of of_machine) $(field).disabled = name in cases;
+  for (const field of of_machine) [$(field).value, $(field).disabled] = ['', name in cases];
   // Laws by materials go before those of all contacts.
   const by_materials = /^\s*\[\[\s*contact\.pair/m.test(text);
   for (const field of ['restitution', 'friction']) $(field).disabled = by_materials;
@@ -49,14 +49,14 @@ function choose(name) {
 
 /// What the run has where nothing is chosen.
 function show_values(values) {
-  for (const [field, key] of Object.entries(fields)) $(field).placeholder = values[key] ?? '';
+  for (const [field, key] of Object.entries(fields))
+    if (!$(field).disabled || key in values) $(field).placeholder = values[key] ?? '';
 }
 
-/// The case of a mill that is sold, as `edmill new` writes it; problems in place of one.
+/// The case of a mill that is sold, as `edmill new` writes it, or problems.
 async function new_case() {
   const {answer} = await ask({what: 'new', wanted: [$('case').value, ...of_machine.map(written), written('speed')]});
-  if (!answer.problems) text = answer.case;
-  return answer.problems;
+  return answer;
 }
 
 // ---- Running
@@ -93,9 +93,14 @@ async function begin() {
   give_up(placing);
   $('facts').replaceChildren();
   const own = run_number;
-  const wrong = $('case').value in cases ? null : await new_case();
-  if (own !== run_number) return;
-  if (wrong) return give_up('The mill has problems.', wrong);
+  const name = $('case').value;
+  if (!(name in cases)) {
+    const made = await new_case();
+    if (own !== run_number) return;
+    if (name !== $('case').value) return give_up('Another mill was chosen.');
+    if (made.problems) return give_up('The mill has problems.', made.problems);
+    text = made.case;
+  }
   const {answer} = await ask({what: 'begin', text, settings: settings(), log: $('keep').checked});
   if (own !== run_number) return;
   if (answer.problems) return give_up('The case has problems.', answer.problems);
@@ -275,8 +280,8 @@ $('judge-stop').addEventListener('click', () => judging.stop());
 
 choose(Object.keys(cases)[0]);
 mill.start().then(async () => {
-  $('run').disabled = false;
   const {answer} = await ask({what: 'machines'});
+  $('run').disabled = false;
   $('machines').append(...Object.entries(answer).map(([key, name]) => new Option(name, key)));
   if (matchMedia('(prefers-reduced-motion: reduce)').matches) say('Choose and press Run.');
   else begin();

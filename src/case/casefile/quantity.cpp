@@ -298,14 +298,17 @@ QuantityResult parse_quantity(std::string_view text, Dimension dimension, SizeLi
 
 std::optional<std::pair<double, std::string>> in_si(std::string_view text) {
   std::optional<Dimension> tried;
+  std::optional<std::pair<double, std::string>> in_one;
   for (const auto& unit : units()) {  // the first unit of a dimension is that of SI
     if (tried == unit.dimension) continue;
     tried = unit.dimension;
     const auto found = parse_quantity(text, unit.dimension);
-    if (const auto* quantity = std::get_if<Quantity>(&found))
-      return std::pair{quantity->to<double>(), std::string(unit.spellings.front())};
+    const auto* quantity = std::get_if<Quantity>(&found);
+    if (!quantity) continue;
+    if (in_one) return std::nullopt;
+    in_one = {quantity->to<double>(), std::string(unit.spellings.front())};
   }
-  return std::nullopt;
+  return in_one;
 }
 
 }  // namespace edmill::casefile

@@ -350,8 +350,10 @@ void put_machine(Writer& out, const Machine& machine, const Wanted& wanted, cons
       value = quoted(
           fmt::format("{:.4g} mm", 1000 * (s.key == "vessel.diameter" ? inside.diameter : inside.height)));
     if (given) value = quoted(speed);
-    if (const auto at = value.find("{speed}"); at != std::string::npos) value.replace(at, 7, speed);
+    const auto at = value.find("{speed}");
+    if (at != std::string::npos) value.replace(at, 7, speed);
     std::string comment = is_jar ? inside.note : given ? as_given : s.source == source ? "" : brief(s.source);
+    if (at != std::string::npos && outside) comment += (comment.empty() ? "speed " : "; speed ") + as_given;
     if (!given && !is_jar && !s.note.empty()) comment = s.note + (comment.empty() ? "" : "; " + comment);
     out.key(s.key.substr(dot + 1), value, comment);
     if (!given) source = s.source;

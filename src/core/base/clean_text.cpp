@@ -90,9 +90,10 @@ std::string time_with_interval(double seconds, std::optional<double> half_width)
 }
 
 std::string energy_text(double joules) {
-  const auto [size, unit] = joules >= 1 || joules < 1e-9 ? std::pair{1.0, "J"}
-                            : joules >= 1e-3             ? std::pair{1e-3, "mJ"}
-                                                         : std::pair{1e-6, "\u00b5J"};
+  constexpr double rounds_up = 0.9995;  // to three digits
+  const auto [size, unit] = joules >= rounds_up || joules < 1e-9 ? std::pair{1.0, "J"}
+                            : joules >= 1e-3 * rounds_up         ? std::pair{1e-3, "mJ"}
+                                                                 : std::pair{1e-6, "\u00b5J"};
   return fmt::format("{:.3g} {}", joules / size, unit);
 }
 

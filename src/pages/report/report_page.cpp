@@ -46,12 +46,15 @@ std::string ball_text(const RunFolder& run, const casefile::BallSpec& ball, int 
                      in_file(".density").value_or(brief(ball.density.to<double>()) + " kg/m\u00b3"));
 }
 
-/// Adds a few words to a rate for each warning that makes it doubtful, with a link to the warning.
+/// Adds a few words to the card of a dose rate or of a milling time for each warning that makes it doubtful,
+/// with a link to the warning.
 void add_doubts(pugi::xml_node card, const io::Facts& f) {
   for (const auto& [kind, text] :
        {std::pair{"several_states", "other seeds may settle elsewhere"},
         std::pair{"transient", "not steady yet"}, std::pair{"too_few_collisions", "too few collisions"},
-        std::pair{"wide_interval", "known to 5 % or worse"}})
+        std::pair{"too_short", "too short for an interval"},
+        std::pair{"wide_interval", "known to 5 % or worse"},
+        std::pair{"precision", "less precise than asked for"}})
     if (f.has(std::string("warnings/") + kind)) {
       auto doubt = add(card, "dd", {{"class", "doubt"}});
       add(doubt, "a", {{"href", "#warnings"}}, text);
@@ -82,8 +85,8 @@ void add_headline(pugi::xml_node main, const RunFolder& run) {
       any = true;
       value.append_attribute("data-interval") = fmt::format("{}", *rate->half_width).c_str();
       add(box, "dd", {{"class", "interval"}}, "\u00b1 " + width + " " + unit);
-      add_doubts(box, f);
     }
+    if (name.find("dose rate") != name.npos || name == "milling time") add_doubts(box, f);
   }
   add_note(
       section,

@@ -105,7 +105,7 @@ bool records(const casefile::OutputSpec& output, const model::Partners& partners
 }
 
 /// The partners, with top and bottom in the labels, "cap -y (bottom)", for walls that are named by an axis of
-/// the vessel if this axis is along gravity, on average over a drive period.
+/// the vessel if this axis is along gravity, on average over the motion.
 model::Partners with_top_and_bottom(const casefile::CaseSpec& spec) {
   const auto mill = casefile::build_mill<double>(spec);
   const double gravity = norm<double>(mill.gravity), period = mill.motion.period();
@@ -117,10 +117,13 @@ model::Partners with_top_and_bottom(const casefile::CaseSpec& spec) {
     if (gravity == 0 || axis < 0 || axis > 2 || (sign != '-' && sign != '+')) continue;
     Vec3<double> outward = Vec3<double>::Zero();
     outward[axis] = sign == '-' ? -1 : 1;
-    constexpr int samples = 24;
+    // Spread over many drive periods: other joints may turn more slowly.
+    constexpr int samples = 512, apart = 7;
+    constexpr double golden = 0.6180339887498949;
     double along = 0;
     for (int k = 0; k < samples; ++k) {
-      const auto pose = mill.motion.pose(Instant<double>{0, period * k / samples});
+      const double share = k * golden - std::floor(k * golden);
+      const auto pose = mill.motion.pose(Instant<double>{k * apart, period * share});
       along +=
           dot<double>(mill.motion.direction_to_inertial(pose, outward), mill.gravity) / gravity / samples;
     }

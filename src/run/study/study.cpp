@@ -155,6 +155,8 @@ std::string list_of(const std::vector<Point>& points) {
                          text_of(found, quantity));
       before = ", ";
     }
+    if (before == " ") out += " no result";
+    if (const auto failed = points[k].failed(); failed > 0) out += ", " + counted(failed, "run") + " failed";
     out += '\n';
   }
   if (points.size() > most) out += fmt::format("  and {} more points\n", points.size() - most);

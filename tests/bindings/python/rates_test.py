@@ -212,7 +212,16 @@ def test_a_sweep_over_keys_is_a_frame_in_si(case, tmp_path):
     for wrong in ({"over": {}}, {"over": {"mill.speed": "900 rpm"}}, {"seeds": 2}):
         with pytest.raises(edmill.InputError):
             edmill.sweep(case, **wrong)
-    assert "28" in case._repr_html_() or "6" in case._repr_html_()
+    rows = dict(edmill.check(case))
+    assert all(f">{name}</th>" in case._repr_html_() for name in rows) and "digest" in rows
+    assert edmill.sweep(case.edit({"run.end_time": "0.3 s"}), over={"mill.speed": ["900 rpm"]}).plot(axes=axes) is axes  # no intervals
+    with pytest.raises(edmill.InputError, match="'balls'"):
+        edmill.sweep(case.edit(balls=[{"count": 2, "diameter": "9 mm"}]), over={"mill.speed": ["900 rpm"]})
+    lengths = edmill.sweep(case, over={"run.end_time": ["0.7 s", "0.01 m"]}).to_dataframe()
+    assert list(lengths["run.end_time"]) == ["0.7 s", "0.01 m"]  # "m" is a length, too: not converted
+    other = case.edit({"run.seed": 7, "run.precision": "float128", "run.end_time": "0.6 s"})
+    assert edmill.sweep(other, over={"contact.friction": [0.4]}).points["milling_dose_rate"][0] == pytest.approx(
+        float(edmill.run(other).dose_rate), rel=1e-14)
 
 
 def test_machines_and_variables():

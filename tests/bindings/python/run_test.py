@@ -156,11 +156,19 @@ def test_a_law_of_one_function_has_the_friction_of_the_case(small, precision):
         assert np.allclose(np.array(ours.events[key][:first], float), np.array(theirs.events[key][:first], float), rtol=1e-6, atol=1e-15), key
 
 
+def test_a_law_of_one_function_has_the_friction_of_its_contact(small):
+    rough = small.edit({"contact.ball_wall.friction": 0.7, "contact.ball_wall.min_tangential": -0.5})
+    ours, theirs = edmill.run(rough, until="0.6 s", ball_wall_law=lambda speed: 0.53), edmill.run(rough, until="0.6 s")
+    assert np.allclose(ours.events["milling_dose"][:20], theirs.events["milling_dose"][:20], rtol=1e-6)
+    assert not np.allclose(ours.events["milling_dose"][:20], edmill.run(small, until="0.6 s").events["milling_dose"][:20], rtol=1e-6)
+
+
 def test_a_case_has_its_numbers(small):
     assert small["contact.friction"] == "0.4" and small["balls.0.diameter"] == "9.52 mm"
     assert small.edit({"mill.speed": "900 rpm"})["mill.speed"] == "900 rpm"
     with pytest.raises(KeyError):
         small["no.such"]
+    assert "mill.speed" in small and "no.such" not in small
     assert small.radii == pytest.approx(5 * [4.76e-3], rel=1e-15)
     assert small.masses == pytest.approx(5 * [8000 * np.pi / 6 * 9.52e-3 ** 3], rel=1e-15)
     with pytest.raises(edmill.InputError, match="^setting contact.friction=-1"):

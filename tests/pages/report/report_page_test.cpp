@@ -95,6 +95,17 @@ TEST_F(Report, WarningsHaveASectionOfTheirOwnAndStandWithTheRatesThatTheyVoid) {
   EXPECT_TRUE(body().select_nodes("//dd[@class='doubt']").empty());
 }
 
+TEST_F(Report, CallsWallsAlongGravityTopAndBottom) {
+  run("--report");
+  const std::string standing = page();
+  EXPECT_NE(standing.find("(bottom)"), standing.npos);
+  EXPECT_NE(standing.find("(top)"), standing.npos);
+  // A jar that turns over slowly, beside a quick swing.
+  run("--report --set 'mill={type=\"chain\",joint=[{rotate=\"z\",speed=\"15 rpm\"},"
+      "{rotate=\"y\",swing=[{amplitude=\"5 deg\",speed=\"1500 rpm\"}]}]}'");
+  EXPECT_EQ(page().find("(bottom)"), std::string::npos);
+}
+
 TEST_F(Report, OfAnyRunSaysWhichOutputsItMisses) {
   run("");
   const auto done = edmill("report " + folder.string());

@@ -133,6 +133,11 @@ class Case:
         except _edmill.InputError as error:
             raise EditError(str(error)) from None
 
+    def __contains__(self, key: object) -> bool:
+        return isinstance(key, str) and self._case.text_of(key) is not None
+
+    __iter__ = None  # the keys of a case are those of its file: not listed here
+
     def __getitem__(self, key: str) -> str:
         """The text of a number as the case gives it, with its unit: `case["mill.speed"]` is "1054 rpm"."""
         value = self._case.text_of(key)

@@ -99,7 +99,7 @@ class Run:
     def impact_energy(self) -> float | None:
         """Kinetic energy of the approach along the normal, M/2 v^2, below which impacts give half of their dose [J]; None without
         impacts. Contacts at rest are left out."""
-        return self.summary["impact_energy_by_dose"]["median"]
+        return self.summary.get("impact_energy_by_dose", {}).get("median")
 
     def _rates(self, kind: str) -> dict[str, Value]:
         widths = self.summary["intervals"].get(kind, {})
@@ -233,8 +233,13 @@ def _law_of(name: str, law: Any, case: Case) -> ContactLaw | None:
         return law
     require(name, law, callable(law), "a function of the approach speed, or an object with restitution(approach_speed) and "
             "restitution_of_slip(normal_change, slip_speed, compliance)")
-    require(name, law, case._case.text_of("contact.friction") is not None, "a whole law: the case has no contact.friction for all contacts")
-    return RestitutionLaw(law, case["contact.friction"], case._case.text_of("contact.min_tangential") or "-1")
+
+    def own(key: str) -> str | None:
+        return case._case.text_of(f"contact.{name.removesuffix('_law')}.{key}") or case._case.text_of(f"contact.{key}")
+
+    friction = own("friction")
+    require(name, law, friction is not None, "a whole law: the case has no friction for all of these contacts")
+    return RestitutionLaw(law, friction, own("min_tangential") or "-1")
 
 
 def run(case: Case | Mapping | str, precision: str | None = None, until: str | float | decimal.Decimal | None = None, *,

@@ -42,7 +42,8 @@ class Study:
         the unit of each column."""
         frame = self.points.to_dataframe()
         units = {}
-        for name in frame.columns:
+        columns = list(frame.columns)
+        for name in columns[2:columns.index("replicas")] if "replicas" in columns else ():
             values = [_edmill.in_si(value) if isinstance(value, str) else None for value in frame[name]]
             if values and all(values) and len({unit for _, unit in values}) == 1:
                 frame[name] = [number for number, _ in values]
@@ -73,7 +74,9 @@ class Study:
         others = typed[varied[1:]].apply(lambda row: ", ".join(f"{name} = {value}" for name, value in row.items()), axis=1)
         for label in dict.fromkeys(others):
             curve = frame[others == label].sort_values(varied[0])
-            axes.errorbar(curve[varied[0]], curve[quantity], curve.get(quantity + "_ci95"), label=label or None, marker="o", capsize=3)
+            widths = curve.get(quantity + "_ci95")
+            widths = None if widths is None or widths.isna().all() else widths
+            axes.errorbar(curve[varied[0]], curve[quantity], widths, label=label or None, marker="o", capsize=3)
         def title(name):
             return f"{name} [{units[name]}]" if name in units else name
 
@@ -124,7 +127,10 @@ def _with_settings(section: dict[str, Any], name: str, case: Case) -> dict[str, 
     varied = {*section.get("grid", {}), *(key for point in points for key in point.get("set", {}))}
     kept = {key: [value.strip('"')] for key, value in settings.items()
             if key not in varied and key not in ("run.seed", "run.precision")}
-    return {**section, "grid": {**section.get("grid", {}), **kept}}
+    for key, (value,) in kept.items():
+        require("case", case, not value.lstrip().startswith(("[", "{")), f"a case whose {key!r} is in its file: a sweep sets single values")
+    return {"seed": int(case._case.text_of("run.seed") or 1), "precision": case.precision,
+            **section, "grid": {**section.get("grid", {}), **kept}}
 
 
 def sweep(source: Case | Mapping | str | os.PathLike, folder: str | os.PathLike | None = None, jobs: int = 0, *,
@@ -141,7 +147,9 @@ def sweep(source: Case | Mapping | str | os.PathLike, folder: str | os.PathLike 
         for key, values in over.items():
             require("over", values, isinstance(values, Iterable) and not isinstance(values, (str, bytes)), f"a list of values of {key!r}")
         grid = {key: [value.item() if isinstance(value, np.generic) else value for value in values] for key, values in over.items()}
-        source = {"sweep": {"case": case_of(source), "replicas": 1 if seeds is None else whole("seeds", seeds, 1, 100000), "grid": grid}}
+        case = case_of(source)
+        source = {"sweep": {"case": case, "replicas": 1 if seeds is None else whole("seeds", seeds, 1, 100000), "grid": grid,
+                            "seed": int(case._case.text_of("run.seed") or 1), "precision": case.precision}}
     else:
         require("source", source, not isinstance(source, Case), "a sweep file, or a case together with `over`")
         require("seeds", seeds, seeds is None, "none: a sweep file has `replicas`")
