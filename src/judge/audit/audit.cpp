@@ -164,8 +164,7 @@ class Auditor : Judge {
     findings_.add({event, kind, size, found, expected, note});
   }
 
-  /// True if the event repeats the ball's last one: bodies that have separated cannot collide again in the
-  /// same way at the same time.
+  /// True if the event repeats the ball's last one: separated bodies cannot collide again at the same time.
   bool is_repeated(const LoggedEvent& event) const {
     const LastEvent& last = last_[event.ball];
     if (last.time != event.time || last.other != other_of(event, 0)) return false;

@@ -69,8 +69,7 @@ struct Tolerances {
 /// if the log does not determine how long the preceding flights were.
 enum class Friction { acts, rests, either };
 
-/// Counts the consecutive impacts of each ball without time to move in between, by a lower and an upper
-/// bound.
+/// Bounds the number of consecutive impacts of each ball without time to move in between.
 class StallHistory {
  public:
   explicit StallHistory(const model::Mill<double>& mill, std::size_t balls)

@@ -37,8 +37,7 @@ struct Track : Flying {
   /// Time of an unlogged impact during the flight [s]; infinity if none is known.
   double broken_from = std::numeric_limits<double>::infinity();
   std::vector<Finding> pending;  ///< missed impacts, found at the end of the other ball's flight
-  /// A missed impact with a wall, held until the ball's next line shows that it is not logged there at the
-  /// same time.
+  /// A missed impact with a wall, held until the ball's next line shows that it is not logged at this time.
   std::optional<Finding> held;
 };
 

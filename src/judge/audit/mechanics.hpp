@@ -52,8 +52,7 @@ struct WallVelocity {
   const char* note;
   Vec (*at)(const WallPoint& point);
 };
-/// The first formula is correct, V = W_Z x P + (R_z W_x') x (P - C); the others are mistakes, the last one
-/// the derivative of the printed matrix.
+/// The first formula is correct, V = W_Z x P + (R_z W_x') x (P - C); the last derives the printed matrix.
 extern const std::array<WallVelocity, 10> wall_velocities;
 
 /// Deviations of a code in single terms of the equations: a term may be larger, smaller, reversed or missing.

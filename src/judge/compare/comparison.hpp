@@ -50,8 +50,7 @@ struct Quantity {
   std::string name, unit;
   std::optional<double> a = {}, b = {};  ///< means over the common time; nothing for a spectrum
   std::optional<double> a_half_width = {}, b_half_width = {};  ///< of the 95 % intervals of the means
-  /// B - A and its 95 % interval; for a spectrum Kolmogorov's distance, and its limit, which 5 % of the
-  /// permutations exceed.
+  /// B - A with its 95 % interval; for a spectrum Kolmogorov's distance and its 5 % limit by permutations.
   std::optional<double> difference = {}, half_width = {};
   std::optional<double> probability =
       {};  ///< of such a difference by chance, after Holm; nothing if not tested

@@ -284,8 +284,7 @@ void judge_laws(const std::vector<Measured>& list, Judged::Of of, ContactAudit& 
     auto result = judged(value, at, some, is_clear, alike, dose);
     result.of = of;
     result.is_part = alike > 1;
-    // Friction that stops the slip, and values of single balls, are optional: too few contacts for them do
-    // not leave the verdict open.
+    // Friction that stops the slip and values of single balls are optional: no verdict depends on them.
     if (result.dose_share > 0 &&
         (result.found.known() || !(&value == &sticking || at.starts_with("of ball "))))
       audit.judged.push_back(std::move(result));
@@ -418,8 +417,7 @@ std::vector<SlipBin> slips_of(const std::vector<Measured>& walls, const std::vec
   return bins;
 }
 
-/// Removes unexplained contacts that overlap in time: two balls that leave their flights together have
-/// collided, although balls of the case's size would not touch.
+/// Removes unexplained contacts that overlap in time: two balls that leave their flights together collided.
 void drop_pairs(std::vector<Contact>& contacts) {
   std::erase_if(contacts, [all = contacts](const Contact& c) {
     return c.kind == ContactClass::unexplained && std::ranges::any_of(all, [&](const Contact& other) {

@@ -1,5 +1,4 @@
-// Audit of contacts of finite duration: measured values with intervals, and those expected from the laws of a
-// case. docs/dem.md
+// Audit of contacts of finite duration: measured values with intervals, and those expected. docs/dem.md
 #pragma once
 
 #include <atomic>

@@ -87,8 +87,7 @@ class Bytes {
   const std::string& name_;
 };
 
-/// Reads and checks the format. The older one, without column names, begins with the step, which is not
-/// negative.
+/// Reads and checks the format. The older one, without column names, begins with the step, 0 or more.
 void read_format(Bytes& in) {
   const auto length = in.take<std::int64_t>();
   if (length >= 0 || in.text(static_cast<int>(-std::max<std::int64_t>(length, -longest_text))) != magic)

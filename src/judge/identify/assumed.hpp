@@ -106,8 +106,7 @@ struct Assumed {
   std::optional<model::Case<double>> built() const;
   /// The case's file with these values.
   casefile::CaseSpec case_file() const;
-  /// True if a case file can express the assumptions, apart from the log's conventions, so that an audit is
-  /// possible.
+  /// True if a case file can express the assumptions, apart from the log's conventions: an audit can test it.
   bool is_case() const { return restricted.empty() && terms == Terms{}; }
 };
 

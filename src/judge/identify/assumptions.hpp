@@ -39,8 +39,7 @@ struct Assumption {
   bool is_fitted() const { return mistake.empty(); }
   bool is_periodic() const { return is_speed || cycle > 0; }
   std::string name() const { return mistake.empty() ? key : key + ": " + mistake; }
-  /// True if the two cannot be combined: they concern the same key, or the other one does not exist for such
-  /// a mill.
+  /// True if both cannot be combined: they have the same key, or the other does not exist for such a mill.
   bool excludes(const Assumption& other) const {
     return key == other.key || (of_motion && (other.of_motion || other.key.starts_with("mill.")));
   }

@@ -313,8 +313,7 @@ void fit(const Residuals& sample, Hypothesis& tried) {
 
 Eigen::VectorXd sensitivity(const Residuals& sample, const Assumed& base, const Eigen::VectorXd& rows,
                             const Assumption& number) {
-  // A restitution or least separation speed of 0 may have no effect until it is large enough for some impact,
-  // so that a large step is tried as well.
+  // A restitution or least separation speed of 0 may need a large step to have any effect.
   for (const double length : {1e-6, 1.0}) {
     if (!number.is_of_case() || (length == 1 && number.value != 0)) break;
     const double step = possible_step(base, number, number.value, length);

@@ -47,8 +47,7 @@ bool has_number_of_case(const Hypothesis& tried) {
   });
 }
 
-/// Selects what may differ in a part of the log: terms, and numbers of the contact laws. If both kinds of
-/// contact have the same law, its numbers are listed once.
+/// Selects what may differ in a part of the log: terms, and numbers of the contact laws, each law once.
 std::vector<Assumption> of_parts(const std::vector<Assumption>& numbers) {
   std::set<std::string> common;
   const auto last = [](const std::string& key) { return key.substr(key.rfind('.') + 1); };
@@ -172,8 +171,7 @@ class Evidence {
   struct Explained {
     std::set<std::size_t> rows{}, events{};
   };
-  /// Rows explained by a hypothesis that may be one of several mistakes; empty unless it explains nine tenths
-  /// of the rows that it changes.
+  /// Rows explained by one of several mistakes; empty unless it explains nine tenths of those it changes.
   Explained explained_by(const Hypothesis& tried) const {
     if (!(score_of_case_ - tried.score >= strong_evidence) || has_number_of_case(tried)) return {};
     const Eigen::VectorXd before = all_.rows(nominal_), with = all_.rows(tried.assumed());
@@ -226,8 +224,7 @@ class Evidence {
     return best_of(std::move(order), most);
   }
 
-  /// Numbers ranked by how much they should improve on `base`, by a linear fit of the rows and by trial
-  /// values.
+  /// Numbers ranked by how much they should improve `base`, by a linear fit of the rows and trial values.
   std::vector<Assumption> best_numbers(const Assumed& base, const std::vector<Assumption>& numbers,
                                        std::size_t most) const {
     auto best = by_sensitivity(early_or_whole(base), base, numbers, {}, most);
@@ -262,14 +259,12 @@ class Evidence {
  private:
   const Residuals& early() const { return windows_.front(); }
   const Residuals& whole() const { return windows_.back(); }
-  /// The first span, in which a wrong speed has not yet caused a large error, or the whole log if that span
-  /// has too few violations.
+  /// The first span, in which a wrong speed has no large effect yet; the whole log if it has few violations.
   const Residuals& early_or_whole(const Assumed& base) const {
     return count_violated(early().rows(base)) > 12 ? early() : whole();
   }
 
-  /// Numbers ranked by a linear fit of the rows, for the whole log or for its parts. A part is skipped if it
-  /// contains all rows that depend on a number.
+  /// Numbers ranked by a linear fit of the rows of the log or of parts that do not contain all its effect.
   std::vector<Assumption> by_sensitivity(const Residuals& sample, const Assumed& base,
                                          const std::vector<Assumption>& numbers,
                                          const std::vector<SharedSubset>& parts, std::size_t most) const {
@@ -455,8 +450,7 @@ class Searcher {
  private:
   bool is_interrupted() const { return interrupt_ && interrupt_->load(std::memory_order_relaxed); }
 
-  /// Replays the log. Impacts without positions cannot be checked, but they can be compared with a run from
-  /// the initial state of the case.
+  /// Replays the log: impacts without positions can only be compared with a run from the initial state.
   void follow(Identification& result) const {
     // Runs cannot vary the terms of the equations.
     auto all = mistakes_;
@@ -551,8 +545,7 @@ class Searcher {
         result.causes[0].alike.push_back(cause_of(other).text());
   }
 
-  /// For a log with several mistakes: reports those that explain the rows that they change, provided that no
-  /// other reported mistake explains these rows.
+  /// For several mistakes: reports those that explain what they change and what no other one explains.
   void report_each(Identification& result) const {
     std::set<std::size_t> explained;
     const auto violating = evidence_->violating_events(nominal_).size();

@@ -50,8 +50,7 @@ struct Cause {
   std::uint64_t explains = 0, of = 0;  ///< violations
   std::string others = {};             ///< kinds of the violations that it does not explain, if known
   double gain = 0;                     ///< improvement of Schwarz's criterion by the cause
-  /// For logs without states: number of impacts that a run with the cause reproduces, and number that it
-  /// could reproduce in spite of rounding.
+  /// For logs without states: impacts that a run with the cause reproduces, and could in spite of rounding.
   std::uint64_t follows = 0, could_follow = 0;
   std::vector<std::string> alike = {};  ///< other causes that this log cannot distinguish from it
 

@@ -199,8 +199,7 @@ std::vector<double> decades(double from, double to) {
   return values;
 }
 
-/// A contact law that a code may use instead of the case's, with the number of it that is fitted. To add one,
-/// add a row to the table.
+/// A contact law that a code may use instead of the case's, with its fitted number. Add rows to the table.
 struct OtherLaw {
   std::string_view model, number;
   Dimension dimension;
@@ -245,8 +244,7 @@ std::vector<Entry> entries(Law law) {
   return list;
 }
 
-/// Replaces a law by another one. One number of the new law is given; others are kept from the old law if
-/// they have the same name.
+/// Replaces a law by another one with one given number; others of the same name are kept from the old law.
 /// @return true if all numbers of the new law are known
 bool replace(Law& law, const OtherLaw& other, double value) {
   const auto own = entries(law);

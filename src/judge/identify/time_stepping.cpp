@@ -205,8 +205,7 @@ class Measurements {
     first_order.push_back(!large || 10 * rest <= std::abs(fall) ? 2 * fall / (g_size * dt) : audit::unknown);
   }
 
-  /// True if the vectors are parallel. If so, a displacement may also be due to a finite contact or a time
-  /// step, which act along the impulse.
+  /// True if the vectors are parallel: finite contacts and time steps displace balls along the impulse.
   static bool is_along(const Vec& one, const Vec& two) {
     return std::abs(audit::dot(one, two)) > 0.99 * audit::size(one) * audit::size(two);
   }

@@ -79,8 +79,7 @@ struct LogConventions {
 std::vector<int> parse_walls(const std::string& text, const model::Partners& partners,
                              const std::string& where);
 
-/// The log file of a path: the file itself, or collisions.csv, which may be compressed, in the folder of a
-/// run.
+/// The log file of a path: the file itself, or collisions.csv, perhaps compressed, in the folder of a run.
 std::filesystem::path log_in(const std::filesystem::path& place);
 
 /// Reads a log in bounded memory. It reads ahead by `window` events, so that a log that is slightly out of
@@ -98,8 +97,7 @@ class EventLog {
            double beyond)
       : EventLog(place, conventions, balls, walls, beyond, false) {}
   /// Opens a log that must be free of errors: in order of time, with finite values and the columns
-  /// partner_kind and approach_speed. The states of bodies are not read, and any numbers of bodies are
-  /// accepted.
+  /// partner_kind and approach_speed. States are not read; any numbers of bodies are accepted.
   explicit EventLog(const std::filesystem::path& place);
 
   /// The next event; nothing at the end. Bad lines are skipped until there are ten of them or the file ends.
