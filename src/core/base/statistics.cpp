@@ -263,21 +263,6 @@ bool stands_apart(double value, const std::vector<double>& sample, double signif
   return std::abs(value - mean_of(sample)) > student_limit(n - 1, significance) * spread;
 }
 
-namespace {
-constexpr int least_octave = -100, bins_per_octave = 32;  // values below about 1e-30 J share the first bin
-}  // namespace
-
-void WeightedQuantiles::add(double value, double weight) {
-  if (!(weight > 0)) return;
-  int octave = least_octave;
-  const double part = value > 0 && std::isfinite(value) ? std::frexp(value, &octave) : 0.5;
-  const int bin =
-      (octave - least_octave) * bins_per_octave + static_cast<int>((2 * part - 1) * bins_per_octave);
-  const auto place = static_cast<std::size_t>(std::max(bin, 0));
-  if (place >= weights_.size()) weights_.resize(place + 1);
-  weights_[place] += weight;
-}
-
 std::optional<double> WeightedQuantiles::quantile(double share) const {
   double below = share * std::accumulate(weights_.begin(), weights_.end(), 0.0);
   if (!(below > 0)) return std::nullopt;

@@ -1,6 +1,7 @@
 // Means, medians, their intervals and tests.
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -92,13 +93,30 @@ class Line {
 /// Weighted quantiles of positive values, from bins of 1/32 of an octave: accurate to 3 %.
 class WeightedQuantiles {
  public:
-  void add(double value, double weight);
+  void add(double value, double weight) {
+    if (!(weight > 0)) return;
+    const std::size_t bin = bin_of(value);
+    if (bin >= weights_.size()) weights_.resize(bin + 1);
+    weights_[bin] += weight;
+  }
   /// The value below which `share` of the weight lies; empty if there is no weight.
   std::optional<double> quantile(double share) const;
 
   void archive(auto& a) { a(weights_); }
 
  private:
+  /// Values below 2^least_octave / 2 are in the first bin.
+  static constexpr int least_octave = -100, bin_bits = 5, bins_per_octave = 1 << bin_bits;
+
+  /// The bin of a value above 0 is its exponent and the first bits of its fraction.
+  static std::size_t bin_of(double value) {
+    constexpr int exponent_of_one = 1023, fraction_bits = 52;
+    constexpr std::uint64_t least = std::uint64_t{exponent_of_one - 1 + least_octave} << bin_bits;
+    if (!(value > 0) || !std::isfinite(value)) return 0;
+    const auto bin = std::bit_cast<std::uint64_t>(value) >> (fraction_bits - bin_bits);
+    return static_cast<std::size_t>(bin > least ? bin - least : 0);
+  }
+
   std::vector<double> weights_;  ///< of each bin, up to the last one that is not zero
 };
 

@@ -81,7 +81,9 @@ class OpenReport(unittest.TestCase):
         return self.browser.find_element("css selector", ".stage canvas")
 
     def scene_picture(self):
-        return self.canvas().screenshot_as_png
+        canvas = self.canvas()
+        self.script("arguments[0].scrollIntoView({block: 'center'})", canvas)  # a picture is of what the window shows
+        return canvas.screenshot_as_png
 
     def play(self, on):
         self.script("const b = document.getElementById('play'); if (b.textContent !== arguments[0]) b.click()",

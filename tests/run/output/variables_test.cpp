@@ -84,9 +84,10 @@ struct Recomputed {
   Number dose() const { return wall_work() - (energy(after) - energy(before)) + supplied(); }
   Number dose_normal() const { return std::max<Number>(0, normal_loss()); }
   Number supplied() const { return std::max<Number>(0, -normal_loss()); }
+  Number effective_mass() const { return balls ? mass[0] * mass[1] / (mass[0] + mass[1]) : mass[0]; }
   Number normal_loss() const {
-    const Number m = balls ? mass[0] * mass[1] / (mass[0] + mass[1]) : mass[0];
-    return m / 2 * (powl(normal_part(relative(before)), 2) - powl(normal_part(relative(after)), 2));
+    return effective_mass() / 2 *
+           (powl(normal_part(relative(before)), 2) - powl(normal_part(relative(after)), 2));
   }
   Vector tangential(const Vector& v) const { return v - normal * normal_part(v); }
   /// Simpson's rule on the speed.
@@ -154,6 +155,9 @@ Formulas formulas() {
   all["time"] = [](const Recomputed& r) { return r.time; };
   all["time_previous"] = [](const Recomputed& r) { return r.previous; };
   all["time_since_previous"] = [](const Recomputed& r) { return r.time - r.previous; };
+  all["impact_energy"] = [](const Recomputed& r) {
+    return r.effective_mass() / 2 * powl(std::max<Number>(0, -r.normal_part(r.relative(r.before))), 2);
+  };
   all["milling_dose"] = [](const Recomputed& r) { return r.dose(); };
   all["dose_normal"] = [](const Recomputed& r) { return r.dose_normal(); };
   all["dose_tangential"] = [](const Recomputed& r) { return r.dose() - r.dose_normal(); };

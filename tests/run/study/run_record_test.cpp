@@ -28,7 +28,7 @@ std::optional<double> value(const RunRecord& record, const std::string& name, in
 
 TEST(RunRecords, RatesOfAVesselWithTwoWallsInATableForSix) {
   const auto record = record_with({2, 4, 6});
-  EXPECT_EQ(quantities(6).size(), 22u);
+  EXPECT_EQ(quantities(6).size(), 24u);
   EXPECT_EQ(value(record, "collision_rate_wall_0", 6), 1);
   EXPECT_EQ(value(record, "collision_rate_wall_1", 6), 2);
   EXPECT_EQ(value(record, "collision_rate_wall_2", 6), std::nullopt);
