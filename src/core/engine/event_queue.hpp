@@ -52,7 +52,7 @@ struct Event {
 };
 
 /// A calendar queue: each drive period is divided into days so short that few contain more than one event.
-/// Days up to the horizon, which is three to four weeks ahead, have a list each. Later events are put off:
+/// Days up to the horizon, which is three to four weeks ahead, have a list each. Later events are postponed:
 /// they are noted for their week, without order, and put into lists when the horizon reaches it. Therefore
 /// taking the first event and setting one cost the same for any number of balls, and the lists fit into the
 /// near caches. A day that still contains many events, since balls share an instant, is turned into a heap
@@ -163,7 +163,7 @@ class EventQueue {
     Instant<Real> time = Instant<Real>::never();
     std::int64_t day = no_day;
     int next = put_off;
-    /// The previous ball of the list. For a ball that is put off: the place of the week whose note is valid;
+    /// The previous ball of the list. For a postponed ball: the place of the week whose note is valid;
     /// older notes are void. For a ball in the heap: its place there.
     int previous = none;
   };
@@ -367,7 +367,7 @@ class EventQueue {
   std::vector<int> heads_;               ///< of the lists of days
   std::vector<std::uint64_t> marks_;     ///< one for each list that is not empty
   std::vector<int> heap_;                ///< balls of today, in place of its list, when they are many
-  std::vector<std::vector<int>> notes_;  ///< balls put off to each of the weeks from the horizon on
+  std::vector<std::vector<int>> notes_;  ///< balls postponed to each of the weeks from the horizon on
   std::int64_t days_per_week_;           ///< a power of two
   int week_shift_ = std::countr_zero(static_cast<std::uint64_t>(days_per_week_));
   std::int64_t days_per_period_ = 1024;

@@ -167,7 +167,7 @@ class InputFile::Buffer : public std::streambuf {
   }
 
  private:
-  /// Reads more bytes, at least as many as are needed to recognise the format, unless the file ends before.
+  /// Reads on until there are enough bytes to recognise the format, or the file has ended.
   /// @return false when reading fails
   bool fill() {
     constexpr std::size_t beginning = 4;

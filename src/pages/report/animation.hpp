@@ -47,7 +47,7 @@ struct MovingVessel {
 
 struct Animation {
   double duration;           ///< of one playback [s]
-  Vec3<double> eye, target;  ///< place of the viewer, and point looked at [m]
+  Vec3<double> eye, target;  ///< positions of the viewer and of the centre of the view [m]
   MovingVessel vessel;
   std::vector<MovingSphere> spheres;
 };

@@ -117,7 +117,7 @@ def test_energies_of_impacts_are_those_of_the_events(case):
             assert run.summary[key][name] == pytest.approx(exact, rel=0.03), (key, name)
     rolling = edmill.run(edmill.new("mm400", ["1x15mm"], powder="1g", time="3 s").edit({"run.seed": 2}))
     assert rolling.summary["least_separation"]["milling_dose_share"] > 0.9
-    assert rolling.impact_energy is None or rolling.mean_impact_speed > 0.011
+    assert rolling.impact_energy is None and rolling.mean_impact_speed is None
     assert run.impact_energy == run.summary["impact_energy_by_dose"]["median"]
     table = run.case.with_settings('output=[{type="spectra", of="impact_energy", low="1e-6 J", bins_per_decade=30}]')
     assert edmill.run(table).summary["impact_energy_by_dose"] == run.summary["impact_energy_by_dose"]

@@ -95,6 +95,14 @@ class Charges(unittest.TestCase):
             self.assertIn(part, error)
             self.assertEqual(error.count("edmill: "), 1, error)
 
+    def test_doubtful_wishes_get_a_word_and_others_none(self):
+        for mill, speed, said_so in (("pm100", "500rpm", False), ("pm100", "800rpm", True), ("mm400", "20Hz", False), ("mm400", "50Hz", True)):
+            self.assertEqual("the machine has" in said("new", "--mill", mill, "--speed", speed), said_so, mill + speed)
+        for fill, said_so in (("30%", False), ("50%", False), ("80%", True)):
+            self.assertEqual("Above half" in said("new", "--mill", "pm100", "--jar", "250ml", "--balls", "5mm", "--fill", fill), said_so, fill)
+        for balls, said_so in (("10x10mm", False), ("10x10mm:inox", False), ("10x10mm:WC", True), ("10x10mm:agate", True)):
+            self.assertEqual("assumed for" in said("new", "--balls", balls, "--powder", "4g"), said_so, balls)
+
     def test_random_charges_are_cases(self):
         numbers = random.Random(20261126)
         print("seed 20261126")
