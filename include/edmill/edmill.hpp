@@ -1,4 +1,4 @@
-// The whole public interface of edmill.
+// The whole public interface of edmill; float128 where the compiler has quadmath.h, as GCC does.
 #pragma once
 
 #include "edmill/case.hpp"
@@ -9,7 +9,9 @@
 #include "edmill/observer.hpp"
 #include "edmill/polynomial.hpp"
 #include "edmill/run.hpp"
-#include "edmill/scalars.hpp"
 #include "edmill/summary.hpp"
 #include "edmill/version.hpp"
 #include "edmill/vessel.hpp"
+#if !defined(__x86_64__) || __has_include(<quadmath.h>)
+#include "edmill/scalars.hpp"
+#endif

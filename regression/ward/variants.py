@@ -69,8 +69,8 @@ def main(edmill, stepped_mill, folder):
         file.write_text(sweep(case))
         subprocess.run([edmill, "sweep", file, "--out", done, "--quiet"], check=True)
         for row in csv.DictReader(open(done / "sweep.csv")):
-            out.writerow([case.name, case.count, row["name"], f"{float(row['inverse_milling_dose_rate']):.5g}",
-                          f"{float(row['inverse_milling_dose_rate_ci95']):.2g}", f"{float(row['collision_rate_total']):.6g}"])
+            out.writerow([case.name, case.count, row["name"], f"{float(row['inverse_milling_dose_rate [s/J]']):.5g}",
+                          f"{float(row['inverse_milling_dose_rate_ci95 [s/J]']):.2g}", f"{float(row['collision_rate_total [1/s]']):.6g}"])
         out.writerow(emulation.row(case, LOSSLESS, emulation.times_of(case)[2],
                                    *emulation.stepped(stepped_mill, case, dict(emulation.METHODS)[LOSSLESS])))
         sys.stdout.flush()

@@ -38,8 +38,14 @@ namespace {
 
 /// @return how many runs failed
 template <std::optional<app::StudyResult> (*command)(const app::StudyOptions&)>
-std::size_t study(const std::string& file, const std::string& folder, int jobs, bool progress) {
-  const auto result = with_interrupt(app::StudyOptions{file, folder, jobs, !progress}, command);
+std::size_t study(const std::string& file, const std::string& folder, int jobs, const py::object& progress) {
+  app::StudyOptions options{file, folder, jobs, true};
+  if (!progress.is_none())
+    options.progress = [&](std::size_t done, std::size_t total) {
+      const Locked python;
+      progress(done, total);  // it raises nothing
+    };
+  const auto result = with_interrupt(options, command);
   return result ? result->counts.failed : 0;
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <sstream>
 
 #include "io/atomic_file.hpp"
 #include "io/checkpoint_file.hpp"
@@ -173,10 +174,30 @@ void add_check(pugi::xml_node main, const RunFolder& run) {
   const auto file = run.place / check_file;
   if (!std::filesystem::exists(file)) return;
   auto section = add_section(main, "check", "What decides the dose rate");
-  add(add(section, "pre", {{"tabindex", "0"}}), "code", {}, io::content_of(file));
-  add_note(
-      section,
-      "Runs of the case with one thing changed in each; a dose rate differs where the intervals are apart.");
+  // Lines of the table have a deeper indent, and columns at least two blanks between them.
+  Rows rows;
+  std::vector<std::string> sentences;
+  std::istringstream lines(io::content_of(file));
+  for (std::string line; std::getline(lines, line);) {
+    const bool in_table = line.starts_with("    ");
+    std::vector<std::string> cells;
+    for (std::size_t from = line.find_first_not_of(' '); from < line.size();
+         from = line.find_first_not_of(' ', from)) {
+      const auto end = in_table ? std::min(line.find("  ", from), line.size()) : line.size();
+      cells.push_back(line.substr(from, end - from));
+      from = end;
+    }
+    if (in_table) {
+      cells.resize(3);
+      rows.push_back(std::move(cells));
+    } else if (!cells.empty() && !rows.empty()) {
+      sentences.push_back(capitalised(cells[0]) + ".");
+    }
+  }
+  for (const auto& sentence : sentences) add(section, "p", {}, sentence);
+  add_table(section, "check-runs", "Runs of the case with one thing changed in each",
+            {"run", "dose rate", "effect"}, rows);
+  add_note(section, "Dose rates differ where their intervals are apart.");
 }
 
 std::string page_of_run(const RunFolder& run) {

@@ -102,7 +102,7 @@ std::optional<StudyResult> sweep(const StudyOptions& options) {
   return on_all_ranks(options, [&](study::Executor& executor) {
     const auto spec = casefile::read_sweep(options.file);
     const auto folder = folder_of(options);
-    study::Study study(spec, folder, "sweep", executor, !options.quiet);
+    study::Study study(spec, folder, "sweep", executor, !options.quiet, options.progress);
     for (auto& point : study::points_of(spec)) study.add_runs(study.add_point(point), spec.replicas);
     study.require_a_good_case();
     if (options.estimate) return StudyResult{{}, false, "", "", study.forecast()};
@@ -116,7 +116,7 @@ std::optional<StudyResult> optimize(const StudyOptions& options) {
   return on_all_ranks(options, [&](study::Executor& executor) {
     const auto spec = casefile::read_optimize(options.file);
     const auto folder = folder_of(options);
-    study::Study study(spec, folder, "optimize", executor, !options.quiet);
+    study::Study study(spec, folder, "optimize", executor, !options.quiet, options.progress);
     if (options.estimate) return StudyResult{{}, false, "", "", study::forecast(spec, study)};
     const auto result = study::optimize(spec, study);
     const auto finding = study::describe(spec, study, result);
@@ -139,7 +139,7 @@ std::optional<StudyResult> seeds(const SeedsOptions& options) {
     point.settings.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
   }
   return on_all_ranks(options, [&](study::Executor& executor) {
-    study::Study study(spec, options.folder, "seeds", executor, !options.quiet);
+    study::Study study(spec, options.folder, "seeds", executor, !options.quiet, options.progress);
     study.add_runs(study.add_point(point), options.count);
     study.require_a_good_case();
     if (options.estimate) return StudyResult{{}, false, "", "", study.forecast()};

@@ -20,6 +20,7 @@ struct StudyOptions {
   bool quiet = false;     ///< no progress line on standard error
   bool estimate = false;  ///< only say how long it will take
   std::atomic<bool>* interrupt = nullptr;
+  study::Study::Progress progress = nullptr;  ///< called in place of the progress line, when it is quiet
 };
 
 struct StudyResult {

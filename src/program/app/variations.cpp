@@ -102,12 +102,12 @@ std::string Variations::text() const {
     }
   }
   if (low <= high)
-    out += fmt::format("  restitution and friction are known to {:g}: {:#.3g} to {:#.3g} W\n", uncertainty,
-                       low, high);
+    out += fmt::format("  if restitution and friction are uncertain by {:g}: {:#.3g} to {:#.3g} W\n",
+                       uncertainty, low, high);
   constexpr std::pair<Shown, const char*> sentences[] = {
-      {deciding, "it depends on"},
-      {without_effect, "it does not depend on, within the intervals"},
-      {unknown, "the runs are too short to show whether it depends on"}};
+      {deciding, "the dose rate depends on"},
+      {without_effect, "the dose rate does not depend on, within the intervals"},
+      {unknown, "the runs are too short to show whether the dose rate depends on"}};
   for (const auto& [which, text] : sentences) {
     std::vector<std::string> names;
     for (const auto& [number, what] : shown)

@@ -62,35 +62,38 @@ std::optional<RunRecord> from_json(const std::string& text) try {
 }
 
 std::vector<Quantity> amounts() {
-  return {{"start_time", "start_time"},
-          {"end_time", "end_time"},
-          {"charge_ratio_reached", "charge_ratio"},
-          {"milling_dose", "milling_dose"},
-          {"wall_work", "wall_work"},
-          {"milling_dose_rate_ci95", "intervals/milling_dose_rate"}};
+  return {{"start_time", "s", "start_time"},
+          {"end_time", "s", "end_time"},
+          {"charge_ratio_reached", "1", "charge_ratio"},
+          {"milling_dose", "J", "milling_dose"},
+          {"wall_work", "J", "wall_work"},
+          {"milling_dose_rate_ci95", "W", "intervals/milling_dose_rate"}};
 }
 
 const std::vector<Quantity>& main_quantities() {
   static const std::vector<Quantity> list{
-      {"milling_dose_rate", "milling_dose_rate", "intervals/milling_dose_rate", "milling dose rate", "W"},
-      {"specific_milling_dose_rate", "specific_milling_dose_rate", "intervals/specific_milling_dose_rate",
-       "specific milling dose rate", "W/kg"},
-      {"impact_energy", "impact_energy_by_dose/median", "", "median impact energy", "mJ", 1e-3},
-      {"milling_time", "target/milling_time", "target/milling_time_half_width", "milling time", "h", 3600}};
+      {"milling_dose_rate", "W", "milling_dose_rate", "intervals/milling_dose_rate", "milling dose rate",
+       "W"},
+      {"specific_milling_dose_rate", "W/kg", "specific_milling_dose_rate",
+       "intervals/specific_milling_dose_rate", "specific milling dose rate", "W/kg"},
+      {"impact_energy", "J", "impact_energy_by_dose/median", "", "median impact energy", "mJ", 1e-3},
+      {"milling_time", "s", "target/milling_time", "target/milling_time_half_width", "milling time", "h",
+       3600}};
   return list;
 }
 
 std::vector<Quantity> quantities(int walls) {
   const auto& shown = main_quantities();
-  std::vector<Quantity> list{
-      {"inverse_milling_dose_rate", "inverse_milling_dose_rate", "intervals/inverse_milling_dose_rate"}};
+  std::vector<Quantity> list{{"inverse_milling_dose_rate", "s/J", "inverse_milling_dose_rate",
+                              "intervals/inverse_milling_dose_rate"}};
   list.insert(list.end(), shown.begin(), shown.end());
-  list.push_back({"wall_work_rate", "wall_work_rate", "intervals/wall_work_rate"});
-  list.push_back({"fast_impact_rate", "fast_impact_rate", "intervals/fast_impact_rate"});
-  list.push_back({"mean_impact_speed", "mean_impact_speed"});
+  list.push_back({"wall_work_rate", "W", "wall_work_rate", "intervals/wall_work_rate"});
+  list.push_back({"fast_impact_rate", "1/s", "fast_impact_rate", "intervals/fast_impact_rate"});
+  list.push_back({"mean_impact_speed", "m/s", "mean_impact_speed"});
   const auto add = [&](const std::string& partner) {
-    list.push_back({"collision_rate_" + partner, "collision_rate/" + partner});
-    list.push_back({"impact_rate_" + partner, "impact_rate/" + partner, "intervals/impact_rate/" + partner});
+    list.push_back({"collision_rate_" + partner, "1/s", "collision_rate/" + partner});
+    list.push_back(
+        {"impact_rate_" + partner, "1/s", "impact_rate/" + partner, "intervals/impact_rate/" + partner});
   };
   for (int k = 0; k <= walls; ++k) add(model::partner_key(k, walls));
   add("total");

@@ -41,7 +41,7 @@ std::optional<RunRecord> from_json(const std::string& text);
 
 /// A number that tables average.
 struct Quantity {
-  std::string name;
+  std::string name, si_unit;  ///< of its column; "1" without a dimension
   std::string path;           ///< in the summary
   std::string interval = {};  ///< path of the half-width of a run's own interval; empty without one
   /// What reports and terminals display: a title, and the unit with its size in SI.

@@ -224,12 +224,13 @@ Run make_run(const casefile::StudySpec& spec, const Point& point, std::uint64_t 
 }
 
 Study::Study(casefile::StudySpec spec, std::filesystem::path folder, std::string name, Executor& executor,
-             bool show)
+             bool show, Progress progress)
     : spec_(std::move(spec)),
       folder_(std::move(folder)),
       name_(std::move(name)),
       executor_(executor),
       shows_(show),
+      progress_(std::move(progress)),
       line_(!show) {}
 
 std::size_t Study::add_point(Point point) {
@@ -294,10 +295,11 @@ void Study::tick() {
   // Large tables take time to write: at most a twentieth of the total.
   const auto after = std::chrono::steady_clock::now();
   next_write_ = after + std::max<std::chrono::nanoseconds>(std::chrono::seconds(1), 20 * (after - now));
+  const auto c = counts();
+  if (progress_) progress_(c.kept + c.ran, c.total);
   if (!shows_) return;
   constexpr auto a_while = std::chrono::minutes(1);  // between lines where no terminal shows one that changes
   if (!line_ && after < std::max(began_, told_) + a_while) return;
-  const auto c = counts();
   const auto text = fmt::format("{} of {} runs, {} failed{}", c.kept + c.ran, c.total, c.failed,
                                 time_left(std::chrono::duration<double>(after - began_).count()));
   if (line_) return line_.show(text);
@@ -366,6 +368,7 @@ void Study::run() {
   if (began_ == std::chrono::steady_clock::time_point{}) began_ = std::chrono::steady_clock::now();
   executor_.run(
       jobs, [this](const RunRecord& r) { put(r); }, [this] { tick(); });
+  if (progress_) progress_(kept_ + ran_, counts().total);
   write_tables();
   if (kept_ + ran_ > 0) io::remove_other_files(folder_, table_places());
 }
@@ -412,8 +415,9 @@ Table Study::point_table() const {
   auto columns = point_columns(varied);
   for (const auto* name : {"replicas", "done", "failed", "states"}) columns.push_back({name, Type::integer});
   for (const auto& quantity : shown) {
-    columns.push_back({quantity.name, Type::number});
-    if (!quantity.interval.empty()) columns.push_back({quantity.name + "_ci95", Type::number});
+    columns.push_back({quantity.name, Type::number, quantity.si_unit});
+    if (!quantity.interval.empty())
+      columns.push_back({quantity.name + "_ci95", Type::number, quantity.si_unit});
   }
   Table table(std::move(columns));
   for (std::size_t k = 0; k < points_.size(); ++k) {
@@ -437,7 +441,7 @@ Table Study::run_table() const {
   auto columns = point_columns(varied);
   columns.push_back({"seed", Type::integer});
   for (const auto* name : {"status", "end_reason"}) columns.push_back({name, Type::text});
-  for (const auto& quantity : shown) columns.push_back({quantity.name, Type::number});
+  for (const auto& quantity : shown) columns.push_back({quantity.name, Type::number, quantity.si_unit});
   for (const auto* name : {"digest", "message"}) columns.push_back({name, Type::text});
   Table table(std::move(columns));
   for (std::size_t k = 0; k < points_.size(); ++k)
@@ -453,7 +457,7 @@ Table Study::run_table() const {
 
 Table Study::log_table() const {
   if (log_.empty()) return {};
-  Table table({{"run", Type::text}, {"cpu_seconds", Type::number}});
+  Table table({{"run", Type::text}, {"cpu_seconds", Type::number, "s"}});
   for (const auto& [what, seconds] : log_) table.put(what, seconds);
   return table;
 }

@@ -66,10 +66,13 @@ struct StudyCounts {
 
 class Study {
  public:
+  /// Receives the numbers of runs that are done and of all, at most once a second, and at the end.
+  using Progress = std::function<void(std::size_t done, std::size_t total)>;
+
   /// @param name  of the files: `name`.csv, `name`.h5, `name`_log.csv
   /// @param show  whether progress is wanted: a line on a terminal, elsewhere one every minute
   Study(casefile::StudySpec spec, std::filesystem::path folder, std::string name, Executor& executor,
-        bool show);
+        bool show, Progress progress = nullptr);
 
   std::size_t add_point(Point point);
   /// The next seeds of a point. Nothing is read from disk or run before `run`.
@@ -120,6 +123,7 @@ class Study {
   std::string name_;
   Executor& executor_;
   bool shows_;
+  Progress progress_;
   io::ProgressLine line_;
   std::vector<Point> points_;
   std::multimap<std::string, Run*> waiting_;  ///< by digest: points can share a case

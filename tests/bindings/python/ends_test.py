@@ -65,6 +65,8 @@ class Failing:
         if self.at == "shown":
             raise BrokenPipeError
 
+    refresh = set_postfix
+
     def close(self):
         if self.at == "closed":
             raise RuntimeError("no widget")
@@ -81,7 +83,11 @@ def test_progress_falls_back_to_text_and_loses_no_run(small, auto, plain, monkey
     run = edmill.run(small, until="120 s", events=False, progress=True)
     assert (run.time, run.end_reason) == (120, "end_time")
     if "closed" not in (auto, plain):
-        assert " s of 120 s, " in capsys.readouterr().err
+        assert " of 120 s, " in capsys.readouterr().err
+    rates = edmill.sweep(small, over={"contact.restitution": [0.4, 0.5, 0.6]}, seeds=2, progress=True).points["milling_dose_rate"]
+    assert len(rates) == 3 and (rates > 0).all()
+    if "closed" not in (auto, plain):
+        assert "\r6 of 6 runs\n" in capsys.readouterr().err
 
 
 def test_progress_without_a_terminal_loses_no_run(small, monkeypatch):

@@ -128,7 +128,7 @@ def test_what_decides_names_every_run(case):
     assert next(iter(found.values())) == edmill.run(case).dose_rate
     assert {"another seed", "half of the least separation speed", "restitution + 0.2", "friction - 0.2"} < set(found)
     assert "restitution - 0.2" in found.differing and "another seed" not in found.differing
-    assert "it depends on: " in found.text
+    assert "the dose rate depends on: " in found.text
 
 
 def test_a_run_ends_at_its_precision(case):

@@ -107,7 +107,7 @@ def bifurcation(t):
 def sweep(t):
     pathlib.Path("my.sweep.toml").write_text(SWEEP)
     said("sweep", "my.sweep.toml", "--quiet", "--out", "study")
-    doses = [float(row["milling_dose_rate"]) for row in rows("study/sweep.csv")]
+    doses = [float(row["milling_dose_rate [W]"]) for row in rows("study/sweep.csv")]
     t.check(len(doses) == 2 and min(doses) > 0, f"dose rates of two points: {doses}")
 
 

@@ -13,7 +13,7 @@ from program import Trials, case, edmill, results, same, shell, start
 
 COMMANDS = {  # each writes its result where it is told by the last argument
     "compare": "compare done done --quiet --json", "audit": "audit case.toml done --quiet --json",
-    "check": "check case.toml --draw", "new": "new --balls 3x12mm --out", "certify": "certify case.toml --collisions 3 --quiet --out",
+    "check": "check case.toml --draw", "new": "new --force --balls 3x12mm --out", "certify": "certify case.toml --collisions 3 --quiet --out",
     "prove": "prove case.toml --collisions 3 --quiet --out",
     "certificate": "prove case.toml --collisions 3 --quiet --certificate"}
 

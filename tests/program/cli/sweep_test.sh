@@ -45,14 +45,14 @@ fi
 check "the confidence interval pools the runs' own and their scatter" python3 - <<'EOF'
 import csv, math, statistics
 runs = [r for r in csv.DictReader(open("one/runs.csv")) if r["point"] == "1"]
-values = [float(r["milling_dose_rate"]) for r in runs]
-own = [float(r["milling_dose_rate_ci95"]) / 2.178812829667228 for r in runs]
+values = [float(r["milling_dose_rate [W]"]) for r in runs]
+own = [float(r["milling_dose_rate_ci95 [W]"]) / 2.178812829667228 for r in runs]
 row = next(csv.DictReader(open("one/sweep.csv")))
 assert len(values) == 3
 mean, within = statistics.mean(values), sum(s * s for s in own) / 3
 half = 2.024394164575136 * math.sqrt((2 * statistics.variance(values) + 36 * within) / 38 / 3)
-assert math.isclose(mean, float(row["milling_dose_rate"]), rel_tol=1e-12)
-assert math.isclose(half, float(row["milling_dose_rate_ci95"]), rel_tol=1e-9)
+assert math.isclose(mean, float(row["milling_dose_rate [W]"]), rel_tol=1e-12)
+assert math.isclose(half, float(row["milling_dose_rate_ci95 [W]"]), rel_tol=1e-9)
 EOF
 
 # Killed midway: finished runs are not run again, and the tables are those of an undisturbed sweep.

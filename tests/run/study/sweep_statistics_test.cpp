@@ -71,7 +71,8 @@ TEST_F(SweepIntervals, TheTableHoldsWhatTheRunsGive) {
     for (std::string line; std::getline(lines, line);) {
       rows.emplace_back();
       std::istringstream fields(line);
-      for (std::string field; std::getline(fields, field, ',');) rows.back().push_back(field);
+      for (std::string field; std::getline(fields, field, ',');)
+        rows.back().push_back(field.substr(0, field.find(" [")));  // titles without units
     }
     return rows;
   };

@@ -3,12 +3,9 @@ from __future__ import annotations
 
 import csv
 import decimal
-import importlib
 import json
 import pathlib
-import sys
 import tempfile
-import warnings
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
@@ -18,6 +15,7 @@ from . import _edmill, checks
 from .callbacks import ContactLaw, Impact, RestitutionLaw, Running
 from .case import Case, case_of
 from .checks import require
+from .progress import Progress
 from .tables import Records, Tables
 from .values import Value
 
@@ -179,54 +177,6 @@ def _array(rows: Any, dtype: np.dtype, number: type) -> np.ndarray:
     return np.array(rows, dtype=dtype)
 
 
-def _line(until: float | None):
-    """Two functions that show and end a line of text on standard error."""
-    of = "" if until is None else f" of {until:g} s"
-
-    def show(time: float, collisions: int) -> None:
-        print(f"\rsimulated {time:.3f} s{of}, {collisions} collisions", end="", file=sys.stderr, flush=True)
-
-    return show, lambda: print(file=sys.stderr)
-
-
-def _bar(module: str, until: float | None):
-    """Two functions that show and end a bar of tqdm: a widget in a notebook (tqdm.auto), or text (tqdm)."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of notebooks without widgets
-        bar = importlib.import_module(module).tqdm(total=until, unit="s", unit_scale=True, desc="simulated")
-
-    def show(time: float, collisions: int) -> None:
-        bar.n = time
-        bar.set_postfix(collisions=collisions)
-
-    return show, bar.close
-
-
-class _Progress:
-    """Shows the progress of a run in the first way that works. A way that fails is replaced by the next; none ends the run."""
-
-    def __init__(self, until: float | None):
-        self._ways = [lambda: _bar("tqdm.auto", until), lambda: _bar("tqdm", until), lambda: _line(until)]
-        self._shown: Any = None
-        self._do(lambda show, close: None)
-
-    def _do(self, action: Callable[..., object]) -> None:
-        while self._shown or self._ways:
-            try:
-                self._shown = self._shown or self._ways.pop(0)()
-                action(*self._shown)
-                return
-            except Exception:  # of any kind: widgets, terminals and files have many
-                self._shown = None
-
-    def __call__(self, time: float, collisions: int) -> None:
-        self._do(lambda show, close: show(time, collisions))
-
-    def close(self) -> None:
-        self._ways = []
-        self._do(lambda show, close: close())
-
-
 def _law_of(name: str, law: Any, case: Case) -> ContactLaw | None:
     """Returns a law unchanged, or makes one from a function that gives the restitution, with the friction of the case."""
     if law is None or all(callable(getattr(law, method, None)) for method in ("restitution", "restitution_of_slip")):
@@ -300,11 +250,11 @@ def run(case: Case | Mapping | str, precision: str | None = None, until: str | f
                 "none, and no laws of Python, in a run with checkpoints")
         _edmill.run_with_checkpoints(the_case, precision, folder, report, checkpoint)
         return read_run(folder)
-    show = _Progress(case.end_time) if progress is True else progress or None
+    show = Progress(case.end_time, "s") if progress is True else progress or None
     try:
         result = _edmill.run(the_case, precision, folder or "", events, report, observers, ball_ball_law, ball_wall_law, show)
     finally:
-        if isinstance(show, _Progress):
+        if isinstance(show, Progress):
             show.close()
     done = Run(case, precision, None if folder is None else pathlib.Path(folder), result)
     laws = {"ball_ball_law": ball_ball_law, "ball_wall_law": ball_wall_law}

@@ -14,11 +14,9 @@ import numpy as np
 from . import _edmill
 from .case import Case, _toml, case_of
 from .checks import flag, place, require, whole
+from .progress import Progress
 from .tables import Records, Tables
 from .values import Value
-
-_units = {"milling_dose_rate": "W", "specific_milling_dose_rate": "W/kg", "inverse_milling_dose_rate": "s/J", "wall_work_rate": "W",
-          "milling_time": "s", "fast_impact_rate": "1/s", "mean_impact_speed": "m/s", "impact_energy": "J"}
 
 
 class Study:
@@ -41,7 +39,7 @@ class Study:
         """`points` as a `pandas.DataFrame`: values of the keys that vary are numbers in SI where they have units. `attrs["units"]` has
         the unit of each column."""
         frame = self.points.to_dataframe()
-        units = {}
+        units = {name: field[2].partition(" [")[2][:-1] for name, field in self.points.dtype.fields.items() if len(field) > 2}
         columns = list(frame.columns)
         for name in columns[2:columns.index("replicas")] if "replicas" in columns else ():
             values = [_edmill.in_si(value) if isinstance(value, str) else None for value in frame[name]]
@@ -51,8 +49,6 @@ class Study:
             elif frame[name].dtype == object:
                 with contextlib.suppress(ValueError):
                     frame[name] = frame[name].astype(float)
-        units.update({name: _units[name.removesuffix("_ci95")] for name in frame.columns if name.removesuffix("_ci95") in _units})
-        units.update({name: "1/s" for name in frame.columns if name.startswith(("collision_rate_", "impact_rate_"))})
         frame.attrs["units"] = units
         return frame
 
@@ -97,8 +93,19 @@ def _study(work, name: str, source: Any, folder: Any, jobs: int, progress: bool)
     folder, jobs, progress = place("folder", folder), whole("jobs", jobs, 0, 4096), flag("progress", progress)
 
     def on(file: str) -> Study:
-        code = work(file, folder, jobs, progress)
-        return Study(pathlib.Path(folder), name, code != 0)
+        bar: Any = None
+
+        def show(done: int, total: int) -> None:
+            nonlocal bar
+            bar = bar or Progress(None if name == "optimize" else total, "runs")  # an optimisation adds runs
+            bar(done)
+
+        try:
+            failed = work(file, folder, jobs, show if progress else None)
+        finally:
+            if bar:
+                bar.close()
+        return Study(pathlib.Path(folder), name, failed != 0)
 
     if not isinstance(source, Mapping):
         return on(place("source", source, "a file or a dictionary of its sections"))
@@ -141,7 +148,7 @@ def sweep(source: Case | Mapping | str | os.PathLike, folder: str | os.PathLike 
 
     Runs that the folder has already are not done again; without a `folder` the tables are in a temporary one,
     which is removed with the result.
-    `jobs` threads, all cores for 0. `progress`: a line on standard error, on a terminal."""
+    `jobs` threads, all cores for 0. `progress`: a bar of tqdm, or a line of text without it."""
     if over is not None:
         require("over", over, isinstance(over, Mapping) and len(over) > 0, "values by key, {\"mill.speed\": [\"200 rpm\", \"300 rpm\"]}")
         for key, values in over.items():

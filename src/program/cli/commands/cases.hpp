@@ -4,6 +4,7 @@
 #include "app/check_case.hpp"
 #include "cli/commands/case_argument.hpp"
 #include "cli/exit_codes.hpp"
+#include "io/input_file.hpp"
 #include "io/output_folder.hpp"
 #include "io/terminal.hpp"
 #include "machines/machines.hpp"
@@ -59,12 +60,16 @@ struct New {
     command.add_option("--time", wanted_.time, "simulated time (default: \"10 s\")");
     command.add_option("--out", file_,
                        "file of the case, written whole or not at all; standard output by default");
+    command.add_flag("--force", force_, "replace a file that has been edited");
   }
   int run() {
     const auto text = machines::new_case(wanted_);
     app::check(casefile::parse_case(text, "the new case"));  // the balls have room
     if (file_.empty() || file_ == "-")
       io::print("{}", text);
+    else if (!force_ && std::filesystem::is_regular_file(file_) && io::content_of(file_) != text)
+      throw InputError(fmt::format(
+          "--out: found \"{}\", which has other contents, expected a new name, or --force", file_));
     else
       io::NamedFile(file_).write(text);
     return ok;
@@ -73,6 +78,7 @@ struct New {
  private:
   machines::Wanted wanted_;
   std::string file_;
+  bool force_ = false;
 };
 
 struct Check {
