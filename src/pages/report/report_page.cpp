@@ -205,9 +205,9 @@ std::string page_of_run(const RunFolder& run) {
   auto main = add(document, "main");
   add_headline(main, run);
   add_warnings(main, run);
-  add_check(main, run);
   add_animation(main, run);
   add_rates(main, run);
+  add_check(main, run);
   add_spectra(main, run);
   add_vessel(main, run);
   add_treatment(main, run);
