@@ -67,7 +67,8 @@ Catalogue read() {
     all.machines.push_back(std::move(machine));
   });
   each(root, "material", [&](const toml::table& m) {
-    all.materials.push_back({text_of(m, "key"), text_of(m, "density"), source_of(m), texts_of(m, "also")});
+    all.materials.push_back(
+        {text_of(m, "key"), text_of(m, "density"), source_of(m), text_of(m, "dry"), texts_of(m, "also")});
   });
   each(root, "elsewhere", [&](const toml::table& e) {
     all.elsewhere.push_back({texts_of(e, "names"), text_of(e, "what")});
@@ -421,12 +422,14 @@ std::string markdown() {
     out += fmt::format("| {} | {} |\n", fmt::join(other.names, ", "), other.what);
   out +=
       "\n## Balls\n\n`--balls 10x12.7mm:zirconia`; steel unless a material is given.\n\n| material | density "
-      "| source |\n|---|---|---|\n";
+      "| source | contacts without powder in the literature |\n|---|---|---|---|\n";
   for (const auto& m : all.materials)
-    out += fmt::format("| {} | {} | {} |\n", code(m.key), m.density, m.source);
+    out += fmt::format("| {} | {} | {} | {} |\n", code(m.key), m.density, m.source,
+                       m.dry.empty() ? "not known" : m.dry);
   out +=
       "\n## Contacts\n\nWhat a case has unless `--restitution` and `--friction` say otherwise. The powder "
-      "decides the restitution more than the balls do; the [tutorial](tutorial.md) shows what a change of "
+      "decides the restitution more than the balls do, and only that of steel with powder has a source; the "
+      "[tutorial](tutorial.md) shows what a change of "
       "either does to the result.\n\n| charge | restitution | source |\n|---|---|---|\n";
   for (const auto& c : all.contacts)
     out += fmt::format("| {} | {} | {} |\n", c.what,

@@ -29,6 +29,7 @@ struct Machine {
 /// What balls are made of.
 struct Material {
   std::string key, density, source;
+  std::string dry;  ///< restitution and friction without powder in the literature; may be empty
   std::vector<std::string> also;
 };
 
