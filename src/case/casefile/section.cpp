@@ -70,7 +70,9 @@ void apply(toml::table& root, Document& document, const std::string& text) {
   if (equals == std::string::npos) return complain("no '='");
   if (equals == 0) return complain("no key");
   const std::string value = text.substr(equals + 1);
-  auto keys = parts_of(text.substr(0, equals));
+  auto key = text.substr(0, equals);
+  key.erase(key.find_last_not_of(" \t") + 1);
+  auto keys = parts_of(key);
   toml::node* parent = &root;
   std::string path;
   for (std::size_t k = 0; k < keys.size(); ++k) {

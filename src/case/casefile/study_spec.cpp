@@ -101,6 +101,8 @@ Spec read_study_file(const std::string& path, const std::string& section, const 
   Spec spec;
   spec.file = path;
   Section top(document, &root, "");
+  if (!top.has(section) && (top.has("mill") || top.has("vessel") || top.has("ball") || top.has("balls")))
+    throw InputError(path + ": found a case file, expected " + kind + "; for a case there is edmill run");
   if (!top.has(section)) top.problem(section, "nothing", "a section [" + section + "]");
   Section s = top.section(section);
   read_keys(s, spec);

@@ -254,7 +254,9 @@ struct Charge {
                  ratio = wanted.ratio.empty() ? 0
                                               : number_of("--bpr", wanted.ratio.substr(0, colon),
                                                           "mass of the balls over that of the powder, 10");
-    if (fill > 1) throw InputError("--fill: found more than the jar, expected a share of it, \"30%\"");
+    if (fill > 1)
+      throw InputError(fmt::format(
+          "--fill: found {}, which is more than the jar, expected a share of it, \"30%\"", wanted.fill));
     const bool finds_number = fill > 0 || (ratio > 0 && powder > 0);
     Batch* open = nullptr;
     for (const auto& text :

@@ -1,9 +1,9 @@
 // Means, medians, their intervals and tests.
 #pragma once
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <vector>
 
@@ -113,7 +113,9 @@ class WeightedQuantiles {
     constexpr int exponent_of_one = 1023, fraction_bits = 52;
     constexpr std::uint64_t least = std::uint64_t{exponent_of_one - 1 + least_octave} << bin_bits;
     if (!(value > 0) || !std::isfinite(value)) return 0;
-    const auto bin = std::bit_cast<std::uint64_t>(value) >> (fraction_bits - bin_bits);
+    std::uint64_t bits;
+    std::memcpy(&bits, &value, sizeof bits);  // some standard libraries have no bit_cast
+    const auto bin = bits >> (fraction_bits - bin_bits);
     return static_cast<std::size_t>(bin > least ? bin - least : 0);
   }
 

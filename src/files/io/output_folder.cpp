@@ -1,6 +1,7 @@
 #include "io/output_folder.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -147,6 +148,15 @@ void record_files(const fs::path& folder, const std::vector<fs::path>& files) {
   const auto before = names.size();
   names.merge(names_of(folder, files));
   if (names.size() > before) write(folder, names);
+}
+
+void require_own_files(const fs::path& folder, const std::vector<std::string>& names) {
+  const auto own = recorded(folder);
+  for (const auto& name : names)
+    if (!own.contains(name) && fs::exists(folder / name))
+      throw InputError(fmt::format(
+          "{}: found a file that edmill has not written, expected a folder without it: use another --out",
+          (folder / name).string()));
 }
 
 void remove_other_files(const fs::path& folder, const std::vector<fs::path>& files) {

@@ -69,6 +69,10 @@ inline constexpr const char* file_record_name = ".edmill-files";
 /// @throws std::runtime_error when the record was not written
 void record_files(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files);
 
+/// Keeps files of the user.
+/// @throws InputError when one of these files of the folder exists and is not in the record
+void require_own_files(const std::filesystem::path& folder, const std::vector<std::string>& names);
+
 /// Removes the recorded files that are not in `files`, and folders that become empty. `files` becomes the
 /// record.
 /// @throws std::runtime_error when the record was not written

@@ -77,7 +77,7 @@ if (choices.length) {
   for (const unit of choices) {
     const label = document.createElement("label"), select = document.createElement("select");
     for (const other of Object.keys(units[unit])) select.append(new Option(other));
-    label.append(`${unit} as `, select);
+    label.append(`show ${unit} in `, select);
     bar.append(label);
     select.addEventListener("change", () => {
       const factor = units[unit][select.value];

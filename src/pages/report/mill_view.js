@@ -24,6 +24,19 @@ class MillView {
     this.azimuth += azimuth;
     this.elevation = Math.max(-1.5, Math.min(1.5, this.elevation + elevation));
   }
+  /** Moves the target and the eye so that the places fill a picture of 4 by 3. */
+  fit(places) {
+    const [ca, sa, ce, se] = [Math.cos(this.azimuth), Math.sin(this.azimuth), Math.cos(this.elevation), Math.sin(this.elevation)];
+    const along = (axis) => places.map((place) => dot(place.map((c, k) => c - this.target[k]), axis));
+    const axes = [[ca, 0, -sa], [-sa * se, ce, -ca * se]];
+    const middle = (values) => (Math.max(...values) + Math.min(...values)) / 2;
+    for (let round = 0; round < 4; ++round) { // what is nearer looks larger
+      const [x, y, depth] = [...axes, [sa * ce, se, ca * ce]].map(along);
+      this.distance = Math.max(...depth.map((z, k) => z + 1.05 * Math.max(Math.abs(x[k]) * 3 / 4, Math.abs(y[k])) / Math.tan(0.3)));
+      const shifts = [x, y].map((values) => this.distance * middle(values.map((value, k) => value / (this.distance - depth[k]))));
+      if (round < 3) this.target = this.target.map((c, k) => c + axes[0][k] * shifts[0] + axes[1][k] * shifts[1]);
+    }
+  }
   /** Turns it with the pointer and the arrow keys; + and - change the distance. */
   listen(onChange) {
     const keys = { ArrowLeft: [-0.1, 0, 1], ArrowRight: [0.1, 0, 1], ArrowUp: [0, 0.1, 1], ArrowDown: [0, -0.1, 1], "+": [0, 0, 0.9], "-": [0, 0, 1 / 0.9] };

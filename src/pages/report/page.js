@@ -34,7 +34,10 @@ function play() {
   const ride = document.getElementById("ride"), view = new MillView(canvas, mill.target, mill.eye[2] - mill.target[2]);
   const path = Array.from({ length: mill.vessel.poses.length / 7 }, (_, k) => mill.vessel.poses.slice(7 * k, 7 * k + 3));
   const extent = (k) => Math.max(...path.map((p) => p[k])) - Math.min(...path.map((p) => p[k]));
-  if (extent(2) > 3 * extent(1)) view.turn(0, 0.5); // the jar's way is a circle, seen from the side
+  if (extent(2) > 3 * extent(1)) { // the jar's way is a circle, seen from the side
+    view.turn(0, 0.5);
+    view.fit(Array.from({ length: 24 }, (_, k) => stateAt(mill, k / 24, false).walls.flatMap((wall) => wall.points)).flat());
+  }
   const look = { colour: mill.vessel.colour, opacity: mill.vessel.opacity / 2, edge: "#b59a00b0" };
 
   let time = 0, playing = false, last = null, asked = false;

@@ -340,10 +340,11 @@ std::string study_page(const study::Study& study, const std::string& kind, const
   for (const auto& what : study::main_quantities()) draw_points(grid, points, places, what);
   add_runs(main, points);
   const auto counts = study.counts();
-  return page_of({kind + " " + std::filesystem::path(study.file()).filename().string(),
-                  fmt::format("{} points, {} runs, {} failed{}", points.size(), counts.total, counts.failed,
-                              study.interrupted() ? ", interrupted" : ""),
-                  version(), commit(), document});
+  return page_of(
+      {kind + ", " + std::filesystem::path(study.file()).filename().string(),
+       fmt::format("{} point{}, {} runs, {} failed{}", points.size(), points.size() == 1 ? "" : "s",
+                   counts.total, counts.failed, study.interrupted() ? ", interrupted" : ""),
+       version(), commit(), document});
 }
 
 }  // namespace edmill::report

@@ -141,6 +141,11 @@ std::optional<RateOf> rate_in(const io::Facts& summary, const std::string& path)
 
 RunFolder read_run_folder(const std::filesystem::path& place) {
   const auto file = place / "summary.json";
+  for (const auto* page : {"sweep.html", "optimize.html", "seeds.html"})
+    if (!std::filesystem::exists(file) && std::filesystem::exists(place / page))
+      throw InputError(
+          fmt::format("{}: found the folder of several runs, expected that of one run; their page is {}",
+                      place.string(), (place / page).string()));
   RunFolder folder{place, io::facts_in(io::read_json(file, "the summary of a run"), file.string()), {}, {}};
   const auto& facts = folder.facts;
   const bool reported = facts.flag("reported");

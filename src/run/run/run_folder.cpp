@@ -13,9 +13,15 @@ RunFolder::RunFolder(fs::path place, const casefile::CaseSpec& spec, std::option
     : place_(std::move(place)), checkpoint_(std::move(checkpoint)) {
   take(place_);
   const bool begins = !checkpoint_ || (checkpoint_->state.empty() && checkpoint_->result.empty());
-  if (begins)
+  if (begins) {
     io::require_no_checkpoint(place_);
-  else if (io::read_checkpoint(place_).state != checkpoint_->state)
+    io::require_own_files(place_, {"case.toml", "final_state.csv", "summary.json"});
+    if (fs::exists(place_ / "runs") && fs::exists(place_ / "runs.csv"))
+      throw InputError(place_.string() +
+                       ": found the runs of a sweep, an optimisation or several seeds, expected a folder "
+                       "without: use another --out");
+  }
+  if (!begins && io::read_checkpoint(place_).state != checkpoint_->state)
     throw InputError(io::checkpoint_place(place_).string() +
                      ": found another checkpoint than a moment ago, expected one process at a time");
   for (const auto& output : spec.outputs) {

@@ -156,7 +156,14 @@ std::string list_of(const std::vector<Point>& points) {
       before = ", ";
     }
     if (before == " ") out += " no result";
-    if (const auto failed = points[k].failed(); failed > 0) out += ", " + counted(failed, "run") + " failed";
+    if (const auto failed = points[k].failed(); failed > 0) {
+      out += ", " + counted(failed, "run") + " failed";
+      for (const auto& run : points[k].runs)
+        if (run.record && !run.record->done() && !run.record->message.empty()) {
+          out += ": " + run.record->message.substr(0, run.record->message.find('\n'));
+          break;
+        }
+    }
     out += '\n';
   }
   if (points.size() > most) out += fmt::format("  and {} more points\n", points.size() - most);
@@ -344,6 +351,9 @@ void Study::take_folder() {
   io::prepare_folder(folder_);
   lock_.emplace(folder_);
   io::require_no_checkpoint(folder_);
+  std::vector<std::string> own;
+  for (const auto& table : table_places()) own.push_back(table.filename().string());
+  io::require_own_files(folder_, own);
   io::prepare_folder(folder_ / "runs");
   for (const auto& folder : {folder_, folder_ / "runs"}) io::remove_temporaries(folder);
   io::record_files(folder_, table_places());

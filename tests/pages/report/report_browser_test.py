@@ -24,6 +24,18 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 
 FOLDER = None
+# Whether the canvas has painted pixels, and how many are on its rim.
+PAINTED_RIM = '''
+    const canvas = document.querySelector('.stage canvas'), {width, height} = canvas;
+    const {data} = canvas.getContext('2d').getImageData(0, 0, width, height);
+    let all = false, rim = 0;
+    for (let y = 0; y < height; ++y)
+      for (let x = 0; x < width; ++x)
+        if (data[4 * (y * width + x) + 3]) {
+          all = true;
+          rim += x == 0 || y == 0 || x == width - 1 || y == height - 1;
+        }
+    return [all, rim];'''
 
 
 def run(folder, *settings):
@@ -81,6 +93,13 @@ class Report(OpenReport):
         farthest = self.script(FARTHEST)
         self.assertLess(farthest, 1, "all balls are in the picture at all times")
         self.assertGreater(farthest, 0.9, "and what they are in fills it")
+        for share in (0, 0.2, 0.4, 0.6, 0.8):
+            self.script('''
+                const slider = document.getElementById('time');
+                slider.value = arguments[0] * slider.max;
+                slider.dispatchEvent(new Event('input'));''', share)
+            time.sleep(0.15)
+            self.assertEqual(self.script(PAINTED_RIM), [True, 0], f"{name}: the jar is in the picture as it is drawn, at {share}")
         if name not in WITHOUT_DOSE:
             high = "return Math.max(...[...document.querySelectorAll('#energy-spectrum .curve')].map(c => c.getBBox().height))"
             self.assertGreater(self.script(high), 100, "the spectrum shows the energies of this mill")

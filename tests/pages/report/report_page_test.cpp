@@ -31,7 +31,7 @@ TEST_F(Report, OfARunWithReportHasEverySection) {
   run("--report");
   const auto main = body();
   EXPECT_EQ(ids(main, "//section"),
-            (Ids{"results", "check", "animation", "rates", "spectra", "vessel", "speeds", "energy", "case"}));
+            (Ids{"results", "animation", "rates", "check", "spectra", "vessel", "speeds", "energy", "case"}));
   EXPECT_EQ(ids(main, "//figure").size(), 12u);
   EXPECT_TRUE(main.select_nodes("//*[@class='missing']").empty());
   EXPECT_LT(page().size(), 6000000u);

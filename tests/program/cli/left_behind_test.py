@@ -107,7 +107,35 @@ def failures(t):
             t.check("report.html" not in results("old") and "events.h5" not in results("old"), "files of the older run")
 
 
+def foreign(t):
+    """A file of the user with a name that a run or a study needs, and the folder of a study, are refused."""
+    pathlib.Path("case.toml").write_text(case("collisions"))
+    sweep = '[sweep]\ncase = "case.toml"\n[sweep.grid]\n"contact.restitution" = [0.5, 2, 0.6]\n'
+    pathlib.Path("my.sweep.toml").write_text(sweep)
+    commands = {("run", "case.toml"): ("case.toml", "summary.json", "final_state.csv"),
+                ("run", "case.toml", "--seeds", "2"): ("seeds.csv", "runs.csv", "seeds.html"),
+                ("sweep", "my.sweep.toml"): ("sweep.csv", "runs.csv", "sweep.h5", "sweep_log.csv", "sweep.html")}
+    for command, names in commands.items():
+        for name in names:
+            place = pathlib.Path("foreign")
+            place.mkdir()
+            (place / name).write_text("mine")
+            t.refused(edmill(*command, "--quiet", "--out", place), f"{command} over {name}", place / name, "has not written")
+            t.check({p.name: p.read_text() for p in place.iterdir()} == {name: "mine"}, f"{command}: {name} is as it was")
+            shutil.rmtree(place)
+    done = edmill("sweep", "my.sweep.toml", "--out", "foreign")
+    t.check(done.returncode == 5 and '1 run failed: --set contact.restitution=2: key \'contact.restitution\': found "2"' in done.stdout,
+            f"why a run failed: {done.stdout} {done.stderr}")
+    before = results("foreign")
+    t.refused(edmill("run", "case.toml", "--quiet", "--out", "foreign"), "a run over a sweep", "foreign", "sweep")
+    t.check(same(results("foreign"), before) == [], "the sweep is as it was")
+    t.refused(edmill("report", "foreign"), "the page of a sweep", "foreign/sweep.html")
+    t.refused(edmill("sweep", "case.toml"), "a sweep of a case", "found a case file", "edmill run")
+    t.check(edmill("run", "case.toml", "--quiet", "--out", ".", "--set", "run.seed = 2").returncode == 2, "over the case itself")
+
+
 with Trials() as t:
+    foreign(t)
     for trial in range(trials):
         one_after_the_other(t, trial)
     failures(t)

@@ -86,7 +86,8 @@ class Study:
         return f'<iframe srcdoc="{page}" style="width:100%;height:80vh;border:0"></iframe>'
 
     def __repr__(self) -> str:
-        return self.text or f"<edmill.Study in {self.folder}: {len(self.points)} points>"
+        failed = ", some runs failed: see runs[\"message\"]" if self.failed else ""
+        return self.text or f"<edmill.Study in {self.folder}: {len(self.points)} points{failed}>"
 
 
 def _study(work, name: str, source: Any, folder: Any, jobs: int, progress: bool) -> Study:

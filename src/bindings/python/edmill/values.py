@@ -4,6 +4,7 @@ from __future__ import annotations
 import decimal
 
 from . import _edmill
+from .checks import require
 
 
 class Value(float):
@@ -29,6 +30,7 @@ class Value(float):
 
     def differs(self, other: Value) -> bool | None:
         """Whether the 95 % interval of the difference leaves out zero; None where one has no interval."""
+        require("other", other, isinstance(other, Value), "a rate with its interval, such as run.dose_rate")
         if self.half_width is None or other.half_width is None:
             return None
         return abs(float(self) - float(other)) > (self.half_width ** 2 + other.half_width ** 2) ** 0.5
