@@ -142,10 +142,15 @@ auto DecisionLadder<Real>::time_of(const Contact<Real>& contact) -> Timed {
   const Real length = walls_.longest_window() / 64;
   auto begin = clock.after(contact.time, -length);
   if (begin < contact.flight.start) begin = contact.flight.start;
-  const Real window = clock.elapsed(begin, contact.time) + length / 64;
-  const auto answer = wall({contact.flight, contact.radius, begin, window});
-  if (answer.verdict == Verdict::contact) return {answer.time, answer.time_error};
-  return {contact.time, tie_window()};
+  Real window = clock.elapsed(begin, contact.time) + length / 64;
+  for (;;) {  // a search of bodies may prove a part of its window only
+    const auto answer = wall({contact.flight, contact.radius, begin, window});
+    if (answer.verdict == Verdict::contact) return {answer.time, answer.time_error};
+    if (mill_.bodies.empty() || !(answer.searched > 0 && answer.searched < window))
+      return {contact.time, tie_window()};
+    begin = clock.after(begin, answer.searched);
+    window -= answer.searched;
+  }
 }
 
 template <class Real>

@@ -203,6 +203,7 @@ std::optional<ExactGap> exact_gap(const model::Joints<Real>& joints, const Shape
 template <model::Motion M, model::Vessel V, class Real = typename M::Scalar>
 std::optional<ExactGap> exact_gap(const M& motion, const V& vessel, const Vec3<Real>& gravity,
                                   const WallQuery<Real>& query, int wall) {
+  if (wall >= vessel.wall_count()) return std::nullopt;  // a body
   const auto shape = detail::shape_of(vessel, wall);
   if (shape.kind == detail::Shape<Real>::other) return std::nullopt;
   return detail::exact_gap(detail::joints_of(motion), shape, gravity, query);

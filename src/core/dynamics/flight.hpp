@@ -114,6 +114,7 @@ struct RoughAnswer {
   Verdict verdict = Verdict::undecided;
   double until = 0;            ///< of none: no contact up to here
   int wall = -1;               ///< of a contact; no wall is touched before `left`
+  int region = 0;              ///< of the gap functions, where a body has several
   double left = 0, right = 0;  ///< its gap decreases throughout [left, right], through zero
   double root = 0;             ///< estimate of the root
   double curvature = 0;        ///< second derivative of the gap there

@@ -113,6 +113,14 @@ class GapFunctions {
                                            : Real(Real(period - flight.start.period) * mill.clock.period())) {
   }
 
+  /// Chooses the functions that are valid around a position in the frame of a body. @return their number
+  int enter(const Vec3<Real>& position) {
+    if constexpr (requires { room_.enter(position); })
+      return room_.enter(position);
+    else
+      return 0;
+  }
+
   /// Time since the start of the flight [s].
   Real elapsed(const Real& offset) const { return lag_ + (offset - flight_.start.offset); }
 
@@ -265,8 +273,14 @@ using DerivativeBounds = typename V::template PerKind<std::array<typename V::Sca
 /// enters inside the vessel.
 template <class M, class V, class Real = typename M::Scalar>
 DerivativeBounds<V> derivative_bounds(const MovingVessel<M, V>& mill, const Real& speed, const Real& length) {
-  const auto coordinates = mill.motion.coordinate_bounds(mill.vessel.half_sizes(), mill.vessel_reach,
-                                                         mill.gravity_size, speed, length);
+  Real reach = mill.vessel_reach;
+  if constexpr (requires { mill.vessel.reach_near(length); })  // a body is searched where the ball is near
+    if (const Real near =
+            mill.vessel.reach_near((speed + mill.wall_speed) * length * (1 + rounding_margin<Real>()));
+        near < reach)
+      reach = near;
+  const auto coordinates =
+      mill.motion.coordinate_bounds(mill.vessel.half_sizes(), reach, mill.gravity_size, speed, length);
   const Real margin = Real(1) + Real(1) / 65536;  // over the rounding of all this
   DerivativeBounds<V> bounds{};
   for (int k = 2; k <= 4; ++k) {

@@ -24,8 +24,13 @@ struct NoSearch {
   template <class... Args>
   explicit NoSearch(const Args&...) {}
 };
-template <class Real>
-using RoughSearch = std::conditional_t<std::is_same_v<Real, double>, NoSearch, AnyWallSearch<double>>;
+/// The search in double of the same walls.
+template <class Real, class V>
+struct RoughSearchOf {
+  using Type = std::conditional_t<std::is_same_v<Real, double>, NoSearch, AnyWallSearch<double>>;
+};
+template <class Real, class V>
+using RoughSearch = typename RoughSearchOf<Real, V>::Type;
 
 /// Finds the first time in the window at which a gap is zero or negative and decreasing, for the flight as
 /// stored. A ball that starts within rounding of a wall and leaves it is not in contact until it returns; one
@@ -82,6 +87,7 @@ class WallSearch {
 
  private:
   static constexpr bool is_wide = !std::is_same_v<Real, double>;
+  static constexpr bool is_body = std::is_same_v<V, model::RoundedBody<Real>>;
   static constexpr bool is_widest = std::is_void_v<Wider<Real>>;
   using Point = numerics::Point<Real>;
   using Bounds = numerics::CurveBounds<Real>;
@@ -91,7 +97,9 @@ class WallSearch {
     const Functions& functions;
     int wall;
     Bounds bounds;
-    int most_steps = 80;  ///< after which its search is undecided
+    /// After which its search is undecided. In the widest scalar a rule would decide then; the bounds of
+    /// bodies with round edges may need more steps.
+    int most_steps = is_widest && is_body ? 100000 : 80;
     Point at(const Real& t) const { return of(functions(t)); }
     Point of(const Sample& s) const { return {s.offset, s.gap[wall], s.rate[wall]}; }
   };
@@ -118,6 +126,8 @@ class WallSearch {
   bool drop_clear(const Start& first, const CurveOf& curve_of, Walls& reachable, Real& length,
                   const DerivativeBounds<V>& derivatives) const;
   void require_length(const WallQuery<Real>& query) const;
+  Real clear_time(const Functions& functions, const Vec3<Real>& position,
+                  const Real& speed) const requires is_body;
   /// The query with its window shortened so that all active gap functions are smooth in it; unchanged if they
   /// always are.
   decltype(auto) smooth(const WallQuery<Real>& query, const Functions& functions, const Vec3<Real>& position,
@@ -175,7 +185,16 @@ class WallSearch {
 
   MovingVessel<M, V> mill_;
   BoundsTable<M, V> bounds_;
-  [[no_unique_address]] RoughSearch<Real> rough_;
+  [[no_unique_address]] RoughSearch<Real, V> rough_;
+};
+
+/// First contact with a body inside the vessel.
+template <class Real>
+using BodySearch = WallSearch<model::ChainMotion<Real>, model::RoundedBody<Real>>;
+
+template <class Real>
+struct RoughSearchOf<Real, model::RoundedBody<Real>> {
+  using Type = std::conditional_t<std::is_same_v<Real, double>, NoSearch, BodySearch<double>>;
 };
 
 /// The wall search of a run, whose motion and vessel are known only when the case is read. In double there
@@ -198,25 +217,37 @@ class AnyWallSearch {
     reach_ = with([](const auto& search) { return search.mill().reach; });
   }
   explicit AnyWallSearch(const model::Mill<Real>& mill)
-      : AnyWallSearch(mill.motion, mill.vessel, mill.gravity) {}
+      : AnyWallSearch(mill.motion, mill.vessel, mill.gravity) {
+    walls_ = mill.vessel.wall_count();
+    for (const auto& body : mill.bodies) {
+      const auto& search = bodies_.emplace_back(body.motion, body.shape, mill.gravity);
+      if (search.longest_window() < longest_window_) longest_window_ = search.longest_window();
+    }
+  }
 
   const Real& longest_window() const { return longest_window_; }
   /// Largest distance of a ball from the origin [m].
   const Real& reach() const { return reach_; }
 
   WallAnswer<Real> operator()(const WallQuery<Real>& query) const {
-    return with([&]<class M, class V>(const WallSearch<M, V>& search) {
+    auto answer = with([&]<class M, class V>(const WallSearch<M, V>& search) {
       if constexpr (std::is_same_v<WallSearch<M, V>, General>)
         if (policy_) return policy_(search.mill().motion.pose(query.begin), query);
       return search(query);
     });
+    if (!bodies_.empty()) [[unlikely]]
+      answer = with_bodies(query, answer);
+    return answer;
   }
   WallAnswer<Real> search(const model::AnyPose<Real>& pose, const WallQuery<Real>& query) const {
-    return with([&]<class M, class V>(const WallSearch<M, V>& search) {
+    auto answer = with([&]<class M, class V>(const WallSearch<M, V>& search) {
       if constexpr (std::is_same_v<WallSearch<M, V>, General>)
         if (policy_) return policy_(pose, query);
       return search.search(model::pose_of<M>(pose), query);
     });
+    if (!bodies_.empty()) [[unlikely]]
+      answer = with_bodies(query, answer);
+    return answer;
   }
   /// Replaces the search by a policy of the caller, whose answers are not certified.
   void replace(Policy policy) {
@@ -257,7 +288,11 @@ class AnyWallSearch {
     return f(*std::get_if<General>(&search_));
   }
 
+  [[gnu::noinline]] WallAnswer<Real> with_bodies(const WallQuery<Real>& query, WallAnswer<Real> first) const;
+
   Search search_;
+  std::vector<BodySearch<Real>> bodies_;
+  int walls_ = 0;  ///< of the vessel
   Policy policy_;
   Real longest_window_, reach_;
 };
@@ -266,5 +301,7 @@ class AnyWallSearch {
 extern template class WallSearch<model::SpexMotion<double>, model::CylinderVessel<double>>;
 extern template class WallSearch<model::ChainMotion<double>, model::CylinderVessel<double>>;
 extern template class WallSearch<model::AnyMotion<double>, model::AnyVessel<double>>;
+extern template class WallSearch<model::ChainMotion<double>, model::RoundedBody<double>>;
+extern template class AnyWallSearch<double>;
 
 }  // namespace edmill::dynamics

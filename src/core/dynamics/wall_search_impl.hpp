@@ -31,6 +31,15 @@ auto WallSearch<M, V>::within_reach(const Functions& functions, const Vec3<Real>
   return near;
 }
 
+/// For how long a ball cannot reach a body, however it flies [s].
+template <model::Motion M, model::Vessel V>
+auto WallSearch<M, V>::clear_time(const Functions& functions, const Vec3<Real>& position,
+                                  const Real& speed) const -> Real requires is_body {
+  const Real rounding = mill_.reach * rounding_margin<Real>();
+  return (functions.room().clearance(position) - rounding) /
+         ((speed + mill_.wall_speed) * (1 + rounding_margin<Real>()));
+}
+
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::require_length(const WallQuery<Real>& query) const -> void {
   EDMILL_REQUIRE(query.length > 0 && query.length <= longest_window() * (1 + rounding_margin<Real>()),
@@ -56,10 +65,14 @@ decltype(auto) WallSearch<M, V>::smooth(const WallQuery<Real>& query,
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::search(const Pose& pose, const WallQuery<Real>& query) const -> WallAnswer<Real> {
   require_length(query);
-  const Functions functions(mill_, query.flight, query.radius, query.begin.period);
+  Functions functions(mill_, query.flight, query.radius, query.begin.period);
   const Real& begin = query.begin.offset;
   const auto ball = functions.seen(begin, pose);
+  functions.enter(ball.state.position);
   const Real speed = top_speed(ball.velocity, query.length);
+  if constexpr (is_body)
+    if (const Real leap = clear_time(functions, ball.state.position, speed); 16 * leap > query.length)
+      return WallAnswer<Real>::none(leap < query.length ? leap : query.length);
   const Walls reachable = within_reach(functions, ball.state.position, speed, query.length);
   if (!any_from(reachable, 0)) return WallAnswer<Real>::none(query.length);
   return first_contact<false>(functions, functions.start(begin, pose, ball), reachable, speed,
@@ -104,7 +117,7 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
   auto errors = own_errors;
   if constexpr (rounded) errors = errors + functions.state_errors(oldest, speed);
   const auto curve_of = [&](int wall, const DerivativeBounds<V>& derivatives) {
-    const auto& d = derivatives[mill_.vessel.kind_of(wall)];
+    const auto& d = derivatives[functions.room().kind_of(wall)];
     return Curve{
         functions, wall, {d[0], d[1], d[2], errors.gap[wall], errors.rate[wall], errors.curvature[wall]}};
   };
@@ -527,16 +540,25 @@ auto WallSearch<M, V>::rough(const WallQuery<Real>& query) const -> RoughAnswer 
     return {};
   } else {
     require_length(query);
-    const Functions functions(mill_, query.flight, query.radius, query.begin.period);
+    Functions functions(mill_, query.flight, query.radius, query.begin.period);
     const Real begin = query.begin.offset;
     RoughAnswer rough;
     const auto pose = functions.pose(begin);
     const auto ball = functions.seen(begin, pose);
+    const int region = functions.enter(ball.state.position);
     const Real speed = top_speed(ball.velocity, query.length);
-    const auto answer =
-        first_contact<true>(functions, functions.start(begin, pose, ball),
-                            model::active_functions(functions.room(), ball.state.position), speed,
-                            smooth(query, functions, ball.state.position, speed), &rough);
+    auto reachable = model::active_functions(functions.room(), ball.state.position);
+    if constexpr (is_body) {
+      if (const Real leap = clear_time(functions, ball.state.position, speed); 16 * leap > query.length) {
+        rough.verdict = Verdict::none;
+        rough.until = (begin + (leap < query.length ? leap : query.length)) * (1 - epsilon<Real>());
+        return rough;
+      }
+      reachable = within_reach(functions, ball.state.position, speed, query.length);
+    }
+    const auto answer = first_contact<true>(functions, functions.start(begin, pose, ball), reachable, speed,
+                                            smooth(query, functions, ball.state.position, speed), &rough);
+    rough.region = region;
     rough.verdict = answer.verdict;
     // The sum is rounded, and the window was proven up to its exact or its rounded end.
     if (answer.verdict == Verdict::none) rough.until = (begin + answer.searched) * (1 - epsilon<Real>());
@@ -545,7 +567,7 @@ auto WallSearch<M, V>::rough(const WallQuery<Real>& query) const -> RoughAnswer 
       rough.curvature = functions.start(rough.root).curvature[rough.wall];
       rough.curvature_error =
           functions.errors(functions.elapsed(begin + query.length), speed).curvature[rough.wall];
-      rough.third = derivatives[mill_.vessel.kind_of(rough.wall)][1];
+      rough.third = derivatives[functions.room().kind_of(rough.wall)][1];
     }
     return rough;
   }
@@ -573,7 +595,12 @@ auto WallSearch<M, V>::search_by_double(const WallQuery<Real>& query) const -> W
     }
     if (rough.verdict != Verdict::contact) return {Verdict::undecided};
 
-    const Functions functions(mill_, query.flight, query.radius, query.begin.period);
+    Functions functions(mill_, query.flight, query.radius, query.begin.period);
+    if constexpr (is_body) {
+      const Real near(rough.root);
+      if (functions.enter(functions.seen(near, functions.pose(near)).state.position) != rough.region)
+        return {Verdict::undecided};
+    }
     const Real left(rough.left);
     const auto unit = static_cast<Hint<Real>>(epsilon<Real>()) / epsilon<double>();
     const auto root = close_in(functions, rough.wall, left > begin ? left : begin, Real(rough.right),
@@ -705,6 +732,50 @@ std::optional<int> WallSearch<M, V>::exact_order(const WallQuery<Real>& query, i
   if (!first) return std::nullopt;
   const auto second = time_of(other, other_at_once);
   return second ? std::optional(first->compare(*second)) : std::nullopt;
+}
+
+/// The first contact with the vessel or a body. Where the times of two are closer than their errors a wider
+/// scalar decides; in the widest, the lower id goes first by a rule.
+/// @param first  answer for the vessel
+template <class Real>
+WallAnswer<Real> AnyWallSearch<Real>::with_bodies(const WallQuery<Real>& query,
+                                                  WallAnswer<Real> first) const {
+  const DriveClock<Real>& clock = bodies_.front().mill().clock;
+  for (std::size_t k = 0; k < bodies_.size() && first.verdict != Verdict::undecided; ++k) {
+    auto rest = query;
+    if (first.verdict == Verdict::none)
+      rest.length = std::min(query.length, first.searched);
+    else  // contacts up to a little past this one matter
+      rest.length = std::min<Real>(query.length, clock.elapsed(query.begin, first.time) + first.time_error +
+                                                     longest_window_ * rounding_margin<Real>());
+    auto found = [&] {
+      if constexpr (is_double)
+        return bodies_[k].search(rest);
+      else
+        return bodies_[k](rest);
+    }();
+    const bool by_rule = first.by_rule || found.by_rule;
+    if (found.verdict == Verdict::contact) {
+      found.wall = walls_ + static_cast<int>(k);
+      found.pose = {};
+      if (first.verdict == Verdict::contact) {
+        const Real later = clock.elapsed(first.time, found.time), error = found.time_error + first.time_error;
+        const bool tied = !(later > error) && !(later < -error);
+        if (tied && !std::is_void_v<Wider<Real>>) return {Verdict::undecided};
+        first.by_rule = by_rule || tied;
+        if (!(later < -error)) continue;
+      }
+      first = found;
+    } else if (found.verdict == Verdict::undecided) {
+      return found;
+    } else if (found.searched < rest.length) {
+      const bool proven =
+          first.verdict == Verdict::contact && clock.elapsed(query.begin, first.time) < found.searched;
+      if (!proven) first = WallAnswer<Real>::none(found.searched);
+    }
+    first.by_rule = by_rule;
+  }
+  return first;
 }
 
 }  // namespace edmill::dynamics

@@ -41,6 +41,7 @@ Real speed_over(const Real& path, const model::Mill<Real>& mill) {
   const Real reach = mill.motion.reach(mill.vessel.extent());
   Real acceleration = mill.motion.acceleration_within(reach) + norm<Real>(mill.gravity);
   if (const auto* pistons = mill.vessel.pistons()) acceleration += pistons->bound(2);
+  for (const auto& body : mill.bodies) acceleration += body.motion.acceleration_within(reach);
   return sqrt(2 * acceleration * path);
 }
 
@@ -63,6 +64,7 @@ Real largest_speed(const std::vector<model::BallState<Real>>& states, const mode
   }
   Real wall = mill.motion.speed_within(mill.motion.reach(mill.vessel.extent()));
   if (const auto* pistons = mill.vessel.pistons()) wall += pistons->bound(1);
+  for (const auto& body : mill.bodies) wall = std::max(wall, body.motion.wall_speed(body.shape.size()));
   return 2 * (largest + wall) + largest_fall(mill);
 }
 
@@ -176,7 +178,7 @@ bool Simulation<Real>::is_sound() const {
   };
   const auto finite = [](const Vec3<Real>& v) { return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]); };
   bool sound =
-      timed(now_) && stall_watch_.is_sound(ball_count(), mill_.vessel.wall_count()) && now_.period < most &&
+      timed(now_) && stall_watch_.is_sound(ball_count(), mill_.wall_count()) && now_.period < most &&
       isfinite(top_speed_) && top_speed_ >= 0 &&
       candidates_.grid().holds_all([this](int ball) -> const CellOfBall& { return bodies_[ball].cell; });
   for (int i = 0; sound && i < ball_count(); ++i) {
@@ -186,7 +188,7 @@ bool Simulation<Real>::is_sound() const {
             bodies_[i].recent.burst >= 0 && bodies_[i].recent.burst <= CollapseWatch<Real>::enough &&
             bodies_[i].unmoved >= 0 && bodies_[i].unmoved <= mill_.stall.impacts &&
             timed(agenda.forgotten_from) &&
-            agenda.is_sound(ball_count(), mill_.vessel.wall_count(), agendas_.latest_impact()) &&
+            agenda.is_sound(ball_count(), mill_.wall_count(), agendas_.latest_impact()) &&
             !(top_speed_ * top_speed_ < squared_norm<Real>(flights_[i].velocity));
     for (const auto& time : agenda.times) sound = sound && timed(time) && !(time < now_);
   }
@@ -470,6 +472,18 @@ void Simulation<Real>::update_pose() {
                           [&](const auto& motion, const auto&) { pose_ = motion.pose(now_); });
 }
 
+/// The contact of a ball with a body: normal, overlap, and velocity of the body's surface.
+template <class Real>
+void Simulation<Real>::touch_body(const model::Body<Real>& body, const Vec3<Real>& position,
+                                  const Real& radius, Impact<Real>& impact) const {
+  const auto pose = body.motion.pose(now_);
+  const auto place = body.motion.position_in_vessel(pose, position);
+  const auto room = body.shape.inset(radius);
+  impact.normal = body.motion.direction_to_inertial(pose, room.normal(0, place));
+  impact.overlap = room.overlap(0, place);
+  impact.wall_velocity = body.motion.wall_velocity(pose, position - impact.normal * radius);
+}
+
 template <class Real>
 Impact<Real> Simulation<Real>::collide_with_wall(const Event<Real>& event) {
   const int ball = event.ball, wall = event.partner;
@@ -486,16 +500,21 @@ Impact<Real> Simulation<Real>::collide_with_wall(const Event<Real>& event) {
   const Real radius = properties(ball).radius;
 
   Impact<Real> impact{};
-  model::with_parts<Real>(
-      mill_.motion, mill_.vessel, [&]<class M, class V>(const M& motion, const V& vessel) {
-        const auto& pose = model::pose_of<M>(pose_);
-        const auto place = motion.position_in_vessel(pose, flight.position);
-        const auto room = vessel.inset(radius);
-        impact.normal = motion.direction_to_inertial(pose, room.normal(wall, place));
-        impact.overlap = room.overlap(wall, place);
-        impact.wall_velocity = motion.wall_velocity(pose, flight.position - impact.normal * radius);
-      });
-  if (const auto* pistons = mill_.vessel.pistons()) {
+  const auto* body = mill_.body_of(wall);
+  if (body) [[unlikely]] {
+    touch_body(*body, flight.position, radius, impact);
+  } else {
+    model::with_parts<Real>(
+        mill_.motion, mill_.vessel, [&]<class M, class V>(const M& motion, const V& vessel) {
+          const auto& pose = model::pose_of<M>(pose_);
+          const auto place = motion.position_in_vessel(pose, flight.position);
+          const auto room = vessel.inset(radius);
+          impact.normal = motion.direction_to_inertial(pose, room.normal(wall, place));
+          impact.overlap = room.overlap(wall, place);
+          impact.wall_velocity = motion.wall_velocity(pose, flight.position - impact.normal * radius);
+        });
+  }
+  if (const auto* pistons = mill_.vessel.pistons(); pistons && !body) {
     const auto moved = pistons->of_wall(wall, now_);
     impact.overlap += moved.value;
     impact.wall_velocity += impact.normal * moved.rate;

@@ -9,6 +9,7 @@
 
 #include "base/vector.hpp"
 #include "model/ball.hpp"
+#include "model/bodies/rounded_body.hpp"
 #include "model/contact_law.hpp"
 #include "model/motion.hpp"
 #include "model/vessel.hpp"
@@ -46,6 +47,16 @@ struct PairLaws {
   bool empty() const { return laws.empty(); }
 };
 
+/// A body inside the vessel, on a chain of joints of its own whose clock is that of the mill. To a ball it is
+/// one more wall, after those of the vessel.
+template <class Real>
+struct Body {
+  ChainMotion<Real> motion;
+  RoundedBody<Real> shape;
+  WallInfo name;
+  bool on_vessel = false;  ///< it is moved by the vessel, whose load includes its own
+};
+
 template <class Real>
 struct Mill {
   AnyMotion<Real> motion;
@@ -55,6 +66,22 @@ struct Mill {
   ContactLaw<Real> ball_wall;
   PairLaws<Real> pairs{};
   StallRule stall{};
+  std::vector<Body<Real>> bodies{};
+
+  /// Those of the vessel, then the bodies.
+  int wall_count() const { return vessel.wall_count() + static_cast<int>(bodies.size()); }
+  std::vector<WallInfo> walls() const {
+    auto all = vessel.walls();
+    for (const auto& body : bodies) all.push_back(body.name);
+    return all;
+  }
+  /// The body with the id of a wall; null for walls of the vessel.
+  const Body<Real>* body_of(int wall) const {
+    if (bodies.empty()) [[likely]]
+      return nullptr;
+    const int k = wall - vessel.wall_count();
+    return k < 0 ? nullptr : &bodies[static_cast<std::size_t>(k)];
+  }
 
   const ContactLaw<Real>& law_between(const BallProperties<Real>& one,
                                       const BallProperties<Real>& other) const {
@@ -89,13 +116,18 @@ Mill<To> mill_cast(const Mill<From>& m) {
   };
   PairLaws<To> pairs{{}, m.pairs.materials, m.pairs.of_balls, m.pairs.of_walls};
   for (const auto& own : m.pairs.laws) pairs.laws.push_back(law(own));
+  std::vector<Body<To>> bodies;
+  for (const auto& body : m.bodies)
+    bodies.push_back(
+        {body.motion.template cast<To>(), body.shape.template cast<To>(), body.name, body.on_vessel});
   return {.motion = m.motion.template cast<To>(),
           .vessel = m.vessel.template cast<To>(),
           .gravity = vector_cast<To>(m.gravity),
           .ball_ball = law(m.ball_ball),
           .ball_wall = law(m.ball_wall),
           .pairs = std::move(pairs),
-          .stall = m.stall};
+          .stall = m.stall,
+          .bodies = std::move(bodies)};
 }
 
 /// Calls f(motion, vessel). In double, a SPEX with a cylinder is passed with its concrete types, so that f is

@@ -11,6 +11,7 @@ set_property(TEST wall_oracle_test APPEND PROPERTY ENVIRONMENT EDMILL_WALL_STATE
 add_test(NAME wall_oracle_long COMMAND dynamics_tests dynamics/wall_oracle_test.cpp)
 set_tests_properties(wall_oracle_long PROPERTIES LABELS long TIMEOUT 3600)
 edmill_test(any_mill_test dynamics/any_mill_test.cpp TIMEOUT 1200 LONG SLOW LIBRARIES edmill_arb_oracle)
+edmill_test(body_search_test dynamics/body_search_test.cpp TIMEOUT 1200 LONG SLOW)
 edmill_test(pair_search_test dynamics/pair_search_test.cpp)
 edmill_test(impulse_test dynamics/impulse_test.cpp)
 edmill_test(impulse_cases_test dynamics/impulse_cases_test.cpp)

@@ -1,3 +1,4 @@
+edmill_test(body_test engine/body_test.cpp TIMEOUT 300)
 edmill_test(cell_grid_test engine/cell_grid_test.cpp)
 edmill_test(stalls_test engine/stalls_test.cpp TIMEOUT 300)
 edmill_test(clusters_test engine/clusters_test.cpp LONG TIMEOUT 300 LIBRARIES glpk)

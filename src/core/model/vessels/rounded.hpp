@@ -9,6 +9,7 @@
 
 #include "base/scalar.hpp"
 #include "base/trigonometry.hpp"
+#include "model/parts/axis_distance.hpp"
 #include "model/parts/parameter.hpp"
 #include "model/parts/partners.hpp"
 #include "model/parts/surface.hpp"
@@ -222,17 +223,15 @@ class RoundedVessel {
     const auto& y = coordinate;
     const Real &v = frame_speed, R = a_ + rounding_ + beyond;
     if (f >= 2)  // a squared distance from the axis
-      return {3 * R * y.value + 4 * u * R * R + 4 * slack_ * slack_,
-              3 * R * y.rate + 3 * v * y.value + 6 * u * R * v,
-              6 * v * y.rate + 4 * R * y.second + 4 * acceleration * y.value +
-                  12 * u * (v * v + R * acceleration)};
+    {
+      auto errors = squared_distance_errors(y, u, v, acceleration, Real(R));
+      errors.value += 4 * slack_ * slack_;
+      return errors;
+    }
     // The distance r from the axis, which is at least a/2, and its derivatives.
     const Real inverse = a_ > 0 ? Real(2 / a_) : Real(0);
     const Real bend = acceleration + v * v * inverse;
-    const Real r0 = 2 * y.value + 4 * u * R;
-    const Real r1 = 2 * y.rate + 2 * v * inverse * r0 + 6 * u * v;
-    const Real r2 = 2 * y.second + (2 * acceleration * inverse + 2 * v * v * inverse * inverse) * r0 +
-                    4 * v * inverse * (y.rate + r1) + 16 * u * bend;
+    const auto [r0, r1, r2] = distance_errors(y, u, v, acceleration, R, inverse);
     const Real far = rounding_ + beyond + a_ / 2;
     return {4 * far * (r0 + y.value) + 8 * u * far * far + 4 * slack_ * slack_,
             3 * (far * (r1 + y.rate) + v * (r0 + y.value)) + 12 * u * far * v,
@@ -317,20 +316,12 @@ class RoundedVessel {
   /// Bound on the k-th derivative of r^2 - 2 a r + a^2 + (y - b)^2, where r >= a/2. The derivatives of r
   /// follow from those of its square.
   Real edge_bound(const CoordinateBounds<Real>& c, int k) const {
-    using std::sqrt;
     const Real drift = c.x[0] - (a_ + rounding_);
-    Majorant<Real> r, y = c.y;
+    Majorant<Real> y = c.y;
     y[0] = rounding_ + (c.y[0] - (b_ + rounding_));
     if (!(a_ > 0))
       return product_bound(c.x, 0, c.x, k) + product_bound(c.z, 0, c.z, k) + product_bound(y, 0, y, k);
-    const Real least = a_ * 49 / 100;
-    r[0] = (a_ > rounding_ ? a_ : rounding_) + drift;
-    for (int n = 1; n <= k; ++n) {
-      Real rest(0);
-      for (int j = 1; j < n; ++j)
-        rest += binomial[n][j] * (c.x[j] * c.x[n - j] + c.z[j] * c.z[n - j] + r[j] * r[n - j]);
-      r[n] = sqrt(c.x[n] * c.x[n] + c.z[n] * c.z[n]) + rest / (2 * least);
-    }
+    const auto r = distance_bound(c, Real((a_ > rounding_ ? a_ : rounding_) + drift), Real(a_ * 49 / 100), k);
     return product_bound(r, 0, r, k) + product_bound(y, 0, y, k);
   }
 

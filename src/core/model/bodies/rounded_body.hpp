@@ -1,0 +1,367 @@
+// Convex bodies inside the vessel: boxes and cylinders whose edges may be rounded, seen from outside.
+#pragma once
+
+#include <array>
+#include <boost/container/static_vector.hpp>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "base/scalar.hpp"
+#include "base/trigonometry.hpp"
+#include "model/parts/axis_distance.hpp"
+#include "model/parts/partners.hpp"
+#include "model/parts/surface.hpp"
+#include "model/parts/vessel_frame.hpp"
+
+namespace edmill::model {
+
+/// All points within `rounding` of a core: a box, or a cylinder about y. Half edges of the core may be zero,
+/// so that it is a point, a segment, a rectangle or a disc. The space around the body is a vessel
+/// (vessel.hpp) with one wall: its gap is |u|^2 - (rounding + R)^2, where u is the vector from the nearest
+/// point of the core to the ball's centre. It is smooth in the region of the points with the same coordinates
+/// outside of the core's: `enter` chooses the region of a ball, and the functions after the gap are its
+/// borders, each a little beyond the plane or cylinder where the region ends, as in RoundedVessel. theory.md,
+/// section 2
+template <class Real>
+class RoundedBody {
+ public:
+  using Scalar = Real;
+  static constexpr std::size_t functions = 7;
+  template <class Value>
+  using PerWall = std::array<Value, functions>;
+  template <class Value>
+  using PerKind = std::array<Value, functions + 2>;
+
+  RoundedBody() = default;
+  /// @param is_round  whether the core is a cylinder of radius half[0] = half[2] > 0 about y
+  /// @param half      half edges of the core [m]
+  /// @param rounding  [m]
+  RoundedBody(bool is_round, const Vec3<Real>& half, const Real& rounding)
+      : is_round_(is_round), half_(half), rounding_(rounding), distance_(rounding) {}
+  template <class To>
+  RoundedBody<To> cast() const {
+    RoundedBody<To> to(is_round_, vector_cast<To>(half_), static_cast<To>(rounding_));
+    return to.among(static_cast<To>(largest_ball_), static_cast<To>(domain_ * (1 + rounding_margin<Real>())));
+  }
+  /// The body with bounds that are valid for the balls of a case.
+  /// @param largest_ball  radius [m]
+  /// @param domain        no ball's centre is farther from the body's origin [m]
+  RoundedBody among(const Real& largest_ball, const Real& domain) const {
+    using std::sqrt;
+    RoundedBody body(*this);
+    body.largest_ball_ = largest_ball;
+    body.domain_ = domain;
+    // The square of the slack is far below the rounding of a gap.
+    body.slack_ = sqrt(epsilon<Real>()) * (rounding_ + largest_ball) / 64;
+    return body;
+  }
+
+  bool is_round() const { return is_round_; }
+  const Vec3<Real>& half() const { return half_; }
+  const Real& rounding() const { return rounding_; }
+  /// Of the farthest point from the body's origin [m].
+  Real size() const {
+    const Real across = is_round_ ? half_[0] : Real(half_[0] + half_[2]);
+    return across + half_[1] + rounding_;
+  }
+  /// By Steiner's formula.
+  Real solid_volume() const {
+    const Real pi = numerics::pi<Real>(), r = rounding_;
+    const Real &a = half_[0], &b = half_[1], &c = half_[2], ball = 4 * pi * r * r * r / 3;
+    if (is_round_) return 2 * pi * (a + r) * (a + r) * b + 2 * pi * a * a * r + pi * pi * a * r * r + ball;
+    return 8 * (a * b * c + r * (a * b + b * c + c * a)) + 2 * pi * r * r * (a + b + c) + ball;
+  }
+
+  /// Of the surface, the derivative of the volume [m2].
+  Real area() const {
+    const Real pi = numerics::pi<Real>(), r = rounding_;
+    const Real &a = half_[0], &b = half_[1], &c = half_[2], ball = 4 * pi * r * r;
+    if (is_round_) return 4 * pi * (a + r) * b + 2 * pi * a * a + 2 * pi * pi * a * r + ball;
+    return 8 * (a * b + b * c + c * a) + 4 * pi * r * (a + b + c) + ball;
+  }
+
+  /// The region of p becomes that of the functions. @return its number
+  int enter(const Vec3<Real>& p) {
+    if (is_round_) {
+      outside_ = {squared_across(p) > half_[0] * half_[0] ? 1 : 0, side(1, p), 0};
+    } else {
+      for (int i = 0; i < 3; ++i) outside_[static_cast<std::size_t>(i)] = side(i, p);
+    }
+    return 9 * outside_[0] + 3 * outside_[1] + outside_[2];
+  }
+
+  // As a vessel.
+  static int wall_count() { return 1; }
+  static int function_count() { return static_cast<int>(functions); }
+  static std::vector<WallInfo> walls() { return {{"body", "the body"}}; }
+  static std::vector<WallSurface<Real>> surfaces() { return {}; }
+  Real reach() const { return domain_; }
+  Real extent() const { return domain_; }
+  Vec3<Real> half_sizes() const { return {domain_, domain_, domain_}; }
+  Real volume() const { return 4 * domain_ * domain_ * domain_ - solid_volume(); }
+  Real widest_ball() const { return domain_; }
+  RoundedBody inset(const Real& by) const {
+    RoundedBody larger(*this);
+    larger.distance_ = rounding_ + by;
+    return larger;
+  }
+  static bool is_empty() { return false; }
+  bool contains(const Vec3<Real>& p) const {
+    return squared_norm<Real>(from_core(p)) >= distance_ * distance_;
+  }
+
+  PerWall<Real> gaps(const Vec3<Real>& p) const {
+    PerWall<Real> all;
+    for (int f = 0; f < function_count(); ++f) all[static_cast<std::size_t>(f)] = gap(f, p);
+    return all;
+  }
+  Real gap(int f, const Vec3<Real>& p) const {
+    if (f > 0) return border(f, p);
+    if (is_side()) {  // without the root
+      const Real far = half_[0] + distance_;
+      return squared_across(p) - far * far;
+    }
+    Real sum(0);
+    for (int i = 0; i < 3; ++i)
+      if (counts(i)) {
+        const Real u = excess(i, p);
+        sum += u * u;
+      }
+    return sum - distance_ * distance_;
+  }
+  PerWall<Real> rates(const Vec3<Real>& p, const Vec3<Real>& v) const {
+    const Real moved = p[0] * v[0] + p[2] * v[2];
+    Real sum = is_side() ? moved : Real(0);
+    if (!is_side())
+      for (int i = 0; i < 3; ++i)
+        if (counts(i)) sum += excess(i, p) * excess_rate(i, p, v);
+    PerWall<Real> all{Real(2 * sum)};
+    for (int f = 1; f < function_count(); ++f)
+      all[static_cast<std::size_t>(f)] = !is_border(f)        ? Real(0)
+                                         : is_round_ && f < 3 ? Real(sign(f) * 2 * moved)
+                                                              : Real(sign(f) * v[axis(f)]);
+    return all;
+  }
+  PerWall<Real> curvatures(const Vec3<Real>& p, const Vec3<Real>& v, const Vec3<Real>& a) const {
+    const Real bent = (v[0] * v[0] + p[0] * a[0]) + (v[2] * v[2] + p[2] * a[2]);
+    Real sum = is_side() ? bent : Real(0);
+    if (!is_side())
+      for (int i = 0; i < 3; ++i)
+        if (counts(i)) {
+          const Real rate = excess_rate(i, p, v);
+          Real second = outside_[static_cast<std::size_t>(i)] < 0 ? Real(-a[i]) : a[i];
+          if (is_round_ && i == 0) second = (bent - rate * rate) / across(p);
+          sum += rate * rate + excess(i, p) * second;
+        }
+    PerWall<Real> all{Real(2 * sum)};
+    for (int f = 1; f < function_count(); ++f)
+      all[static_cast<std::size_t>(f)] = !is_border(f)        ? Real(0)
+                                         : is_round_ && f < 3 ? Real(sign(f) * 2 * bent)
+                                                              : Real(sign(f) * a[axis(f)]);
+    return all;
+  }
+
+  PerWall<bool> active(const Vec3<Real>&) const {
+    PerWall<bool> on;
+    for (int f = 0; f < function_count(); ++f) on[static_cast<std::size_t>(f)] = f == 0 || is_border(f);
+    return on;
+  }
+  /// True if p is in the region, to within the rounding of the gap.
+  bool is_valid(int, const Vec3<Real>& p) const {
+    for (int f = 1; f < function_count(); ++f)
+      if (is_border(f) && border(f, p) < 0) return false;
+    return true;
+  }
+  /// The distance from the axis is not smooth near the axis, and its derivatives are large.
+  std::optional<Real> smooth_way(const Vec3<Real>& p) const {
+    if (!is_round_ || is_side() || outside_[0] == 0) return std::nullopt;
+    const Real inward = across(p) - half_[0] * 3 / 4;
+    return inward < distance_ ? inward : distance_;
+  }
+  /// The least distance of a ball at p from contact [m], at most 0 in contact.
+  Real clearance(const Vec3<Real>& p) const { return norm<Real>(from_core(p)) - distance_; }
+  /// Bound on the distance from the origin of a ball that is at most `way` [m] from contact.
+  Real reach_near(const Real& way) const { return size() + 2 * largest_ball_ + way; }
+  PerWall<bool> within(const Vec3<Real>& p, const Real& way) const {
+    const Real near = distance_ + way;
+    if (squared_norm<Real>(from_core(p)) > near * near) return {};
+    auto on = active(p);
+    for (int f = 1; f < function_count(); ++f) {
+      auto& own = on[static_cast<std::size_t>(f)];
+      if (own && !(is_round_ && f < 3)) own = !(border(f, p) > way);
+    }
+    return on;
+  }
+
+  /// The gap has other bounds where it contains a root, the square of the distance from the axis, or y alone.
+  int kind_of(int f) const {
+    if (f > 0 || !is_round_ || (outside_[0] != 0 && outside_[1] != 0)) return f;
+    return is_side() ? function_count() : function_count() + 1;
+  }
+  /// @pre the ball begins within the way of a window of contact: no function is needed farther out
+  PerKind<Real> derivative_bounds(const CoordinateBounds<Real>& c, int k) const {
+    const Real square = product_bound(c.x, 0, c.x, k) + product_bound(c.z, 0, c.z, k);
+    const Real most = rounding_ + largest_ball_ + 3 * (c.x[0] - domain_);  // of the excess
+    const Real least = half_[0] * 74 / 100;                                // of the distance from the axis
+    Majorant<Real> x = c.x, y = c.y, z = c.z;
+    x[0] = y[0] = z[0] = most;
+    Real bound = product_bound(y, 0, y, k);
+    if (is_round_) {
+      const auto r = distance_bound(c, Real(most + half_[0] / 4), least, k);
+      return {
+          bound + product_bound(r, 0, r, k), square, square, c.y[k], c.y[k], c.z[k], c.z[k], square, bound};
+    }
+    bound += product_bound(x, 0, x, k) + product_bound(z, 0, z, k);
+    return {bound, c.x[k], c.x[k], c.y[k], c.y[k], c.z[k], c.z[k], bound, bound};
+  }
+  bool is_flat(int f) const { return f >= (is_round_ ? 3 : 1); }
+  /// The region is unknown here: the largest bounds of all.
+  ErrorBounds<Real> curved_errors(int f, const ErrorBounds<Real>& coordinate, const Real& u,
+                                  const Real& frame_speed, const Real& acceleration,
+                                  const Real& beyond) const {
+    const Real& v = frame_speed;
+    const Real most = rounding_ + largest_ball_ + 3 * beyond, slack = 4 * slack_ * slack_;
+    const Real inside = half_[0] + half_[1] + half_[2];
+    auto e = coordinate;  // of an excess
+    e.value += 4 * u * (inside + most);
+    Real far = most;
+    if (is_round_) {
+      const Real R = half_[0] + most;
+      auto square = squared_distance_errors(coordinate, u, v, acceleration, R);
+      square.value += slack;
+      if (f > 0) return square;
+      e = larger(e, distance_errors(coordinate, u, v, acceleration, R, Real(4 / (3 * half_[0]))));
+      far += half_[0] / 4;
+      return larger(square, squares(e, u, v, acceleration, far, slack));
+    }
+    return squares(e, u, v, acceleration, far, slack);
+  }
+
+  Vec3<Real> normal(int, const Vec3<Real>& p) const {
+    const Vec3<Real> d = from_core(p);
+    const Real size = norm<Real>(d);
+    return size > 0 ? Vec3<Real>(d / size) : Vec3<Real>(Vec3<Real>::UnitY());
+  }
+  Real overlap(int, const Vec3<Real>& p) const { return distance_ - norm<Real>(from_core(p)); }
+
+ private:
+  template <class>
+  friend class RoundedBody;
+
+  /// On which side of the core's edges a coordinate is: -1, 1, or 0 between them.
+  int side(int i, const Vec3<Real>& p) const {
+    return !(half_[i] > 0) ? 1 : p[i] > half_[i] ? 1 : p[i] < -half_[i] ? -1 : 0;
+  }
+  static Real squared_across(const Vec3<Real>& p) { return p[0] * p[0] + p[2] * p[2]; }
+  static Real across(const Vec3<Real>& p) {
+    using std::sqrt;
+    return sqrt(squared_across(p));
+  }
+  bool is_side() const { return is_round_ && outside_[0] != 0 && outside_[1] == 0; }
+  /// Whether an excess is part of the gap. That of a cylinder across its axis takes the place of x.
+  bool counts(int i) const { return outside_[static_cast<std::size_t>(i)] != 0; }
+  Real excess(int i, const Vec3<Real>& p) const {
+    if (is_round_ && i == 0) return across(p) - half_[0];
+    return (outside_[static_cast<std::size_t>(i)] < 0 ? Real(-p[i]) : p[i]) - half_[i];
+  }
+  Real excess_rate(int i, const Vec3<Real>& p, const Vec3<Real>& v) const {
+    if (is_round_ && i == 0) return (p[0] * v[0] + p[2] * v[2]) / across(p);
+    return outside_[static_cast<std::size_t>(i)] < 0 ? Real(-v[i]) : v[i];
+  }
+
+  // Borders: functions 2 i + 1 and 2 i + 2 belong to axis i. A region outside has the first of them, one
+  // between the edges both; an edge of length zero has none.
+  static int axis(int f) { return (f - 1) / 2; }
+  bool is_border(int f) const {
+    const int i = axis(f);
+    if (!(half_[i] > 0) || (is_round_ && (i == 2 || f == 2))) return false;
+    return !counts(i) || f % 2 == 1;
+  }
+  /// Of the derivative along the axis, or across that of a cylinder.
+  int sign(int f) const {
+    const int own = outside_[static_cast<std::size_t>(axis(f))];
+    if (is_round_ && f < 3) return own != 0 ? 1 : -1;
+    return own != 0 ? own : f % 2 == 1 ? 1 : -1;
+  }
+  Real border(int f, const Vec3<Real>& p) const {
+    if (!is_border(f)) return Real(1);
+    const int i = axis(f);
+    const bool out = counts(i);
+    if (is_round_ && f < 3) {
+      const Real a = out ? Real(half_[0] - slack_) : Real(half_[0] + slack_), square = squared_across(p);
+      return out ? Real(square - a * a) : Real(a * a - square);
+    }
+    const Real along = sign(f) < 0 ? Real(-p[i]) : p[i];
+    return out ? Real((along - half_[i]) + slack_) : Real((along + half_[i]) + slack_);
+  }
+
+  /// Vector from the nearest point of the core to p.
+  Vec3<Real> from_core(const Vec3<Real>& p) const {
+    Vec3<Real> d;
+    for (int i = 0; i < 3; ++i)
+      d[i] = p[i] > half_[i] ? Real(p[i] - half_[i]) : p[i] < -half_[i] ? Real(p[i] + half_[i]) : Real(0);
+    if (!is_round_) return d;
+    const Real r = across(p), rest = r > half_[0] ? Real(1 - half_[0] / r) : Real(0);
+    return {p[0] * rest, d[1], p[2] * rest};
+  }
+
+  static ErrorBounds<Real> larger(const ErrorBounds<Real>& a, const ErrorBounds<Real>& b) {
+    const auto more = [](const Real& x, const Real& y) { return x > y ? x : y; };
+    return {more(a.value, b.value), more(a.rate, b.rate), more(a.second, b.second)};
+  }
+  /// Errors of the sum of the squares of three numbers below `far` with errors e, and of its derivatives.
+  static ErrorBounds<Real> squares(const ErrorBounds<Real>& e, const Real& u, const Real& v, const Real& a,
+                                   const Real& far, const Real& slack) {
+    return {7 * far * e.value + 16 * u * far * far + slack,
+            7 * (far * e.rate + v * e.value) + 32 * u * far * v,
+            7 * (2 * v * e.rate + far * e.second + a * e.value) + 32 * u * (v * v + far * a)};
+  }
+
+  bool is_round_ = false;
+  Vec3<Real> half_ = Vec3<Real>::Zero();
+  Real rounding_{0}, distance_{0};  ///< from the core to a ball's centre at contact
+  Real largest_ball_{0}, domain_{0}, slack_{0};
+  std::array<int, 3> outside_{1, 1, 1};  ///< the region; of a cylinder across its axis, and along it
+};
+
+/// Rings around y from below to above, for pictures.
+template <class Real>
+Mesh mesh_of(const RoundedBody<Real>& body) {
+  const Vec3<double> half = vector_cast<double>(body.half());
+  const double rounding = static_cast<double>(body.rounding()), quarter = numerics::pi<double>() / 2;
+  const int steps = rounding > 0 ? 4 : 0, columns = body.is_round() ? 12 : steps + 1;  // of a quarter
+  Mesh mesh;
+  std::vector<int> ring;
+  for (int row = 0; row <= 2 * steps + 1; ++row) {
+    const bool above = row > steps;
+    const double up = steps == 0 ? 0 : quarter * (above ? row - steps - 1 : row - steps) / steps;
+    std::vector<int> next;
+    for (int q = 0; q < 4; ++q)
+      for (int k = 0; k < columns; ++k) {
+        const double around = quarter * (q + (body.is_round() ? double(k) / columns
+                                              : steps == 0    ? 0.5
+                                                              : double(k) / steps));
+        const double x = std::cos(around), z = std::sin(around), out = rounding * std::cos(up);
+        const double a = half[0] * (body.is_round()    ? x
+                                    : q == 0 || q == 3 ? 1
+                                                       : -1),
+                     c = half[2] * (body.is_round() ? z
+                                    : q < 2         ? 1
+                                                    : -1);
+        next.push_back(static_cast<int>(mesh.points.size()));
+        mesh.points.emplace_back(a + out * x, (above ? half[1] : -half[1]) + rounding * std::sin(up),
+                                 c + out * z);
+      }
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const auto after = (k + 1) % ring.size();
+      mesh.faces.push_back({ring[k], ring[after], next[after], next[k]});
+    }
+    if (row == 0) mesh.faces.push_back(next);
+    ring = std::move(next);
+  }
+  mesh.faces.push_back(ring);
+  return mesh;
+}
+
+}  // namespace edmill::model
