@@ -154,7 +154,7 @@ class Session : private Observer<double> {
     std::vector<Vector<double>> places;
     for (int k = 0; k < run_.ball_count(); ++k) places.push_back(run_.ball(k).position);
     json.add("places", places);
-    const auto frame = output::vessel_frame(mill_.motion, now);
+    const auto frame = output::frame_of(mill_.motion, now);
     json.add("vessel", std::array{frame.origin, frame.x, frame.y, frame.z});
     if (impacts_ > 0)
       json.add_group("last", "ball", last_.ball, "partner", last_.partner, "with_wall", last_.with_wall,

@@ -138,14 +138,20 @@ struct CrowdBall {
   bool fixed = false;                 ///< stays where it is
 };
 
+/// A body and its frame in that of the vessel, at the start.
+struct CrowdBody {
+  Frame<double> frame;
+  model::RoundedBody<double> shape;
+};
+
 /// The iteration of `push_apart`.
 class Crowd {
   using Place = Vec3<double>;
 
  public:
   Crowd(const model::AnyVessel<double>& vessel, const std::vector<double>& moved,
-        std::vector<CrowdBall>& balls, double share)
-      : vessel_(vessel), moved_(moved), balls_(balls), share_(share) {
+        const std::vector<CrowdBody>& bodies, std::vector<CrowdBall>& balls, double share)
+      : vessel_(vessel), moved_(moved), bodies_(bodies), balls_(balls), share_(share) {
     std::map<double, std::size_t> known;  // rooms by the distance that centres keep from walls
     for (const auto& ball : balls_) {
       const double distance = ball.radius * (1 + tolerated) + share * ball.gap_wall;
@@ -202,7 +208,16 @@ class Crowd {
   bool bring_inside(std::size_t k) {
     const Room& room = rooms_[room_of_[k]];
     Place& p = balls_[k].place;
-    if (is_inside(room, p)) return true;
+    bool clear = true;
+    for (const auto& [frame, shape] : bodies_) {
+      const auto around = shape.inset(room.distance);
+      const double overlap = around.overlap(0, frame.inside(p));
+      if (!(overlap > 0)) continue;
+      clear = false;
+      const Place away = frame.outside(around.normal(0, frame.inside(p))) - frame.origin;
+      p += away * (overlap + farther * balls_[k].radius / 16);
+    }
+    if (is_inside(room, p)) return clear;
     for (int wall = 0; wall < vessel_.wall_count(); ++wall) {
       const double moved = moved_.empty() ? 0 : moved_[static_cast<std::size_t>(wall)];
       const double overlap = room.vessel.overlap(wall, p) + moved;
@@ -267,6 +282,7 @@ class Crowd {
 
   const model::AnyVessel<double>& vessel_;
   const std::vector<double>& moved_;
+  const std::vector<CrowdBody>& bodies_;
   std::vector<CrowdBall>& balls_;
   double share_;
   std::vector<Room> rooms_;
@@ -283,8 +299,8 @@ class Crowd {
 /// @return false if they are still too close after a number of sweeps that depends only on the number of
 /// balls
 inline bool push_apart(const model::AnyVessel<double>& vessel, const std::vector<double>& moved,
-                       std::vector<CrowdBall>& balls, double share) {
-  Crowd crowd(vessel, moved, balls, share);
+                       const std::vector<CrowdBody>& bodies, std::vector<CrowdBall>& balls, double share) {
+  Crowd crowd(vessel, moved, bodies, balls, share);
   if (!crowd.has_room()) return false;
   const std::int64_t most =
       std::clamp<std::int64_t>(2000000 / static_cast<std::int64_t>(balls.size()), 200, 4000);
@@ -301,6 +317,7 @@ class Filling {
         result_(result),
         mill_(result.the_case.mill),
         pose_(mill_.motion.pose(result.start)),
+        body_poses_(poses_of_bodies(mill_, result.start)),
         random_(spec.seed),
         placed_(widest_distance(spec)) {}
 
@@ -323,6 +340,9 @@ class Filling {
                           " as large as the vessel, expected one that has room to move");
     else if (!inside(local, ball.radius - tolerance))
       problems_.push_back(spec.where + ": found ball " + own + " outside the vessel, expected it inside");
+    else if (const auto* body = body_at(local, ball.radius - tolerance))
+      problems_.push_back(spec.where + ": found ball " + own + " overlapping " + body->name.label +
+                          ", expected it outside of bodies");
     const int other = placed_.conflict(
         local, [&](int k) { return ball.radius + result_.the_case.balls[k].radius - tolerance; });
     if (other >= 0)
@@ -350,6 +370,12 @@ class Filling {
     }
   }
 
+  static std::vector<model::ChainPose<Real>> poses_of_bodies(const model::Mill<Real>& mill,
+                                                             const Instant<Real>& start) {
+    std::vector<model::ChainPose<Real>> poses;
+    for (const auto& body : mill.bodies) poses.push_back(body.motion.pose(start));
+    return poses;
+  }
   static double widest_distance(const CaseSpec& spec) {
     double gap = 0;
     for (const auto& b : spec.batches) gap = std::max(gap, b.gap_ball.to<double>());
@@ -358,6 +384,17 @@ class Filling {
 
   bool inside(const Vec3<Real>& local, const Real& radius) const {
     return mill_.vessel.inset(radius).contains(local) && clears_pistons(local, radius);
+  }
+  /// The body that a ball at this place overlaps; null for none.
+  const model::Body<Real>* body_at(const Vec3<Real>& local, const Real& radius) const {
+    if (mill_.bodies.empty()) return nullptr;
+    const auto place = mill_.motion.to_inertial(pose_, local);
+    for (std::size_t k = 0; k < mill_.bodies.size(); ++k) {
+      const auto& body = mill_.bodies[k];
+      if (!body.shape.inset(radius).contains(body.motion.position_in_vessel(body_poses_[k], place)))
+        return &body;
+    }
+    return nullptr;
   }
   bool clears_pistons(const Vec3<Real>& local, const Real& radius) const {
     const auto* pistons = mill_.vessel.pistons();
@@ -404,7 +441,8 @@ class Filling {
     for (std::uint64_t tries = 0; tries <= batch.max_relocations; ++tries) {
       const Real x = random_.symmetric<Real>(), z = random_.symmetric<Real>(), y = random_.symmetric<Real>();
       const auto local = room.place({x, y, z});
-      if (!local || !clears_pistons(*local, radius + gap_wall)) continue;
+      if (!local || !clears_pistons(*local, radius + gap_wall) || body_at(*local, radius + gap_wall))
+        continue;
       if (placed_.conflict(*local, [&](int other) {
             return radius + result_.the_case.balls[other].radius + gap_ball;
           }) < 0)
@@ -477,6 +515,10 @@ class Filling {
       const std::size_t middle = (fitting + failing) / 2;
       (part_crowd(drawn, middle, 0, crowd) ? fitting : failing) = middle;
     }
+    if (fitting == 0 && !mill_.bodies.empty())
+      return problems_.push_back(
+          spec_.batches.front().where +
+          ": found no room for a ball between the bodies in the vessel, expected some");
     problems_.push_back(fmt::format(
         "{}: found {} balls at a packing fraction of {:.3g}, expected fewer: the first {} find room",
         spec_.batches.front().where, drawn.size(),
@@ -500,7 +542,7 @@ class Filling {
       crowd.push_back({radius, batch.gap_ball.template to<double>(), batch.gap_wall.template to<double>(),
                        random_place(vessel.inset(radius)), false});
     }
-    return push_apart(vessel, moved_walls(), crowd, share);
+    return push_apart(vessel, moved_walls(), crowd_bodies(), crowd, share);
   }
   Vec3<double> random_place(const model::AnyVessel<double>& room) {
     for (int tries = 0; tries < 10000; ++tries) {
@@ -509,6 +551,19 @@ class Filling {
       if (const auto place = room.place({x, y, z})) return *place;
     }
     return {0, 0, 0};
+  }
+  std::vector<CrowdBody> crowd_bodies() const {
+    std::vector<CrowdBody> bodies;
+    for (std::size_t k = 0; k < mill_.bodies.size(); ++k) {
+      const auto& pose = body_poses_[k];
+      const auto axis = [&](const Vec3<Real>& v) {
+        return vector_cast<double>(mill_.motion.in_axes(pose_, v));
+      };
+      bodies.push_back({{vector_cast<double>(mill_.motion.position_in_vessel(pose_, pose.centre)),
+                         axis(pose.x), axis(pose.y), axis(pose.z)},
+                        mill_.bodies[k].shape.template cast<double>()});
+    }
+    return bodies;
   }
   std::vector<double> moved_walls() const {
     std::vector<double> moved;
@@ -539,6 +594,7 @@ class Filling {
   InitialCase<Real>& result_;
   const model::Mill<Real>& mill_;
   model::AnyPose<Real> pose_;
+  std::vector<model::ChainPose<Real>> body_poses_;
   Random random_;
   PlacedBalls<Real> placed_;
   std::vector<std::string> problems_;
@@ -553,16 +609,36 @@ Part<Real> to_part(const Part<Quantity>& part) {
 }
 
 template <class Real>
+model::ChainMotion<Real> to_chain(const model::Joints<Quantity>& given, const CaseSpec& spec) {
+  const auto& to = to_scalar<Real>;
+  auto joints = model::converted_joints<Real>(with_phases(given), to);
+  // Events are predicted some time beyond the end.
+  if (spec.end_time) joints.times = {to(spec.initial_time), to(*spec.end_time) + joints.period};
+  return model::ChainMotion<Real>(joints);
+}
+
+template <class Real>
 model::AnyMotion<Real> to_motion(const auto& part, const CaseSpec& spec) {
   if constexpr (requires { part.joints(); }) {
-    const auto& to = to_scalar<Real>;
-    auto joints = model::converted_joints<Real>(with_phases(part.joints()), to);
-    // Events are predicted some time beyond the end.
-    if (spec.end_time) joints.times = {to(spec.initial_time), to(*spec.end_time) + joints.period};
-    return model::ChainMotion<Real>(joints);
+    return to_chain<Real>(part.joints(), spec);
   } else {
     return to_part<Real>(part).motion();
   }
+}
+
+/// @param mill  without its bodies
+template <class Real>
+model::Body<Real> to_body(const Solid& body, const model::Mill<Real>& mill, const CaseSpec& spec) {
+  model::Joints<Quantity> joints{
+      body.on_vessel ? joints_of(spec.mill) : std::vector<model::Joint<Quantity>>{}, period_of(spec.mill)};
+  joints.list.insert(joints.list.end(), body.joints.begin(), body.joints.end());
+  const auto motion = to_chain<Real>(joints, spec);
+  const Real domain = motion.reach(mill.motion.reach(mill.vessel.reach())) * (1 + rounding_margin<Real>());
+  const model::RoundedBody<Real> shape(body.is_round, to_vector<Real>(body.core()), body.rounding.to<Real>());
+  return {motion,
+          shape.among(Real(spec.largest_diameter() / 2 * (1 + 1e-9)), domain),
+          {body.name, body.name},
+          body.on_vessel};
 }
 
 template <class Real>
@@ -668,13 +744,16 @@ model::Mill<Real> build_mill(const CaseSpec& spec) {
   auto vessel = std::visit(
       [](const auto& v) { return model::AnyVessel<Real>(detail::to_part<Real>(v).vessel()); }, spec.vessel);
   if (!spec.pistons.empty()) vessel.set(detail::to_pistons<Real>(spec));
-  const int walls = vessel.wall_count();
-  return {std::visit([&](const auto& m) { return detail::to_motion<Real>(m, spec); }, spec.mill),
-          std::move(vessel),
-          detail::to_vector<Real>(spec.gravity),
-          model::convert_law<Real>(spec.ball_ball, detail::to_scalar<Real>),
-          model::convert_law<Real>(spec.ball_wall, detail::to_scalar<Real>),
-          detail::to_pairs<Real>(spec, walls)};
+  const int walls = vessel.wall_count() + static_cast<int>(spec.bodies.size());
+  model::Mill<Real> mill{
+      std::visit([&](const auto& m) { return detail::to_motion<Real>(m, spec); }, spec.mill),
+      std::move(vessel),
+      detail::to_vector<Real>(spec.gravity),
+      model::convert_law<Real>(spec.ball_ball, detail::to_scalar<Real>),
+      model::convert_law<Real>(spec.ball_wall, detail::to_scalar<Real>),
+      detail::to_pairs<Real>(spec, walls)};
+  for (const auto& body : spec.bodies) mill.bodies.push_back(detail::to_body<Real>(body, mill, spec));
+  return mill;
 }
 
 template <class Real>

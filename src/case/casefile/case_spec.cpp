@@ -43,7 +43,8 @@ void read_run(Section& run, CaseSpec& spec) {
   run.reject_unknown_keys();
 }
 
-/// Number of the material that a key names; 0 without a name, and for an unknown name, which is reported.
+}  // namespace
+
 int material_of(Section& section, const std::string& key, const std::string& name, const CaseSpec& spec) {
   if (name.empty()) return 0;
   const int material = spec.material_named(name);
@@ -52,6 +53,8 @@ int material_of(Section& section, const std::string& key, const std::string& nam
   section.require(material > 0, key, names.empty() ? "the name of a [[material]] entry" : one_of(names));
   return material;
 }
+
+namespace {
 
 /// A ball's own density, or that of its material.
 void read_density(Section& s, BallSpec& ball, const CaseSpec& spec) {
@@ -184,6 +187,18 @@ std::string canonical_text(const CaseSpec& c) {
       out << " " << swing.amplitude.text() << " " << swing.frequency.text() << " " << swing.phase.text();
     out << "\n";
   }
+  for (const auto& body : c.bodies) {
+    out << "body " << body.is_round << " " << body.on_vessel << " " << body.rounding.text();
+    for (const auto& size : body.size) out << " " << size.text();
+    for (const auto& joint : body.joints) {
+      out << " joint " << joint.rotates << " " << joint.angle.text() << " " << joint.speed.text();
+      for (const auto* vector : {&joint.axis, &joint.shift})
+        for (const auto& number : *vector) out << " " << number.text();
+      for (const auto& swing : joint.swings)
+        out << " " << swing.amplitude.text() << " " << swing.frequency.text() << " " << swing.phase.text();
+    }
+    out << "\n";
+  }
   const auto write_law = [&](const ContactSpec& law) {
     out << "contact " << law.name();
     law.parameters([&](const Parameter&, const Quantity& value) { out << " " << value.text(); });
@@ -243,6 +258,7 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
   read_pistons(vessel, walls.pistons, spec);
   read_materials(file.materials, spec);
   read_wall_materials(vessel, walls, spec);
+  read_bodies(file.bodies, spec);
   mill.reject_unknown_keys();
   vessel.reject_unknown_keys();
   if (Section& section = *file.powder.section; section.present()) {
@@ -263,6 +279,7 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
   top.reject_unknown_keys();
   check_times(run, spec);
   if (document.problems.empty()) require_travel(walls.pistons, spec);
+  if (document.problems.empty()) require_bodies_inside(file.bodies, spec);
   if (!spec.initial_state.empty() && !finished) {
     const std::filesystem::path given(spec.initial_state);
     const bool stream = io::is_stream(spec.initial_state);
@@ -435,9 +452,7 @@ std::string describe_gravity(const CaseSpec& spec) {
   return fmt::format("({:g}, {:g}, {:g}) m/s^2", g[0].to<double>(), g[1].to<double>(), g[2].to<double>());
 }
 
-model::Partners partners_of(const CaseSpec& spec) {
-  return model::partners_of(build_mill<double>(spec).vessel);
-}
+model::Partners partners_of(const CaseSpec& spec) { return model::partners_of(build_mill<double>(spec)); }
 
 CaseSpec read_case(const std::string& path, const std::vector<std::string>& overrides) {
   return parse_case(io::read_whole(path, "a case file (TOML)"), path, overrides);

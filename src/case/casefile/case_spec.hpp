@@ -129,6 +129,21 @@ struct PairSpec {
   }
 };
 
+/// An entry [[body]], or one of its copies.
+struct Solid {
+  std::string name;
+  bool is_round = false;  ///< a cylinder, otherwise a box
+  QuantityVector size{};  ///< edges, or diameter, height and diameter, over all [m]
+  Quantity rounding{};    ///< of the edges [m]
+  bool on_vessel = true;  ///< its joints begin at the vessel, otherwise at the ground
+  std::vector<model::Joint<Quantity>> joints;
+  Colour colour{};
+  std::string where;  ///< "case.toml:12: [[body]] 1", for messages
+
+  /// Half edges of the core.
+  QuantityVector core() const;
+};
+
 /// A column of another code's log: its name here, and its name there with its unit, "t [ms]".
 struct ColumnName : std::pair<std::string, std::string> {
   using pair::pair;
@@ -206,8 +221,9 @@ struct CaseSpec {
   VesselSpec vessel;
   std::vector<model::Piston<Quantity>> pistons;
   Colour vessel_colour{1, 1, 0};  ///< in pictures
+  std::vector<Solid> bodies;      ///< inside the vessel; the next walls after its own
   std::vector<MaterialSpec> materials;
-  std::vector<int> wall_materials;  ///< by wall, from 1; 0 for none
+  std::vector<int> wall_materials;  ///< by wall and body, from 1; 0 for none
   ContactSpec ball_ball, ball_wall;
   std::vector<PairSpec> pairs;  ///< in place of both where two materials are named
   bool pairs_only = false;      ///< every possible contact has a law among them
@@ -275,12 +291,18 @@ struct CaseSpec {
 
 /// "0.01 m + 0.001 m sin(2 pi 5 t) inward", for readers.
 std::string describe(const model::Piston<Quantity>& piston);
+/// "box of 60 x 4 x 10 mm, on the ground: turn about y by 600 deg/s t", for readers.
+std::string describe(const Solid& body);
 
 /// "(0, -9.8, 0) m/s^2" or "none", for readers.
 std::string describe_gravity(const CaseSpec& spec);
 
 /// What the balls of a case can collide with.
 model::Partners partners_of(const CaseSpec& spec);
+
+/// For what cannot judge or follow contacts with bodies yet. @param what  "edmill audit"
+/// @throws InputError when the case has bodies
+void require_no_bodies(const CaseSpec& spec, const std::string& what);
 
 /// Reads and checks a case file.
 /// @param overrides  "section.key=value", applied over the file; a value that is not TOML is taken as text

@@ -82,7 +82,8 @@ const std::array<std::string, 3> axes{"x", "y", "z"};
 
 bool is_zero(const QuantityVector& v) { return v[0].zero() && v[1].zero() && v[2].zero(); }
 
-Joint<Quantity> joint_of(Section& section, JointTable& table) {
+/// @param copied  the joint may rest: copies of a body follow it at equal angles
+Joint<Quantity> joint_of(Section& section, JointTable& table, bool copied) {
   Joint<Quantity> joint;
   joint.rotates = *table.rotates;
   joint.speed = joint.rotates ? in_turns(table.speed) : table.speed;
@@ -91,7 +92,7 @@ Joint<Quantity> joint_of(Section& section, JointTable& table) {
   if (joint.rotates) {
     joint.axis = table.axis.direction;
     joint.angle = in_turns(table.angle);
-    if (joint.angle.zero() && !moves)
+    if (joint.angle.zero() && !moves && !copied)
       section.problem(first_of(section, {"speed", "angle", "rotate"}), "a joint that does not turn",
                       "one with angle, speed or swing");
     return joint;
@@ -120,12 +121,12 @@ Joint<Quantity> joint_of(Section& section, JointTable& table) {
 }
 
 /// Period of the fastest rotation or swing, which becomes the drive period [s].
-Quantity period_of_fastest(const Joints<Quantity>& joints) {
+Quantity period_of_fastest(const std::vector<Joint<Quantity>>& joints) {
   Quantity fastest{0};
   const auto see = [&](const Quantity& frequency) {
     if (std::abs(frequency.to<double>()) > std::abs(fastest.to<double>())) fastest = frequency;
   };
-  for (const auto& joint : joints.list) {
+  for (const auto& joint : joints) {
     if (joint.rotates) see(joint.speed);
     for (const auto& swing : joint.swings) see(swing.frequency);
   }
@@ -167,13 +168,9 @@ std::string text_of_joint(const Joint<Quantity>& joint) {
   return text;
 }
 
-Joints<Quantity> read_joints(Section& mill) {
-  Joints<Quantity> joints;
-  ChainTable chain;
-  read_keys(mill, chain);
-  if (chain.joints.empty() && !mill.has("joint"))
-    mill.problem("joint", "nothing", "at least one [[mill.joint]]");
-  for (Section& entry : chain.joints) {
+std::vector<Joint<Quantity>> read_joints(Entries<JointTable>& entries, bool copied) {
+  std::vector<Joint<Quantity>> joints;
+  for (Section& entry : entries) {
     const bool rotates = entry.has("rotate");
     if (rotates == entry.has("translate")) {
       entry.problem("rotate", rotates ? "rotate and translate" : "neither rotate nor translate",
@@ -184,10 +181,20 @@ Joints<Quantity> read_joints(Section& mill) {
     table.rotates = rotates;
     table.swings.like.dimension = rotates ? Dimension::angle : Dimension::length;
     read_keys(entry, table);
-    joints.list.push_back(joint_of(entry, table));
+    joints.push_back(joint_of(entry, table, copied));
     entry.reject_unknown_keys();
   }
-  joints.period = period_of_fastest(joints);
+  return joints;
+}
+
+Joints<Quantity> read_joints(Section& mill) {
+  Joints<Quantity> joints;
+  ChainTable chain;
+  read_keys(mill, chain);
+  if (chain.joints.empty() && !mill.has("joint"))
+    mill.problem("joint", "nothing", "at least one [[mill.joint]]");
+  joints.list = read_joints(chain.joints, false);
+  joints.period = period_of_fastest(joints.list);
   return joints;
 }
 
@@ -533,6 +540,136 @@ void require_travel(std::vector<Section>& entries, const CaseSpec& spec) {
           "wall", fmt::format("a piston that meets the other end: it leaves {:g} m", std::max(room, 0.0)),
           fmt::format("room for a ball of {:g} m all the time", diameter));
   }
+}
+
+QuantityVector Solid::core() const {
+  QuantityVector half;
+  for (std::size_t k = 0; k < 3; ++k) half[k] = quantity_of(rational(size[k]) / 2 - rational(rounding));
+  return half;
+}
+
+void read_bodies(Entries<BodyTable>& entries, CaseSpec& spec) {
+  constexpr std::size_t most = 48;  // walls and bodies together
+  read_entries(entries, [&](Section& entry, BodyTable& table) {
+    Solid body;
+    body.rounding = table.rounding;
+    body.on_vessel = table.on == Base::vessel;
+    body.colour = table.colour;
+    body.where = entry.where();
+    const bool round = table.type == Solidity::cylinder;
+    for (const char* key : round ? std::array{"diameter", "height"} : std::array{"size", "size"})
+      if (!entry.has(key)) return entry.problem(key, "nothing", round ? "a length" : "three lengths");
+    for (const char* key : {"diameter", "height", "size"})
+      if (entry.has(key) && round == (key == std::string("size")))
+        entry.problem(key, "a key of the other type", round ? "diameter and height" : "size");
+    if (round && table.diameter && table.height)
+      body.size = {*table.diameter, *table.height, *table.diameter};
+    else
+      body.size = table.size;
+    const Quantity width = Quantity(2) * body.rounding;
+    bool fits = true, negative = false, nothing = true;
+    for (const auto& size : body.size) {
+      fits = fits && width <= size;
+      negative = negative || size.negative();
+      nothing = nothing && size.zero();
+    }
+    if (negative || nothing)
+      entry.problem("size", nothing ? "a body without any size" : "a negative length",
+                    "three lengths, one of them positive");
+    else
+      entry.require(fits, "rounding", "at most half of each size");
+    body.is_round = round && width < body.size[0];
+    const bool copied = table.repeat > 1;
+    body.joints = read_joints(table.joints, copied);
+    const auto turning =
+        std::find_if(body.joints.begin(), body.joints.end(), [](const auto& joint) { return joint.rotates; });
+    if (copied && turning == body.joints.end()) {
+      entry.problem("repeat", "no joint that rotates", "one about whose axis the copies are placed");
+      return;
+    }
+    const int material = material_of(entry, "material", table.material, spec);
+    const std::string name = table.name.empty() ? fmt::format("body {}", spec.bodies.size()) : table.name;
+    const auto place = turning - body.joints.begin();
+    for (int k = 0; k < table.repeat; ++k) {
+      auto copy = body;
+      copy.name = copied ? fmt::format("{} {}", name, k) : name;
+      for (const auto& other : spec.bodies)
+        entry.require(other.name != copy.name, "name", "a name that no other body has");
+      if (k > 0) {
+        Joint<Quantity> turn;
+        turn.axis = body.joints[static_cast<std::size_t>(place)].axis;
+        turn.angle = quantity_of(Rational(k) / table.repeat);
+        copy.joints.insert(copy.joints.begin() + place, turn);
+      }
+      spec.bodies.push_back(std::move(copy));
+      spec.wall_materials.push_back(material);
+    }
+  });
+  if (spec.bodies.empty()) return;
+  if (spec.wall_materials.size() > most) {
+    entries.back().problem("repeat", fmt::format("{} walls and bodies", spec.wall_materials.size()),
+                           fmt::format("at most {}", most));
+    spec.bodies.clear();
+  }
+  // A vessel at rest has the clock of the fastest body.
+  const auto moves = [](const auto& joint) { return !joint.speed.zero() || !joint.swings.empty(); };
+  const auto own = joints_of(spec.mill);
+  if (std::any_of(own.begin(), own.end(), moves) && !std::get_if<model::StillMill<Quantity>>(&spec.mill))
+    return;
+  std::vector<Joint<Quantity>> all;
+  for (const auto& body : spec.bodies) all.insert(all.end(), body.joints.begin(), body.joints.end());
+  if (auto* still = std::get_if<model::StillMill<Quantity>>(&spec.mill))
+    still->period = period_of_fastest(all);
+  else if (auto* chain = std::get_if<model::Chain<Quantity>>(&spec.mill))
+    chain->given.period = period_of_fastest(all);
+}
+
+void require_bodies_inside(Entries<BodyTable>& entries, const CaseSpec& spec) {
+  if (entries.empty()) return;
+  const auto mill = build_mill<double>(spec);
+  const DriveClock<double> clock(mill.motion.period());
+  const double from = spec.initial_time.to<double>(),
+               to = spec.end_time ? spec.end_time->to<double>() : from + 16 * clock.period();
+  constexpr int samples = 256;  // of the start of the run, and of all of it
+  for (std::size_t k = 0; k < mill.bodies.size(); ++k) {
+    const auto& body = mill.bodies[k];
+    for (int n = 0; n <= 2 * samples; ++n) {
+      const double time = n < samples ? from + std::min(to - from, clock.period()) * n / samples
+                                      : from + (to - from) * (n - samples) / samples;
+      const auto when = clock.at(time);
+      const auto centre =
+          mill.motion.position_in_vessel(mill.motion.pose(when), body.motion.pose(when).centre);
+      bool outside = false;
+      for (int wall = 0; wall < mill.vessel.wall_count(); ++wall)
+        outside = outside || mill.vessel.overlap(wall, centre) > body.shape.size();
+      if (!outside) continue;
+      const auto& where = spec.bodies[k].where;
+      for (auto& entry : entries)
+        if (entry.where() == where)
+          entry.problem("joint", fmt::format("{} outside of the vessel at {:g} s", spec.bodies[k].name, time),
+                        "joints that keep it inside");
+      return;
+    }
+  }
+}
+
+void require_no_bodies(const CaseSpec& spec, const std::string& what) {
+  if (!spec.bodies.empty())
+    throw InputError(
+        fmt::format("{}: found {}, expected a case without bodies in the vessel: {} does not "
+                    "treat contacts with them yet",
+                    spec.bodies.front().where, spec.bodies.front().name, what));
+}
+
+std::string describe(const Solid& body) {
+  std::string text = body.is_round ? "cylinder" : "box";
+  for (std::size_t k = 0; k < (body.is_round ? 2 : 3); ++k)
+    text += fmt::format("{} {:g}", k == 0 ? " of" : " x", 1000 * body.size[k].to<double>());
+  text += " mm";
+  if (body.rounding.positive())
+    text += fmt::format(", rounded by {:g} mm", 1000 * body.rounding.to<double>());
+  text += body.on_vessel ? ", on the vessel" : ", on the ground";
+  return body.joints.empty() ? text : text + ": " + equation_of(Joints<Quantity>{body.joints});
 }
 
 std::string describe(const PistonSpec& piston) {

@@ -72,6 +72,55 @@ struct JointTable {
   }
 };
 
+enum class Solidity { box, cylinder };
+inline constexpr std::array<std::string_view, 2> choices_of(Solidity) { return {"box", "cylinder"}; }
+enum class Base { vessel, ground };
+inline constexpr std::array<std::string_view, 2> choices_of(Base) { return {"vessel", "ground"}; }
+
+struct BodyTable {
+  std::string name;
+  Solidity type = Solidity::box;
+  Base on = Base::vessel;
+  std::optional<Quantity> diameter, height;
+  QuantityVector size{};
+  Quantity rounding;
+  Entries<JointTable> joints;
+  int repeat = 1;
+  std::string material;
+  Colour colour{0.5, 0.5, 0.5};
+
+  static constexpr const char* what =
+      "Convex bodies inside the vessel: stirrers, pins, discs, lifters, baffles. They may overlap walls and "
+      "each other.";
+  static void keys(auto& b, auto&& row) {
+    using enum Dimension;
+    row(Parameter{"name", "in tables", Range::any, nullptr, "`body 0`, `body 1`, ..."}, b.name);
+    row(Parameter{"type", "shape; the axis of a cylinder is y"}
+            .as("`\"box\"` or `\"cylinder\"`")
+            .usually("`\"box\"`"),
+        b.type);
+    row(Parameter{"size", length, "edges of a box along x, y, z, over all; up to two may be zero"}.usually(
+            "required for a box"),
+        b.size);
+    row(Parameter{"diameter", length, "of a cylinder", Range::positive}.usually("required for a cylinder"),
+        b.diameter);
+    row(Parameter{"height", length, "of a cylinder, over all; zero for a disc without thickness",
+                  Range::not_negative}
+            .usually("required for a cylinder"),
+        b.height);
+    row({"rounding", length, "radius of all edges; half of all sizes makes a sphere of a box",
+         Range::not_negative, "0 m"},
+        b.rounding);
+    row(Parameter{"on", "where its joints begin"}.as("`\"vessel\"` or `\"ground\"`").usually("`\"vessel\"`"),
+        b.on);
+    row(Parameter{"joint", "from there to the body, as `[[mill.joint]]`"}.usually("none"), b.joints);
+    row({"repeat", "copies at equal angles about the axis of the first joint that rotates", {1, 24}, "1"},
+        b.repeat);
+    row(Parameter{"material", "of its surface"}.as("name").usually("none"), b.material);
+    row({"colour", "in pictures", Range::any, nullptr, "grey"}, b.colour);
+  }
+};
+
 /// [mill] type = "chain"
 struct ChainTable {
   Entries<JointTable> joints;
@@ -289,6 +338,7 @@ struct CaseFile {
   Inner<CaseSpec> run;
   Inner<MillTable> mill;
   Inner<VesselTable> vessel;
+  Entries<BodyTable> bodies;
   Entries<MaterialSpec> materials;
   Inner<ContactTable> contact;
   Inner<PowderTable> powder;
@@ -301,6 +351,7 @@ struct CaseFile {
     row({"run", ""}, f.run);
     row({"mill", ""}, f.mill);
     row({"vessel", ""}, f.vessel);
+    row({"body", ""}, f.bodies);
     row({"material", ""}, f.materials);
     row({"contact", ""}, f.contact);
     row({"powder", ""}, f.powder);
@@ -311,6 +362,8 @@ struct CaseFile {
   }
 };
 
+/// Number of the material that a key names; 0 without a name, and for an unknown name, which is reported.
+int material_of(Section& section, const std::string& key, const std::string& name, const CaseSpec& spec);
 /// The vessel in double; nothing if it is invalid, which has been reported.
 std::optional<model::AnyVessel<double>> known_vessel(const CaseSpec& spec);
 /// The wall of a label or a key; -1 for none.
@@ -321,6 +374,10 @@ void require_end(Section& mill);
 void read_pistons(Section& vessel, Entries<PistonTable>& entries, CaseSpec& spec);
 /// Reports pistons that leave the vessel or meet the other end.
 void require_travel(std::vector<Section>& entries, const CaseSpec& spec);
+/// [[body]]. @pre materials, vessel and mill have been read
+void read_bodies(Entries<BodyTable>& entries, CaseSpec& spec);
+/// Reports bodies that are outside of the vessel. @pre the case has no other problems
+void require_bodies_inside(Entries<BodyTable>& entries, const CaseSpec& spec);
 /// [contact], [contact.ball_ball], [contact.ball_wall] and [[contact.pair]].
 /// @pre materials, vessel, powder and balls have been read, to which laws may refer
 void read_contact(Section& contact, CaseSpec& spec);

@@ -464,6 +464,7 @@ Deck yade_deck(DeckCase& c) {
 }  // namespace
 
 Deck make_deck(const casefile::CaseSpec& spec, const DeckOptions& options) {
+  casefile::require_no_bodies(spec, "edmill export");
   const auto built = casefile::build_case<double>(spec);
   refuse_what_no_code_has(spec, built);
   const auto& mill = built.the_case.mill;

@@ -70,6 +70,7 @@ CheckedCase check(const casefile::CaseSpec& spec) {
     const auto partners = casefile::partners_of(spec);
     for (const auto& piston : spec.pistons)
       row("piston " + partners[piston.wall].label, casefile::describe(piston));
+    for (const auto& body : spec.bodies) row(body.name, casefile::describe(body));
     if (!spec.pairs_only) {
       row("contact ball-ball", describe_law(m.ball_ball));
       row("contact ball-wall", describe_law(m.ball_wall));

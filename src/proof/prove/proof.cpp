@@ -435,6 +435,7 @@ std::vector<Meeting> candidates(const casefile::CaseSpec& spec, const ProofOptio
 }  // namespace
 
 Proof prove(const casefile::CaseSpec& spec, const ProofOptions& options) {
+  casefile::require_no_bodies(spec, "edmill prove");
   const auto begin = std::chrono::steady_clock::now();
   Proof proof;
   proof.exact = exact_case(spec);

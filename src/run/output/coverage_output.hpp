@@ -26,7 +26,7 @@ class BodiesOutput : public TableOutput<Real> {
   BodiesOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
       : TableOutput<Real>(spec, run),
         on_balls_(run.ball_colours.size()),
-        on_walls_(run.surfaces(spec).size()) {}
+        on_walls_(run.surfaces(spec).size() + run.bodies.size()) {}
 
  protected:
   void archive_record(Archive& a) override { a(on_balls_, on_walls_); }
@@ -54,8 +54,10 @@ class BodiesOutput : public TableOutput<Real> {
     };
     for (std::size_t k = 0; k < on_balls_.size(); ++k)
       put("ball", k, on_balls_[k], ball_area(simulation, static_cast<int>(k)));
+    const auto& walls = this->run.walls;
     for (std::size_t k = 0; k < on_walls_.size(); ++k)
-      put("wall", k, on_walls_[k], this->run.walls[k].area());
+      put("wall", k, on_walls_[k],
+          k < walls.size() ? walls[k].area() : this->run.bodies[k - walls.size()].shape.area());
   }
 
  private:
@@ -146,7 +148,7 @@ class CoverageOutput : public TableOutput<Real> {
   void archive_record(Archive& a) override { a(cells_); }
 
   void record(const ImpactFacts<Real>& f) override {
-    if (!f.impact.with_wall) return;
+    if (!f.impact.with_wall || f.simulation.mill().body_of(f.impact.partner)) return;
     auto& cell = cells_[walls_.cell_of(f)];
     ++cell.impacts;
     cell.dose += f.outcome.milling_dose;

@@ -28,6 +28,8 @@ struct RunContext {
   casefile::Colour vessel_colour{};
   std::vector<casefile::Colour> ball_colours;   ///< of each ball
   std::vector<model::WallSurface<Real>> walls;  ///< by id, in the vessel frame; empty for a CurvedVessel
+  std::vector<model::Body<Real>> bodies;        ///< the walls after these
+  std::vector<casefile::Colour> body_colours;   ///< of each body
   std::vector<io::FileNote> notes;              ///< where the run comes from
 
   /// The walls, for outputs that map or draw them.
@@ -40,6 +42,15 @@ struct RunContext {
     return walls;
   }
 };
+
+/// For outputs that cannot treat bodies in the vessel.
+/// @throws InputError when the run has some
+template <class Real>
+void require_no_bodies(const casefile::OutputSpec& spec, const RunContext<Real>& run) {
+  if (!run.bodies.empty())
+    throw InputError("output of type '" + spec.type +
+                     "': found bodies in the vessel, expected a case without: it does not treat them yet");
+}
 
 /// The run at the time of a row or a frame.
 template <class Real>

@@ -18,10 +18,10 @@ template <class Real>
 class Outputs : public engine::Observer<Real> {
  public:
   /// Opens the files.
-  /// @param vessel  of the run; a program's own takes the place of the case's
+  /// @param mill  of the run; a program's own vessel takes the place of the case's
   /// @throws InputError when one cannot be written, or needs surfaces that the vessel does not have
-  Outputs(const casefile::CaseSpec& spec, const model::AnyVessel<Real>& vessel,
-          const std::filesystem::path& folder, const Real& start);
+  Outputs(const casefile::CaseSpec& spec, const model::Mill<Real>& mill, const std::filesystem::path& folder,
+          const Real& start);
   ~Outputs() override;
 
   void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override;

@@ -46,7 +46,11 @@ class SceneOutput : public Output<Real> {
   Scene scene(const Moment<Real>& at) const {
     const auto& mill = at.simulation.mill();
     const auto now = static_cast<double>(at.time);
-    Scene s{.vessel = {walls_, this->run.vessel_colour, vessel_frame(mill.motion, now)}, .time = now};
+    Scene s{.vessel = {walls_, this->run.vessel_colour, frame_of(mill.motion, now)}, .time = now};
+    for (std::size_t k = 0; k < mill.bodies.size(); ++k)
+      s.bodies.push_back({{model::mesh_of(mill.bodies[k].shape)},
+                          this->run.body_colours[k],
+                          frame_of(mill.bodies[k].motion, now)});
     for_each_piston(mill.vessel, at.time, [&](std::size_t wall, const Vec3<double>& moved) {
       for (auto& point : s.vessel.walls[wall].points) point += moved;
     });
@@ -108,8 +112,8 @@ class SnapshotOutput : public SceneOutput<Real> {
     constexpr int parts = 64;
     const auto period = static_cast<double>(motion.period());
     const double begin = std::floor(time / period) * period;
-    std::vector<Frame<double>> frames{vessel_frame(motion, time)};
-    for (int k = 0; k < parts; ++k) frames.push_back(vessel_frame(motion, begin + period * k / parts));
+    std::vector<Frame<double>> frames{frame_of(motion, time)};
+    for (int k = 0; k < parts; ++k) frames.push_back(frame_of(motion, begin + period * k / parts));
     return frames;
   }
 
@@ -233,13 +237,23 @@ class AnimationOutput : public FramesOutput<Real> {
       for (const auto& piston : pistons->given())
         for (const auto& swing : piston.swings)
           frequency = std::max(frequency, std::abs(static_cast<double>(swing.frequency)));
+    for (const auto& body : simulation.mill().bodies)
+      for (const auto& joint : body.motion.joints().list) {
+        if (joint.rotates) frequency = std::max(frequency, std::abs(static_cast<double>(joint.speed)));
+        for (const auto& swing : joint.swings)
+          frequency = std::max(frequency, std::abs(static_cast<double>(swing.frequency)));
+      }
     const double turns = length * frequency;
     const auto keys = std::max(
         {this->spec.animation.min_frames, frames_ - 1, static_cast<std::uint64_t>(std::ceil(64 * turns))});
+    const auto& bodies = simulation.mill().bodies;
+    paths_.bodies.resize(bodies.size());
     std::vector<Vec3<double>> at_first;  // the pistons
     for (std::uint64_t k = 0; k <= keys; ++k) {
       const double key = static_cast<double>(k) / static_cast<double>(keys);
-      paths_.vessel.emplace_back(key, vessel_frame(motion, from + length * key));
+      paths_.vessel.emplace_back(key, frame_of(motion, from + length * key));
+      for (std::size_t body = 0; body < paths_.bodies.size(); ++body)
+        paths_.bodies[body].emplace_back(key, frame_of(bodies[body].motion, from + length * key));
       std::size_t piston = 0;
       this->for_each_piston(vessel, Real(from + length * key), [&](std::size_t wall, const auto& moved) {
         if (k == 0) {

@@ -106,18 +106,21 @@ std::vector<io::FileNote> notes_of(const casefile::CaseSpec& spec) {
 }
 
 template <class Real>
-Outputs<Real>::Outputs(const casefile::CaseSpec& spec, const model::AnyVessel<Real>& vessel,
+Outputs<Real>::Outputs(const casefile::CaseSpec& spec, const model::Mill<Real>& mill,
                        const std::filesystem::path& folder, const Real& start)
     : previous_(start) {
   RunContext<Real> run{.folder = folder,
                        .start = start,
-                       .partners = model::partners_of(vessel),
+                       .partners = model::partners_of(mill),
                        .powder_mass = {},
                        .vessel_colour = spec.vessel_colour,
                        .ball_colours = spec.ball_colours(),
-                       .walls = vessel.surfaces(),
+                       .walls = mill.vessel.surfaces(),
+                       .bodies = mill.bodies,
+                       .body_colours = {},
                        .notes = notes_of<Real>(spec)};
   walls_ = run.partners.walls();
+  for (const auto& body : spec.bodies) run.body_colours.push_back(body.colour);
   if (spec.powder_mass) run.powder_mass = spec.powder_mass->template to<Real>();
   for (const auto& output : spec.outputs) outputs_.push_back(make_output<Real>(output, run));
 }

@@ -87,9 +87,10 @@ std::string rotation(const Frame<double>& frame) {
   return triple(turn.axis()) + " " + numbers({turn.angle()});
 }
 
-void add_wall(pugi::xml_node parent, const model::Mesh& wall, const casefile::Colour& colour) {
+void add_wall(pugi::xml_node parent, const model::Mesh& wall, const casefile::Colour& colour,
+              double transparency = 0.7) {
   auto shape = add(parent, "Shape");
-  add_look(shape, colour, 0.7);
+  add_look(shape, colour, transparency);
   const auto corners =
       list_of(wall.faces, [](const auto& face) { return fmt::format("{} -1", fmt::join(face, " ")); });
   // Faces of one curved wall meet at less than the crease angle and look smooth.
@@ -112,6 +113,15 @@ void add_vessel(pugi::xml_node parent, const SceneVessel& vessel, const SceneMot
     add_wall(moves ? add(place, "Transform", {{"DEF", name_of_wall(id)}}) : place, vessel.walls[id],
              vessel.colour);
   }
+}
+
+std::string name_of_body(std::size_t body) { return fmt::format("body_{}", body); }
+
+void add_body(pugi::xml_node parent, const SceneVessel& body, const std::string& name) {
+  auto place =
+      add(parent, "Transform",
+          {{"DEF", name}, {"translation", triple(body.frame.origin)}, {"rotation", rotation(body.frame)}});
+  add_wall(place, body.walls[0], body.colour, 0);
 }
 
 /// Drives one field of the node `target` by texts of the values at keys.
@@ -137,9 +147,13 @@ void add_motion(pugi::xml_node scene, const SceneMotion& motion) {
     add_interpolator(scene, "PositionInterpolator", target + "_path", target, "set_translation", path,
                      text_of);
   };
-  add_path("vessel", motion.vessel, [](const Frame<double>& frame) { return triple(frame.origin); });
-  add_interpolator(scene, "OrientationInterpolator", "vessel_turn", "vessel", "set_rotation", motion.vessel,
-                   rotation);
+  const auto add_frames = [&](const std::string& target, const SceneMotion::Frames& frames) {
+    add_path(target, frames, [](const Frame<double>& frame) { return triple(frame.origin); });
+    add_interpolator(scene, "OrientationInterpolator", target + "_turn", target, "set_rotation", frames,
+                     rotation);
+  };
+  add_frames("vessel", motion.vessel);
+  for (std::size_t k = 0; k < motion.bodies.size(); ++k) add_frames(name_of_body(k), motion.bodies[k]);
   for (const auto& [wall, path] : motion.pistons) add_path(name_of_wall(wall), path, triple);
   for (std::size_t i = 0; i < motion.balls.size(); ++i)
     add_path(fmt::format("ball_{}", i), motion.balls[i], triple);
@@ -167,6 +181,7 @@ std::string x3d_text(const Scene& s, const SceneMotion* motion) {
   add(scene, "Viewpoint",
       {{"description", "mill"}, {"position", triple(s.eye)}, {"centerOfRotation", triple(s.target)}});
   add_vessel(scene, s.vessel, motion);
+  for (std::size_t k = 0; k < s.bodies.size(); ++k) add_body(scene, s.bodies[k], name_of_body(k));
   for (std::size_t i = 0; i < s.balls.size(); ++i) add_ball(scene, s.balls[i], fmt::format("ball_{}", i));
   if (s.contact) add_ball(scene, *s.contact, "contact_point");
   if (motion) add_motion(scene, *motion);
@@ -246,16 +261,19 @@ std::string vtp_vessel(const Scene& s) {
   std::string points, walls;
   std::vector<std::vector<int>> faces;
   int count = 0;
-  for (std::size_t wall = 0; wall < s.vessel.walls.size(); ++wall) {
-    const auto& mesh = s.vessel.walls[wall];
+  std::size_t wall = 0;
+  const auto add_mesh = [&](const model::Mesh& mesh, const Frame<double>& frame) {
     for (auto face : mesh.faces) {
       for (int& corner : face) corner += count;
       faces.push_back(std::move(face));
       walls += fmt::format("{} ", wall);
     }
-    for (const auto& point : mesh.points) points += triple(s.vessel.frame.outside(point)) + " ";
+    for (const auto& point : mesh.points) points += triple(frame.outside(point)) + " ";
     count += static_cast<int>(mesh.points.size());
-  }
+    ++wall;
+  };
+  for (const auto& mesh : s.vessel.walls) add_mesh(mesh, s.vessel.frame);
+  for (const auto& body : s.bodies) add_mesh(body.walls[0], body.frame);
   VtkFile file("PolyData");
   auto piece = add_piece(file, s.time, static_cast<std::size_t>(count), 0, faces.size());
   add_array(piece.append_child("CellData"), "wall", "Int32", 1, walls);

@@ -34,17 +34,18 @@ struct SceneVessel {
 
 struct Scene {
   SceneVessel vessel;
+  std::vector<SceneVessel> bodies{};                                       ///< in it, each with one mesh
   Vec3<double> eye = Vec3<double>::Zero(), target = Vec3<double>::Zero();  ///< viewer and viewed point [m]
   std::vector<SceneBall> balls{};
   std::optional<SceneBall> contact{};  ///< marks the contact point
   double time;                         ///< [s]
 
-  void archive(Archive& a) { a(vessel, eye, target, balls, contact, time); }
+  void archive(Archive& a) { a(vessel, bodies, eye, target, balls, contact, time); }
 };
 
-/// The vessel frame at a time [s], in the inertial one.
-template <class Real>
-Frame<double> vessel_frame(const model::AnyMotion<Real>& motion, double time) {
+/// The frame of the vessel or of a body at a time [s], in the inertial one.
+template <class Motion>
+Frame<double> frame_of(const Motion& motion, double time) {
   const auto own = motion.template cast<double>();
   const auto pose = own.pose(DriveClock<double>(own.period()).at(time));
   return {own.to_inertial(pose, Vec3<double>::Zero()), own.axis_x(pose), own.axis_y(pose), own.axis_z(pose)};
@@ -53,13 +54,15 @@ Frame<double> vessel_frame(const model::AnyMotion<Real>& motion, double time) {
 /// The motion in an animation: keys are fractions of its duration, from 0 to 1.
 struct SceneMotion {
   double duration;  ///< of one playback [s]
-  std::vector<std::pair<double, Frame<double>>> vessel;
+  using Frames = std::vector<std::pair<double, Frame<double>>>;
+  Frames vessel;
+  std::vector<Frames> bodies;
   using Path = std::vector<std::pair<double, Vec3<double>>>;
   std::vector<std::pair<std::size_t, Path>> pistons;  ///< by wall, relative to the place in the scene [m]
   std::vector<Path> balls;                            ///< of each ball
   Path contact;                                       ///< where the scene marks the contact point
 
-  void archive(Archive& a) { a(duration, vessel, pistons, balls, contact); }
+  void archive(Archive& a) { a(duration, vessel, bodies, pistons, balls, contact); }
 };
 
 /// Places the viewer so that all walls are visible in all of these frames.

@@ -50,7 +50,9 @@ class TreatmentOutput : public TableOutput<Real> {
         threshold_(spec.own_keys<TreatmentKeys>().threshold.template to<Real>()),
         walls_(run.surfaces(spec), spec.own_keys<TreatmentKeys>().cells),
         on_walls_(walls_.count()),
-        on_balls_(run.ball_colours.size()) {}
+        on_balls_(run.ball_colours.size()) {
+    require_no_bodies(spec, run);
+  }
 
  protected:
   void archive_record(Archive& a) override { a(on_walls_, on_balls_, impacts_); }

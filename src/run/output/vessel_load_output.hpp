@@ -38,6 +38,8 @@ class VesselLoadOutput : public IntervalOutput<Real> {
 
   void record(const ImpactFacts<Real>& f) override {
     if (!f.impact.with_wall) return;
+    const auto* body = f.simulation.mill().body_of(f.impact.partner);
+    if (body && !body->on_vessel) return;
     const Vec3<Real> impulse = (f.one.velocity_before - f.one.velocity_after) * f.one.ball->mass;
     impulse_ += impulse;
     moment_ += cross<Real>(f.contact_point, impulse);

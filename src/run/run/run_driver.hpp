@@ -117,7 +117,7 @@ class RunDriver {
       : guests_(guests),
         simulation_(built.the_case, built.states, built.start, guests.interrupt),
         every_run_(built.the_case),
-        statistics_(model::partners_of(built.the_case.mill.vessel), built.the_case.balls,
+        statistics_(model::partners_of(built.the_case.mill), built.the_case.balls,
                     built.the_case.counted_dose),
         first_(built.start) {
     every_run_.attach_to(simulation_);
@@ -215,7 +215,7 @@ class RunDriver {
 /// Summary of a case, with nothing counted yet.
 template <class Real>
 io::Summary<Real> blank_summary(const casefile::CaseSpec& spec, const casefile::InitialCase<Real>& built) {
-  io::Summary<Real> summary(model::partners_of(built.the_case.mill.vessel));
+  io::Summary<Real> summary(model::partners_of(built.the_case.mill));
   if (spec.powder_mass) summary.powder_mass = spec.powder_mass->template to<Real>();
   if (spec.target.dose)
     summary.target = {spec.target.dose->template to<Real>(), spec.target.counts(), Real(0)};

@@ -187,10 +187,11 @@ model::AnyMotion<Real> to_motion(const Joints<Real>& given, const Real& period) 
 template <class Real>
 void forget_walls(model::Mill<Real>& mill, const model::AnyVessel<Real>& own) {
   auto& of_walls = mill.pairs.of_walls;
-  if (mill.vessel.pistons() ||
+  if (mill.vessel.pistons() || !mill.bodies.empty() ||
       std::any_of(of_walls.begin(), of_walls.end(), [](int law) { return law >= 0; }))
     throw InputError(
-        "vessel of the program: found a case whose walls move or have materials, expected a case without");
+        "vessel of the program: found a case with bodies, or whose walls move or have materials, expected a "
+        "case without");
   if (!mill.pairs.empty())
     of_walls.assign(mill.pairs.materials * static_cast<std::size_t>(own.wall_count()), -1);
   mill.vessel = own;
@@ -278,7 +279,7 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
     guests_.checkpoints = folder_->checkpoints();
     try {
       const DriveClock<Real> clock(built_.the_case.mill.motion.period());
-      outputs_.emplace(*spec_, built_.the_case.mill.vessel, folder_->place(), clock.seconds(built_.start));
+      outputs_.emplace(*spec_, built_.the_case.mill, folder_->place(), clock.seconds(built_.start));
     } catch (...) {
       folder_.reset();  // free for others
       throw;

@@ -368,6 +368,7 @@ void write(std::ostream& out, const casefile::CaseSpec& spec, const SensitivityO
 }  // namespace
 
 Sensitivities sensitivity(const casefile::CaseSpec& spec, const SensitivityOptions& options) {
+  casefile::require_no_bodies(spec, "edmill sensitivity");
   constexpr unsigned most_digits = most_digits_of_step - 20;
   if (options.digits > most_digits)
     throw InputError(fmt::format("--digits: found {}, expected at most {}: a derivative has no more",

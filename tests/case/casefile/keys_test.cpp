@@ -18,6 +18,11 @@ namespace {
 
 /// `name = nonsense` where a file of the key's kind has its section; a table suits no key but those of
 /// tables.
+std::string of_joint(const Key& key, const std::string& nonsense) {
+  return std::string(key.name == "distance" || key.name == "translate" ? "translate = \"x\"\n"
+                                                                       : "rotate = \"x\"\n") +
+         (key.name == "rotate" || key.name == "translate" ? "" : nonsense);
+}
 std::string file_with(const Key& key) {
   const auto nonsense = "\"" + key.name + "\" = { nonsense = 1 }\n";
   const auto first = key.of.substr(0, key.of.find(','));
@@ -29,13 +34,14 @@ std::string file_with(const Key& key) {
     return "[" + s + "]\n" + nonsense;
   if (s == "mill" || s == "vessel" || s == "contact")
     return "[" + s + "]\n" + (key.name == "type" || key.name == "model" ? "" : type) + nonsense;
-  if (s == "mill.joint")
-    return "[mill]\ntype = \"chain\"\n[[mill.joint]]\n" +
-           std::string(key.name == "distance" || key.name == "translate" ? "translate = \"x\"\n"
-                                                                         : "rotate = \"x\"\n") +
-           (key.name == "rotate" || key.name == "translate" ? "" : nonsense);
+  if (s == "mill.joint") return "[mill]\ntype = \"chain\"\n[[mill.joint]]\n" + of_joint(key, nonsense);
   if (s == "mill.joint.swing")
     return "[mill]\ntype = \"chain\"\n[[mill.joint]]\nrotate = \"x\"\n[[mill.joint.swing]]\n" + nonsense;
+  if (s == "body" || s == "body.joint" || s == "body.joint.swing")
+    return "[[body]]\nsize = [\"1 mm\", \"1 mm\", \"1 mm\"]\n" +
+           (s == "body" ? nonsense
+                        : "[[body.joint]]\n" +
+                              of_joint(key, s == "body.joint" ? nonsense : "[[" + s + "]]\n" + nonsense));
   if (s == "vessel.plane" || s == "vessel.vertex")
     return "[vessel]\ntype = \"polyhedron\"\n[[" + s + "]]\n" + nonsense;
   if (s == "vessel.piston" || s == "vessel.piston.swing")

@@ -195,9 +195,33 @@ TEST(BoxScene, HasSixWallsInTheVesselFrame) {
   EXPECT_EQ(points, 24);
 }
 
+TEST(BoxScene, HasItsBodies) {
+  const auto file = std::filesystem::temp_directory_path() / ("body_" + std::to_string(::getpid()) + ".x3d");
+  auto scene = box_scene();
+  const model::RoundedBody<double> plate(false, {0.01, 0, 0.02}, 0.003);
+  scene.bodies.push_back({{model::mesh_of(plate)}, {1, 0, 0}, turned(0, 0)});
+  const output::SceneMotion motion{
+      1, {{0, turned(0, 0)}, {1, turned(0, 0)}}, {{{0, turned(0, 0)}, {1, turned(90, 2)}}}, {}, {}, {}};
+  std::ofstream(file) << output::x3d_text(scene, &motion);
+  const auto bodies = report::read_animation(file).bodies;
+  std::filesystem::remove(file);
+  ASSERT_EQ(bodies.size(), 1u);
+  EXPECT_EQ(bodies[0].colour, "#ff0000");
+  EXPECT_EQ(bodies[0].opacity, 1);
+  // Every corner is on the surface, and the outermost are where the sizes are.
+  Vec3<double> most = Vec3<double>::Zero();
+  for (const auto& point : bodies[0].walls[0].points) {
+    EXPECT_NEAR(plate.overlap(0, point), 0, 1e-9);
+    most = most.cwiseMax(point.cwiseAbs());
+  }
+  EXPECT_NEAR((most - Vec3<double>(0.013, 0.003, 0.023)).norm(), 0, 1e-9);
+  const Vec3<double> there = bodies[0].pose(1) * Vec3<double>(1, 0, 0);
+  EXPECT_NEAR((there - turned(90, 2).outside({1, 0, 0})).norm(), 0, 1e-9);
+}
+
 TEST(BoxScene, IsReadBackAndTurnsTheShortWay) {
   const auto file = std::filesystem::temp_directory_path() / ("box_" + std::to_string(::getpid()) + ".x3d");
-  const output::SceneMotion motion{1, {{0, turned(170, 1)}, {1, turned(-170, 3)}}, {}, {}, {}};
+  const output::SceneMotion motion{1, {{0, turned(170, 1)}, {1, turned(-170, 3)}}, {}, {}, {}, {}};
   std::ofstream(file) << output::x3d_text(box_scene(), &motion);
   const auto vessel = report::read_animation(file).vessel;
   std::filesystem::remove(file);

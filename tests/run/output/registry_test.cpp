@@ -40,7 +40,7 @@ class OutputRegistry : public ProgramTest {
  protected:
   template <class Real>
   void commit_all(const casefile::CaseSpec& spec) const {
-    output::Outputs<Real> outputs(spec, casefile::build_mill<Real>(spec).vessel, scratch, Real(0));
+    output::Outputs<Real> outputs(spec, casefile::build_mill<Real>(spec), scratch, Real(0));
     for (io::WholeFile* file : outputs.complete(false)) file->commit();
   }
 };
