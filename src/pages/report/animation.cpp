@@ -113,9 +113,12 @@ Animation animation_of(const pugi::xml_node& scene) {
                       vector_of(view, "position", 3),
                       vector_of(view, "centerOfRotation", 3),
                       vessel_of(vessel),
+                      {},
                       {}};
   for (const auto& transform : scene.children("Transform")) {
     const auto shape = transform.child("Shape");
+    if (std::string_view(transform.attribute("DEF").as_string()).starts_with("body_"))
+      animation.bodies.push_back(vessel_of(transform));
     if (const auto sphere = shape.child("Sphere"))
       animation.spheres.push_back(
           {sphere.attribute("radius").as_double(), colour_of(shape), place_of(transform)});
@@ -172,7 +175,8 @@ Json walls_of(const MovingVessel& vessel, const std::vector<double>& fractions, 
 /// Adds <script type="application/json" id="frames">, which page.js plays. Lengths in millimetres:
 ///   {duration, eye, target,
 ///    vessel: {walls: [{points, flat, shifts}], colour, opacity, poses: [x, y, z, qx, qy, qz, qw of each
-///    frame]}, spheres: {radii, colours, places: [x, y, z of each sphere, frame by frame]}}
+///    frame]}, bodies: [{points, colour, poses}], spheres: {radii, colours, places: [x, y, z of each sphere,
+///    frame by frame]}}
 /// Frames divide the playback into equal parts, from its beginning to its end.
 void add_frames(pugi::xml_node parent, const Animation& animation) {
   const auto& vessel = animation.vessel;
@@ -183,10 +187,19 @@ void add_frames(pugi::xml_node parent, const Animation& animation) {
     radii.push_back(1000 * sphere.radius);
     colours.push_back(sphere.colour);
   }
+  const auto append_pose = [&](Json& list, const Eigen::Isometry3d& pose) {
+    append(list, 1000 * pose.translation(), steps);
+    append(list, Eigen::Quaterniond(pose.rotation()).coeffs(), 1e6);
+  };
+  Json bodies = Json::array();
+  for (const auto& body : animation.bodies) {
+    Json own = Json::array();
+    for (const double fraction : fractions) append_pose(own, body.pose(fraction));
+    bodies.push_back(
+        {{"points", walls_of(body, fractions, steps)[0]["points"]}, {"colour", body.colour}, {"poses", own}});
+  }
   for (const double fraction : fractions) {
-    const auto pose = vessel.pose(fraction);
-    append(poses, 1000 * pose.translation(), steps);
-    append(poses, Eigen::Quaterniond(pose.rotation()).coeffs(), 1e6);
+    append_pose(poses, vessel.pose(fraction));
     for (const auto& sphere : animation.spheres) append(places, 1000 * sphere.place.at(fraction), steps);
   }
   const Json scene = {{"duration", animation.duration},
@@ -197,6 +210,7 @@ void add_frames(pugi::xml_node parent, const Animation& animation) {
                         {"colour", vessel.colour},
                         {"opacity", vessel.opacity},
                         {"poses", poses}}},
+                      {"bodies", bodies},
                       {"spheres", {{"radii", radii}, {"colours", colours}, {"places", places}}}};
   add(parent, "script", {{"type", "application/json"}, {"id", "frames"}}, scene.dump());
 }

@@ -49,6 +49,7 @@ struct Animation {
   double duration;           ///< of one playback [s]
   Vec3<double> eye, target;  ///< positions of the viewer and of the centre of the view [m]
   MovingVessel vessel;
+  std::vector<MovingVessel> bodies;  ///< in it, each with one wall
   std::vector<MovingSphere> spheres;
 };
 

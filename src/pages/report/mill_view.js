@@ -76,8 +76,9 @@ class MillView {
     }
     return this.sprites[colour] = canvas;
   }
-  /** @param walls  [{points, flat}] @param balls  [{place, radius, colour}] @param path  of the vessel's centre; may be empty */
-  draw(walls, balls, { colour, opacity, edge }, path = []) {
+  /** @param walls  [{points, flat}] @param balls  [{place, radius, colour}] @param path  of the vessel's centre; may be empty
+   *  @param solids  convex bodies, [{points, colour}] */
+  draw(walls, balls, { colour, opacity, edge }, path = [], solids = []) {
     const context = this.canvas.getContext("2d");
     context.clearRect(0, 0, this.canvas.width, this.canvas.height);
     const shapes = walls.map(({ points, flat }) => ({ flat, corners: points.map((p) => this.seen(p)) }));
@@ -93,12 +94,23 @@ class MillView {
     context.fill();
     context.globalAlpha = 1;
     const seen = balls.map(({ place, radius, colour }) => ({ at: this.seen(place), radius, colour }));
+    for (const { points, colour } of solids) {
+      const centre = [0, 1, 2].map((k) => points.reduce((sum, p) => sum + p[k], 0) / points.length);
+      seen.push({ at: this.seen(centre), corners: hull(points.map((p) => this.seen(p))), colour });
+    }
     seen.sort((a, b) => a.at[2] - b.at[2]); // the nearest last
-    for (const { at: [x, y, scale], radius, colour } of seen) {
+    context.strokeStyle = edge;
+    for (const { at: [x, y, scale], radius, corners, colour } of seen) {
+      if (corners) {
+        context.fillStyle = colour;
+        trace(corners);
+        context.fill();
+        context.stroke();
+        continue;
+      }
       const r = scale * radius;
       context.drawImage(this.sprite(colour), x - r, y - r, 2 * r, 2 * r);
     }
-    context.strokeStyle = edge;
     for (const corners of [outline, ...shapes.filter(({ flat }) => flat).map(({ corners }) => corners)]) {
       trace(corners);
       context.stroke();

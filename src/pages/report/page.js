@@ -1,29 +1,39 @@
 // Plays the mill: the frames of the page's JSON, on demand. Lengths in millimetres, times in milliseconds.
 "use strict";
 
-/** What the mill shows at a fraction of its playback, between two of its frames; with the jar at rest for one who `rides` with it. */
-function stateAt({ vessel, spheres }, fraction, rides) {
-  const steps = vessel.poses.length / 7 - 1, frame = Math.min(Math.floor(fraction * steps), steps - 1), share = fraction * steps - frame;
-  const between = (list, size, first, count) =>
-    Array.from({ length: count }, (_, k) => (1 - share) * list[size * frame + first + k] + share * list[size * (frame + 1) + first + k]);
+/** Values of a list between two of its frames. */
+function framesAt(list, size, fraction) {
+  const steps = list.length / size - 1, frame = Math.min(Math.floor(fraction * steps), steps - 1), share = fraction * steps - frame;
+  return (first, count) => Array.from({ length: count }, (_, k) => (1 - share) * list[size * frame + first + k] + share * list[size * (frame + 1) + first + k]);
+}
+
+/** The pose of the vessel or of a body at a fraction of the playback. */
+function poseAt(poses, fraction) {
+  const steps = poses.length / 7 - 1, frame = Math.min(Math.floor(fraction * steps), steps - 1), share = fraction * steps - frame;
   // Turns of two frames are near each other, but the numbers of one turn may have either sign.
-  const turns = [0, 1].map((k) => vessel.poses.slice(7 * (frame + k) + 3, 7 * (frame + k) + 7));
+  const turns = [0, 1].map((k) => poses.slice(7 * (frame + k) + 3, 7 * (frame + k) + 7));
   const sign = turns[0].reduce((sum, part, k) => sum + part * turns[1][k], 0) < 0 ? -1 : 1;
   const mixed = turns[0].map((part, k) => (1 - share) * part + sign * share * turns[1][k]), length = Math.hypot(...mixed);
-  const [x, y, z, w] = mixed.map((part) => part / length), origin = between(vessel.poses, 7, 0, 3);
+  const [x, y, z, w] = mixed.map((part) => part / length), origin = framesAt(poses, 7, fraction)(0, 3);
   const turned = (p, w) => {
     const t = [2 * (y * p[2] - z * p[1]), 2 * (z * p[0] - x * p[2]), 2 * (x * p[1] - y * p[0])];
     const twice = [y * t[2] - z * t[1], z * t[0] - x * t[2], x * t[1] - y * t[0]];
     return p.map((c, k) => c + w * t[k] + twice[k]);
   };
-  const outside = (p) => rides ? p : turned(p, w).map((c, k) => origin[k] + c);
-  const inside = (p) => rides ? turned(p.map((c, k) => c - origin[k]), -w) : p;
+  return { outside: (p) => turned(p, w).map((c, k) => origin[k] + c), inside: (p) => turned(p.map((c, k) => c - origin[k]), -w) };
+}
+
+/** What the mill shows at a fraction of its playback, between two of its frames; with the jar at rest for one who `rides` with it. */
+function stateAt({ vessel, bodies, spheres }, fraction, rides) {
+  const pose = poseAt(vessel.poses, fraction), seen = (p) => rides ? pose.inside(p) : p;
   const walls = vessel.walls.map(({ points, flat, shifts }) => {
-    const shift = shifts ? between(shifts, 3, 0, 3) : [0, 0, 0];
-    return { flat, points: points.map((p) => outside(p.map((c, k) => c + shift[k]))) };
+    const shift = shifts ? framesAt(shifts, 3, fraction)(0, 3) : [0, 0, 0];
+    const moved = points.map((p) => p.map((c, k) => c + shift[k]));
+    return { flat, points: rides ? moved : moved.map(pose.outside) };
   });
-  const places = between(spheres.places, 3 * spheres.radii.length, 0, 3 * spheres.radii.length);
-  return { walls, balls: spheres.radii.map((radius, k) => ({ radius, colour: spheres.colours[k], place: inside(places.slice(3 * k, 3 * k + 3)) })) };
+  const solids = bodies.map(({ points, colour, poses }) => ({ colour, points: points.map(poseAt(poses, fraction).outside).map(seen) }));
+  const places = framesAt(spheres.places, 3 * spheres.radii.length, fraction)(0, 3 * spheres.radii.length);
+  return { walls, solids, balls: spheres.radii.map((radius, k) => ({ radius, colour: spheres.colours[k], place: seen(places.slice(3 * k, 3 * k + 3)) })) };
 }
 
 function play() {
@@ -49,8 +59,8 @@ function play() {
       slider.value = time;
       ask();
     }
-    const { walls, balls } = stateAt(mill, time / end, ride.checked);
-    view.draw(walls, balls, look, ride.checked ? [] : path);
+    const { walls, solids, balls } = stateAt(mill, time / end, ride.checked);
+    view.draw(walls, balls, look, ride.checked ? [] : path, solids);
     clock.textContent = time.toFixed(decimals) + " ms";
     slider.setAttribute("aria-valuetext", clock.textContent);
   };

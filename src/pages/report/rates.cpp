@@ -56,8 +56,9 @@ void add_collision_rates(pugi::xml_node grid, const RunFolder& run) {
 /// Areas of the walls by id, then of all balls together [m2].
 std::vector<double> areas_of(const RunFolder& run) {
   std::vector<double> areas;
-  for (const auto& surface : casefile::build_mill<double>(run.spec).vessel.surfaces())
-    areas.push_back(surface.area());
+  const auto mill = casefile::build_mill<double>(run.spec);
+  for (const auto& surface : mill.vessel.surfaces()) areas.push_back(surface.area());
+  for (const auto& body : mill.bodies) areas.push_back(body.shape.area());
   double balls = 0;
   run.spec.for_each_ball([&](const casefile::BallSpec& ball) {
     const double d = ball.diameter.to<double>();

@@ -239,6 +239,7 @@ Rows case_rows(const RunFolder& run) {
                     ball_text(run, spec.balls.front(), static_cast<int>(spec.balls.size()), "ball.0")});
   if (spec.powder_mass) rows.push_back({"powder", brief(1000 * spec.powder_mass->to<double>()) + " g"});
   rows.push_back({"vessel", casefile::describe(spec.vessel, written_in("vessel"))});
+  for (const auto& body : spec.bodies) rows.push_back({body.name, casefile::describe(body)});
   for (const auto& piston : spec.pistons)
     rows.push_back({"piston " + run.partners[piston.wall].label, casefile::describe(piston)});
   rows.push_back({"mill", casefile::describe(spec.mill, written_in("mill"))});

@@ -109,8 +109,9 @@ bool records(const casefile::OutputSpec& output, const model::Partners& partners
 model::Partners with_top_and_bottom(const casefile::CaseSpec& spec) {
   const auto mill = casefile::build_mill<double>(spec);
   const double gravity = norm<double>(mill.gravity), period = mill.motion.period();
-  auto infos = mill.vessel.walls();
-  for (auto& wall : infos) {
+  auto infos = mill.walls();
+  for (int id = 0; id < mill.vessel.wall_count(); ++id) {
+    auto& wall = infos[static_cast<std::size_t>(id)];
     const auto& label = wall.label;
     const int axis = label.size() < 2 ? -1 : label.back() - 'x';
     const char sign = label.size() < 2 ? ' ' : label[label.size() - 2];

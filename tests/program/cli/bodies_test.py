@@ -1,0 +1,121 @@
+#!/usr/bin/env python3
+"""Bodies inside the vessel: what is refused, random mills with bodies of all kinds, and the same events in three scalars.
+
+usage: PYTHONPATH=tests/support python3 bodies_test.py EDMILL [MILLS] [SEED]
+"""
+import pathlib
+import random
+import sys
+
+from program import EXAMPLES, Trials, edmill, said, summary
+
+mills = int(sys.argv[2]) if len(sys.argv) > 2 else 12
+seed = int(sys.argv[3]) if len(sys.argv) > 3 else 20261130
+rng = random.Random(seed)
+
+CASE = """[run]
+end_time = "{end}"
+gravity = "9.81 m/s2"
+seed = {seed}
+[mill]
+{mill}
+[vessel]
+{vessel}
+{bodies}
+[contact]
+restitution = {restitution}
+friction = {friction}
+[[balls]]
+count = {count}
+diameter = "{diameter} mm"
+"""
+TANK = dict(end="0.1 s", seed=1, mill='type = "chain"\njoint = [{ rotate = "y", angle = "45 deg" }]',
+            vessel='type = "cylinder"\ndiameter = "60 mm"\nheight = "60 mm"', restitution=0.6, friction=0.3, count=5, diameter=4)
+
+REFUSED = {  # bodies, and words of the one message
+    'size = ["0 mm", "0 mm", "0 mm"]': "a body without any size",
+    'size = ["-1 mm", "2 mm", "2 mm"]': "a negative length",
+    'rounding = "1 mm"': "'body.0.size': found nothing",
+    'type = "cylinder"\ndiameter = "5 mm"': "'body.0.height': found nothing",
+    'type = "cylinder"\nsize = ["5 mm", "5 mm", "5 mm"]\ndiameter = "5 mm"\nheight = "5 mm"': "a key of the other type",
+    'size = ["6 mm", "6 mm", "4 mm"]\nrounding = "3 mm"': "at most half of each size",
+    'type = "cone"\nsize = ["6 mm", "6 mm", "4 mm"]': "expected one of",
+    'size = ["6 mm", "6 mm", "4 mm"]\njoint = [{ translate = ["80 mm", 0, 0] }]': "body 0 outside of the vessel at 0 s",
+    'size = ["6 mm", "6 mm", "4 mm"]\njoint = [{ translate = "x", speed = "2 m/s" }]': "body 0 outside of the vessel at 0.0",
+    'size = ["200 mm", "200 mm", "200 mm"]': "no room for a ball between the bodies",
+    'size = ["6 mm", "6 mm", "4 mm"]\nrepeat = 3': "no joint that rotates",
+    'size = ["6 mm", "6 mm", "4 mm"]\nrepeat = 24\njoint = [{ rotate = "y" }]\n[[body]]\nsize = ["6 mm", "6 mm", "4 mm"]\nrepeat = 24\n'
+    'joint = [{ rotate = "y" }]': "walls and bodies, expected at most",
+    'size = ["6 mm", "6 mm", "4 mm"]\nname = "pin"\n[[body]]\nsize = ["6 mm", "6 mm", "4 mm"]\nname = "pin"': "no other body has",
+    'size = ["6 mm", "6 mm", "4 mm"]\nmaterial = "rubber"': "'body.0.material'",
+    'size = ["6 mm", "6 mm", "4 mm"]\nonn = "ground"': "expected 'on'",
+    'size = ["10 mm", "10 mm", "10 mm"]\n[[ball]]\ndiameter = "4 mm"\nposition = [0, 0, 0]': "overlapping body 0",
+}
+
+
+def refusals(t):
+    for body, words in REFUSED.items():
+        pathlib.Path("case.toml").write_text(CASE.format(bodies="[[body]]\n" + body, **TANK))
+        t.refused(edmill("check", "case.toml"), repr(body), words)
+    stirred = EXAMPLES / "stirred.toml"
+    said("run", stirred, "--quiet", "--out", "done", "--set", "run.end_time=0.6 s")
+    for command in (("audit", stirred, "done"), ("prove", stirred, "--collisions", "5"), ("export", stirred, "--to", "lammps"),
+                    ("sensitivity", stirred, "--events", "5", "--by", "contact.restitution")):
+        done = edmill(*command)
+        t.check(done.returncode == 2 and done.stderr.count("\n") == 1 and "without bodies in the vessel" in done.stderr, f"{command}: {done.stderr}")
+    for kind, keys in (("treatment", "share_per_impact = 0.001\n"), ("lyapunov", "")):
+        text = stirred.read_text() + f'[[output]]\ntype = "{kind}"\nfile = "a.csv"\n{keys}'
+        pathlib.Path("case.toml").write_text(text)
+        t.refused(edmill("run", "case.toml", "--quiet", "--out", "o"), kind, "found bodies in the vessel")
+
+
+def body():
+    if rng.random() < 0.5:
+        size = [rng.choice([0, 2, 4, 8, 20, 30]) for _ in range(3)]
+        size = size if any(size) else [10, 0, 0]
+        text = 'size = ["{} mm", "{} mm", "{} mm"]\n'.format(*size)
+    else:
+        size = [rng.choice([3, 8, 20]), rng.choice([0, 2, 10, 30])]
+        text = 'type = "cylinder"\ndiameter = "{} mm"\nheight = "{} mm"\n'.format(*size)
+    text += f'rounding = "{min(size) / 2 * rng.choice([0, 0.5, 1])} mm"\non = "{rng.choice(["vessel", "ground"]) if tank else "vessel"}"\n'
+    joints = []
+    if rng.random() < 0.7:
+        joints.append(f'{{ rotate = "{rng.choice("xyz")}", speed = "{rng.choice([60, 200, 600, -300])} rpm" }}')
+    joints.append('{{ translate = ["{:.1f} mm", "{:.1f} mm", "{:.1f} mm"] }}'.format(*(rng.uniform(-12, 12) for _ in range(3))))
+    if rng.random() < 0.4:
+        joints.append(f'{{ rotate = "{rng.choice("xyz")}", angle = "{rng.uniform(-90, 90):.0f} deg" }}')
+    if rng.random() < 0.3:
+        joints.append(f'{{ translate = "{rng.choice("xyz")}", swing = [{{ amplitude = "{rng.uniform(1, 5):.1f} mm", speed = "900 rpm" }}] }}')
+    copies = rng.choice([1, 1, 2, 3]) if any("rotate" in joint for joint in joints) else 1
+    return f'[[body]]\n{text}joint = [{", ".join(joints)}]\nrepeat = {copies}\n'
+
+
+def random_mill(t, trial):
+    global tank
+    mill = rng.choice([TANK["mill"], 'type = "spex8000"\nspeed = "900 rpm"', 'type = "planetary"\nradius = "70 mm"\nspeed = "300 rpm"\nratio = -2',
+                       'type = "drum"\nspeed = "60 rpm"', 'type = "vibratory"\namplitude = [0, "3 mm", 0]\nspeed = "1200 rpm"', 'type = "still"'])
+    tank = mill in (TANK["mill"], 'type = "still"')
+    vessel = rng.choice([TANK["vessel"], 'type = "box"\nsize = ["60 mm", "60 mm", "60 mm"]',
+                         'type = "rounded_cylinder"\ndiameter = "60 mm"\nheight = "60 mm"\nedge_radius = "10 mm"'])
+    text = CASE.format(end=rng.choice(["0.1 s", "0.2 s"]), seed=rng.randint(1, 99), mill=mill, vessel=vessel,
+                       bodies="".join(body() for _ in range(rng.choice([1, 1, 2, 3]))), restitution=rng.choice([0.3, 0.53, 0.9]),
+                       friction=rng.choice([0, 0.3]), count=rng.choice([5, 20, 60]), diameter=rng.choice([3, 5, 6]))
+    pathlib.Path("case.toml").write_text(text)
+    done = edmill("run", "case.toml", "--quiet", "--out", "mill", timeout=300)
+    t.check(done.returncode in (0, 8), f"mill {trial} of seed {seed}: exit code {done.returncode}: {done.stderr}\n{text}")
+    energy = summary("mill")["energy"]
+    closure = energy["closure_relative"]
+    t.check(closure is None or abs(closure) <= 1e-11, f"mill {trial} of seed {seed}: energy closes to {closure} of the dose")
+
+
+def scalars(t):
+    text = said("certify", EXAMPLES / "stirred.toml", "--collisions", "200", "--out", "events.csv")
+    t.check("certified: events.csv" in text and "float128 and mpfr50: 200 events in common" in text, f"200 events in three scalars: {text}")
+
+
+with Trials() as t:
+    refusals(t)
+    scalars(t)
+    for trial in range(mills):
+        random_mill(t, trial)
+print(f"{mills} mills with bodies, seed {seed}, {t.checks} checks")
