@@ -710,6 +710,13 @@ void require_resolution(const CaseSpec& spec, const InitialCase<Real>& built) {
   const auto& mill = built.the_case.mill;
   const Real reach = mill.motion.reach(mill.vessel.reach()), gravity = norm<Real>(mill.gravity);
   Real fastest = 2 * mill.motion.speed_within(reach) + 4 * sqrt(gravity * reach);
+  Real acceleration = mill.motion.acceleration_within(reach);
+  for (const auto& body : mill.bodies) {
+    const Real size = body.motion.reach(body.shape.size());
+    fastest =
+        std::max<Real>(fastest, 2 * body.motion.wall_speed(body.shape.size()) + 4 * sqrt(gravity * reach));
+    acceleration = std::max<Real>(acceleration, body.motion.acceleration_within(size));
+  }
   for (const auto& state : built.states) fastest = std::max(fastest, norm<Real>(state.velocity));
   const Real rounding = epsilon<Real>() / 2 * (24 * reach + 16 * fastest * mill.motion.period());
   const Real least_radius = 8000000 * rounding;  // so that a missed impact differs from rounding
@@ -723,7 +730,7 @@ void require_resolution(const CaseSpec& spec, const InitialCase<Real>& built) {
                          scalar_name<Real>() + " knows a position to " + number(rounding) +
                          " m; a wider precision knows it better");
   });
-  const Real least_hop = 4 * sqrt(rounding * (mill.motion.acceleration_within(reach) + gravity));
+  const Real least_hop = 4 * sqrt(rounding * (acceleration + gravity));
   const auto check_least = [&](const Real& speed, const std::string& section) {
     if (speed > 0 && speed < least_hop)
       problems.push_back(spec.file + ": key '" + section + ".least_separation': found " + number(speed) +

@@ -550,6 +550,7 @@ QuantityVector Solid::core() const {
 
 void read_bodies(Entries<BodyTable>& entries, CaseSpec& spec) {
   constexpr std::size_t most = 48;  // walls and bodies together
+  const auto vessel = known_vessel(spec);
   read_entries(entries, [&](Section& entry, BodyTable& table) {
     Solid body;
     body.rounding = table.rounding;
@@ -581,6 +582,7 @@ void read_bodies(Entries<BodyTable>& entries, CaseSpec& spec) {
     body.is_round = round && width < body.size[0];
     const bool copied = table.repeat > 1;
     body.joints = read_joints(table.joints, copied);
+    if (!spec.end_time) require_end(entry);
     const auto turning =
         std::find_if(body.joints.begin(), body.joints.end(), [](const auto& joint) { return joint.rotates; });
     if (copied && turning == body.joints.end()) {
@@ -595,6 +597,9 @@ void read_bodies(Entries<BodyTable>& entries, CaseSpec& spec) {
       copy.name = copied ? fmt::format("{} {}", name, k) : name;
       for (const auto& other : spec.bodies)
         entry.require(other.name != copy.name, "name", "a name that no other body has");
+      if (vessel)
+        for (const auto& wall : vessel->walls())
+          entry.require(wall.label != copy.name, "name", "a name that no wall has");
       if (k > 0) {
         Joint<Quantity> turn;
         turn.axis = body.joints[static_cast<std::size_t>(place)].axis;

@@ -768,10 +768,15 @@ WallAnswer<Real> AnyWallSearch<Real>::with_bodies(const WallQuery<Real>& query,
       first = found;
     } else if (found.verdict == Verdict::undecided) {
       return found;
-    } else if (found.searched < rest.length) {
-      const bool proven =
-          first.verdict == Verdict::contact && clock.elapsed(query.begin, first.time) < found.searched;
-      if (!proven) first = WallAnswer<Real>::none(found.searched);
+    } else {
+      // A border so near that the next search would begin before it: a wider scalar goes beyond it.
+      const bool stays =
+          found.searched < rest.length && found.searched < 64 * epsilon<Real>() * clock.period();
+      if (stays && !std::is_void_v<Wider<Real>>) return {Verdict::undecided};
+      const Real needed = first.verdict == Verdict::contact
+                              ? Real(clock.elapsed(query.begin, first.time) + first.time_error)
+                              : first.searched;
+      if (found.searched < needed) first = WallAnswer<Real>::none(found.searched);
     }
     first.by_rule = by_rule;
   }

@@ -47,6 +47,7 @@ REFUSED = {  # bodies, and words of the one message
     'size = ["6 mm", "6 mm", "4 mm"]\nrepeat = 24\njoint = [{ rotate = "y" }]\n[[body]]\nsize = ["6 mm", "6 mm", "4 mm"]\nrepeat = 24\n'
     'joint = [{ rotate = "y" }]': "walls and bodies, expected at most",
     'size = ["6 mm", "6 mm", "4 mm"]\nname = "pin"\n[[body]]\nsize = ["6 mm", "6 mm", "4 mm"]\nname = "pin"': "no other body has",
+    'size = ["6 mm", "6 mm", "4 mm"]\nname = "cap +y"': "no wall has",
     'size = ["6 mm", "6 mm", "4 mm"]\nmaterial = "rubber"': "'body.0.material'",
     'size = ["6 mm", "6 mm", "4 mm"]\nonn = "ground"': "expected 'on'",
     'size = ["10 mm", "10 mm", "10 mm"]\n[[ball]]\ndiameter = "4 mm"\nposition = [0, 0, 0]': "overlapping body 0",
@@ -108,6 +109,23 @@ def random_mill(t, trial):
     t.check(closure is None or abs(closure) <= 1e-11, f"mill {trial} of seed {seed}: energy closes to {closure} of the dose")
 
 
+def borders(t):
+    """A body far faster than the clock of its mill crosses the borders of its regions within a rounding of the clock."""
+    pathlib.Path("slow.toml").write_text(CASE.format(bodies='[[body]]\nsize = ["20 mm", "8 mm", "4 mm"]\non = "ground"\n'
+                                                     'joint = [{ rotate = "y", speed = "1000 rpm" }]',
+                                                     **TANK | {"mill": 'type = "chain"\njoint = [{ rotate = "y", speed = "0.1 rpm" }]', "count": 20}))
+    done = edmill("run", "slow.toml", "--quiet", "--out", "slow", timeout=120)
+    t.check(done.returncode == 0, f"a slow clock: {done.stderr}")
+    # A translation at constant speed is bounded by the end of the run alone.
+    pathlib.Path("endless.toml").write_text(
+        CASE.format(bodies='[[body]]\nsize = ["6 mm", "6 mm", "4 mm"]\njoint = [{ translate = "x", speed = "1 mm/s" }]', **TANK)
+        .replace('end_time = "0.1 s"', "max_collisions = 100"))
+    t.refused(edmill("check", "endless.toml"), "a translation without an end", "expected a run.end_time")
+    # Balls that have to be pushed apart leave a shaft that goes through the lid.
+    stirred = EXAMPLES / "stirred.toml"
+    t.check(edmill("check", stirred, "--set", "balls.0.count=420").returncode == 0, "a crowd around a shaft")
+
+
 def scalars(t):
     text = said("certify", EXAMPLES / "stirred.toml", "--collisions", "200", "--out", "events.csv")
     t.check("certified: events.csv" in text and "float128 and mpfr50: 200 events in common" in text, f"200 events in three scalars: {text}")
@@ -115,6 +133,7 @@ def scalars(t):
 
 with Trials() as t:
     refusals(t)
+    borders(t)
     scalars(t)
     for trial in range(mills):
         random_mill(t, trial)

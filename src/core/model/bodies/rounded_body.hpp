@@ -5,6 +5,7 @@
 #include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/scalar.hpp"
@@ -241,9 +242,12 @@ class RoundedBody {
   Vec3<Real> normal(int, const Vec3<Real>& p) const {
     const Vec3<Real> d = from_core(p);
     const Real size = norm<Real>(d);
-    return size > 0 ? Vec3<Real>(d / size) : Vec3<Real>(Vec3<Real>::UnitY());
+    return size > 0 ? Vec3<Real>(d / size) : way_out(p).first;
   }
-  Real overlap(int, const Vec3<Real>& p) const { return distance_ - norm<Real>(from_core(p)); }
+  Real overlap(int, const Vec3<Real>& p) const {
+    const Real size = norm<Real>(from_core(p));
+    return size > 0 ? Real(distance_ - size) : Real(distance_ + way_out(p).second);
+  }
 
  private:
   template <class>
@@ -304,6 +308,23 @@ class RoundedBody {
     if (!is_round_) return d;
     const Real r = across(p), rest = r > half_[0] ? Real(1 - half_[0] / r) : Real(0);
     return {p[0] * rest, d[1], p[2] * rest};
+  }
+
+  /// From a point of the core to its nearest face: direction and length.
+  std::pair<Vec3<Real>, Real> way_out(const Vec3<Real>& p) const {
+    std::pair<Vec3<Real>, Real> best{Vec3<Real>::UnitY(), half_[1] - magnitude(p[1])};
+    if (p[1] < 0) best.first = -best.first;
+    if (is_round_) {
+      const Real r = across(p);
+      if (half_[0] - r < best.second)
+        best = {r > 0 ? Vec3<Real>(p[0] / r, Real(0), p[2] / r) : Vec3<Real>(Vec3<Real>::UnitX()),
+                half_[0] - r};
+      return best;
+    }
+    for (const int i : {0, 2})
+      if (half_[i] - magnitude(p[i]) < best.second)
+        best = {Vec3<Real>(Vec3<Real>::Unit(i) * Real(p[i] < 0 ? -1 : 1)), half_[i] - magnitude(p[i])};
+    return best;
   }
 
   static ErrorBounds<Real> larger(const ErrorBounds<Real>& a, const ErrorBounds<Real>& b) {
