@@ -126,8 +126,7 @@ class WallSearch {
   bool drop_clear(const Start& first, const CurveOf& curve_of, Walls& reachable, Real& length,
                   const DerivativeBounds<V>& derivatives) const;
   void require_length(const WallQuery<Real>& query) const;
-  Real clear_time(const Functions& functions, const Vec3<Real>& position,
-                  const Real& speed) const requires is_body;
+  Real clear_time(const Functions& functions, const Vec3<Real>& position, const Real& speed) const;
   /// The query with its window shortened so that all active gap functions are smooth in it; unchanged if they
   /// always are.
   decltype(auto) smooth(const WallQuery<Real>& query, const Functions& functions, const Vec3<Real>& position,

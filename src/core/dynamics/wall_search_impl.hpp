@@ -33,11 +33,16 @@ auto WallSearch<M, V>::within_reach(const Functions& functions, const Vec3<Real>
 
 /// For how long a ball cannot reach a body, however it flies [s].
 template <model::Motion M, model::Vessel V>
-auto WallSearch<M, V>::clear_time(const Functions& functions, const Vec3<Real>& position,
-                                  const Real& speed) const -> Real requires is_body {
-  const Real rounding = mill_.reach * rounding_margin<Real>();
-  return (functions.room().clearance(position) - rounding) /
-         ((speed + mill_.wall_speed) * (1 + rounding_margin<Real>()));
+auto WallSearch<M, V>::clear_time([[maybe_unused]] const Functions& functions,
+                                  [[maybe_unused]] const Vec3<Real>& position,
+                                  [[maybe_unused]] const Real& speed) const -> Real {
+  if constexpr (is_body) {
+    const Real rounding = mill_.reach * rounding_margin<Real>();
+    return (functions.room().clearance(position) - rounding) /
+           ((speed + mill_.wall_speed) * (1 + rounding_margin<Real>()));
+  } else {
+    return Real(0);
+  }
 }
 
 template <model::Motion M, model::Vessel V>
