@@ -548,38 +548,67 @@ QuantityVector Solid::core() const {
   return half;
 }
 
+namespace {
+
+/// A body without its joints; nothing where a size is missing.
+std::optional<Solid> read_shape(Section& entry, const BodyTable& table) {
+  Solid body;
+  body.rounding = table.rounding;
+  body.on_vessel = table.on == Base::vessel;
+  body.colour = table.colour;
+  body.where = entry.where();
+  const bool round = table.type == Solidity::cylinder;
+  for (const char* key : round ? std::array{"diameter", "height"} : std::array{"size", "size"})
+    if (!entry.has(key)) {
+      entry.problem(key, "nothing", round ? "a length" : "three lengths");
+      return std::nullopt;
+    }
+  for (const char* key : {"diameter", "height", "size"})
+    if (entry.has(key) && round == (key == std::string("size")))
+      entry.problem(key, "a key of the other type", round ? "diameter and height" : "size");
+  if (round && table.diameter && table.height)
+    body.size = {*table.diameter, *table.height, *table.diameter};
+  else
+    body.size = table.size;
+  const Quantity width = Quantity(2) * body.rounding;
+  bool fits = true, negative = false, nothing = true;
+  for (const auto& size : body.size) {
+    fits = fits && width <= size;
+    negative = negative || size.negative();
+    nothing = nothing && size.zero();
+  }
+  if (negative || nothing)
+    entry.problem("size", nothing ? "a body without any size" : "a negative length",
+                  "three lengths, one of them positive");
+  else
+    entry.require(fits, "rounding", "at most half of each size");
+  body.is_round = round && width < body.size[0];
+  return body;
+}
+
+/// A vessel at rest has the clock of the fastest body.
+void set_clock(CaseSpec& spec) {
+  const auto moves = [](const auto& joint) { return !joint.speed.zero() || !joint.swings.empty(); };
+  const auto own = joints_of(spec.mill);
+  if (std::any_of(own.begin(), own.end(), moves) && !std::get_if<model::StillMill<Quantity>>(&spec.mill))
+    return;
+  std::vector<Joint<Quantity>> all;
+  for (const auto& body : spec.bodies) all.insert(all.end(), body.joints.begin(), body.joints.end());
+  if (auto* still = std::get_if<model::StillMill<Quantity>>(&spec.mill))
+    still->period = period_of_fastest(all);
+  else if (auto* chain = std::get_if<model::Chain<Quantity>>(&spec.mill))
+    chain->given.period = period_of_fastest(all);
+}
+
+}  // namespace
+
 void read_bodies(Entries<BodyTable>& entries, CaseSpec& spec) {
   constexpr std::size_t most = 48;  // walls and bodies together
   const auto vessel = known_vessel(spec);
   read_entries(entries, [&](Section& entry, BodyTable& table) {
-    Solid body;
-    body.rounding = table.rounding;
-    body.on_vessel = table.on == Base::vessel;
-    body.colour = table.colour;
-    body.where = entry.where();
-    const bool round = table.type == Solidity::cylinder;
-    for (const char* key : round ? std::array{"diameter", "height"} : std::array{"size", "size"})
-      if (!entry.has(key)) return entry.problem(key, "nothing", round ? "a length" : "three lengths");
-    for (const char* key : {"diameter", "height", "size"})
-      if (entry.has(key) && round == (key == std::string("size")))
-        entry.problem(key, "a key of the other type", round ? "diameter and height" : "size");
-    if (round && table.diameter && table.height)
-      body.size = {*table.diameter, *table.height, *table.diameter};
-    else
-      body.size = table.size;
-    const Quantity width = Quantity(2) * body.rounding;
-    bool fits = true, negative = false, nothing = true;
-    for (const auto& size : body.size) {
-      fits = fits && width <= size;
-      negative = negative || size.negative();
-      nothing = nothing && size.zero();
-    }
-    if (negative || nothing)
-      entry.problem("size", nothing ? "a body without any size" : "a negative length",
-                    "three lengths, one of them positive");
-    else
-      entry.require(fits, "rounding", "at most half of each size");
-    body.is_round = round && width < body.size[0];
+    const auto shape = read_shape(entry, table);
+    if (!shape) return;
+    auto body = *shape;
     const bool copied = table.repeat > 1;
     body.joints = read_joints(table.joints, copied);
     if (!spec.end_time) require_end(entry);
@@ -616,17 +645,7 @@ void read_bodies(Entries<BodyTable>& entries, CaseSpec& spec) {
                            fmt::format("at most {}", most));
     spec.bodies.clear();
   }
-  // A vessel at rest has the clock of the fastest body.
-  const auto moves = [](const auto& joint) { return !joint.speed.zero() || !joint.swings.empty(); };
-  const auto own = joints_of(spec.mill);
-  if (std::any_of(own.begin(), own.end(), moves) && !std::get_if<model::StillMill<Quantity>>(&spec.mill))
-    return;
-  std::vector<Joint<Quantity>> all;
-  for (const auto& body : spec.bodies) all.insert(all.end(), body.joints.begin(), body.joints.end());
-  if (auto* still = std::get_if<model::StillMill<Quantity>>(&spec.mill))
-    still->period = period_of_fastest(all);
-  else if (auto* chain = std::get_if<model::Chain<Quantity>>(&spec.mill))
-    chain->given.period = period_of_fastest(all);
+  set_clock(spec);
 }
 
 void require_bodies_inside(Entries<BodyTable>& entries, const CaseSpec& spec) {
