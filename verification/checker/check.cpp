@@ -37,7 +37,8 @@ std::string check(std::istream& in) {
     throw std::invalid_argument("more than " + std::to_string(most_bits) +
                                 " bits, which take the checker with Arb");
   const Index events = index(header.at("events"), std::numeric_limits<long>::max());
-  if (header.at("format") != "edmill certificate" || header.at("version") != 1 || bits < 64 || events < 1)
+  if (header.at("format") != "edmill certificate" ||
+      (header.at("version") != 1 && header.at("version") != 2) || bits < 64 || events < 1)
     throw std::invalid_argument("another format");
   const WithPrecision scope(static_cast<Bits>(bits) + more_bits);
   Induction induction(header, static_cast<Bits>(bits));

@@ -57,16 +57,17 @@ bool Stalls::stalled(Index ball, const Law& law, const Real& elapsed) {
 State after_wall_impact(const Motion& motion, Index i, Index wall_number, const Real& T, bool in_stall) {
   const Mill& mill = motion.mill;
   const Ball& ball = mill.balls[i];
+  const Wall& wall = mill.walls[wall_number];
   const Real m = middle(T), d = T - m;
   const Vec r = motion.position(i, m), v = motion.velocity(i, m), &s = motion.flights[i].state.spin;
 
-  // On the bracket: the ball, the vessel, and the place p of the ball in the vessel frame.
+  // On the bracket: the ball, the vessel or the solid, and the place p of the ball in its frame.
   const Vec v_T = v + mill.gravity * d, r_T = r + v_T * d;
-  const Pose pose = pose_of(mill, T);
-  const Vec p = pose_of(mill, m).place(r) + pose.velocity(r_T, v_T) * d;
+  const Pose pose = pose_of(mill, wall, T);
+  const Vec p = pose_of(mill, wall, m).place(r) + pose.velocity(r_T, v_T) * d;
 
   // The normal, the velocity of the wall at the point of contact, and G.
-  const Vec N = normal(mill.walls[wall_number], ball, p), n = pose.to_inertial(N);
+  const Vec N = normal(wall, ball, p), n = pose.to_inertial(N);
   const Vec arm = pose.to_inertial(p - N * ball.radius);
   const Vec V_w = pose.origin_velocity + cross(pose.angular_velocity, arm);
   const Vec G = (v_T - V_w) - cross(s * ball.radius, n);

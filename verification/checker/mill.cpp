@@ -26,17 +26,41 @@ Joint read_joint(const Json& json) {
   return joint;
 }
 
-Wall read_wall(const Json& json) {
+std::vector<Joint> read_joints(const Json& json) {
+  std::vector<Joint> joints;
+  for (const Json& joint : list(json, 64)) joints.push_back(read_joint(joint));
+  return joints;
+}
+
+Wall read_solid(const Json& json) {
+  with_keys(json, {"solid", "half", "rounding", "joints"});
+  const bool box = json.at("solid") == "box";
+  if (!box && json.at("solid") != "cylinder") throw std::invalid_argument("an unknown solid");
+  Wall wall{box ? Wall::solid_box : Wall::solid_cylinder,
+            {},
+            {},
+            number(json, "rounding"),
+            vector(json.at("half")),
+            read_joints(json.at("joints"))};
+  for (const Real& half : wall.half)
+    if (!(half >= 0)) throw std::invalid_argument("a solid of negative size");
+  if (!(wall.size >= 0)) throw std::invalid_argument("a negative rounding");
+  // A cylinder is about y; both of its radii are written.
+  if (!box && (!wall.half[0].positive() || json.at("half").at(0) != json.at("half").at(2)))
+    throw std::invalid_argument("a cylinder that is not round");
+  return wall;
+}
+
+Wall read_wall(const Json& json, bool solids) {
   if (json.contains("plane")) {
     with_keys(json, {"plane", "point", "distance"});
-    return {Wall::plane, vector(json.at("plane")), vector(json.at("point")), number(json, "distance")};
+    return {Wall::plane, vector(json.at("plane")), vector(json.at("point")), number(json, "distance"), {},
+            {}};
   }
-  if (json.contains("sphere")) {
-    with_keys(json, {"sphere"});
-    return {Wall::sphere, {}, {}, number(json, "sphere")};
-  }
-  with_keys(json, {"cylinder"});
-  return {Wall::cylinder, {}, {}, number(json, "cylinder")};
+  if (json.contains("solid") && solids) return read_solid(json);
+  const char* kind = json.contains("sphere") ? "sphere" : "cylinder";
+  with_keys(json, {kind});
+  return {json.contains("sphere") ? Wall::sphere : Wall::cylinder, {}, {}, number(json, kind), {}, {}};
 }
 
 Law read_law(const Json& json) {
@@ -78,8 +102,9 @@ Mill read_mill(const Json& header) {
   mill.start = number(header, "start");
   mill.two_pi = pi() + pi();
   mill.gravity = vector(header.at("gravity"));
-  for (const Json& joint : list(header.at("joints"), 64)) mill.joints.push_back(read_joint(joint));
-  for (const Json& wall : list(header.at("walls"), 64)) mill.walls.push_back(read_wall(wall));
+  mill.joints = read_joints(header.at("joints"));
+  const bool solids = header.at("version") == 2;
+  for (const Json& wall : list(header.at("walls"), 64)) mill.walls.push_back(read_wall(wall, solids));
   for (const Json& law : list(header.at("laws"), 4096)) mill.laws.push_back(read_law(law));
   for (const Json& ball : list(header.at("balls"), 4096)) mill.balls.push_back(read_ball(ball));
   for (const Ball& ball : mill.balls)

@@ -12,7 +12,7 @@ struct Swing {
   Real amplitude, frequency, phase;
 };
 
-/// A rotation by an angle [turns], or a shift [m], of the vessel and the joints that follow.
+/// A rotation by an angle [turns], or a shift [m], of the vessel or the body and the joints that follow.
 struct Joint {
   bool rotates;
   Vec axis;    ///< a unit vector; of a shift: its direction
@@ -23,9 +23,13 @@ struct Joint {
 };
 
 struct Wall {
-  enum { plane, cylinder, sphere } kind;
+  enum { plane, cylinder, sphere, solid_box, solid_cylinder } kind;
   Vec outward, point;  ///< of a plane: its normal, of any length, and a point within
-  Real size;           ///< of a plane: its distance from the point; of the others: their radius
+  Real size;  ///< of a plane: its distance from the point; of a solid: its rounding; else: the radius
+  Vec half;   ///< of a solid's core: half edges, or radius, half height, radius
+  std::vector<Joint> joints;  ///< of a solid: from the ground
+
+  bool solid() const { return kind == solid_box || kind == solid_cylinder; }
 };
 
 struct Law {

@@ -15,8 +15,9 @@ Vec Motion::separation(Index i, Index j, const Real& t) const {
 
 Real Motion::gap(const Contact& contact, const Real& t) const {
   if (contact.with_wall) {
-    const Vec place = pose_of(mill, t).place(position(contact.ball, t));
-    return checker::gap(mill.walls[contact.other], mill.balls[contact.ball], place);
+    const Wall& wall = mill.walls[contact.other];
+    const Vec place = pose_of(mill, wall, t).place(position(contact.ball, t));
+    return checker::gap(wall, mill.balls[contact.ball], place);
   }
   const Vec x = separation(contact.ball, contact.other, t);
   const Real distance = reach(contact.ball, contact.other);
@@ -25,10 +26,10 @@ Real Motion::gap(const Contact& contact, const Real& t) const {
 
 Real Motion::gap_rate(const Contact& contact, const Real& t) const {
   if (contact.with_wall) {
-    const Pose pose = pose_of(mill, t);
+    const Wall& wall = mill.walls[contact.other];
+    const Pose pose = pose_of(mill, wall, t);
     const Vec r = position(contact.ball, t);
-    return checker::gap_rate(mill.walls[contact.other], pose.place(r),
-                             pose.velocity(r, velocity(contact.ball, t)));
+    return checker::gap_rate(wall, pose.place(r), pose.velocity(r, velocity(contact.ball, t)));
   }
   return dot(separation(contact.ball, contact.other, t), relative_velocity(contact.ball, contact.other, t));
 }

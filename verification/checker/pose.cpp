@@ -36,12 +36,30 @@ Vec from_axis(const Wall& wall, const Vec& p) {
   return {p[0], wall.kind == Wall::cylinder ? Real() : p[1], p[2]};
 }
 
-}  // namespace
+/// How far a coordinate is beyond -half to half, with its sign.
+Real excess(const Real& p, const Real& half) {
+  return half.zero() ? p : positive_part(p - half) - positive_part(-p - half);
+}
 
-Pose pose_of(const Mill& mill, const Real& time) {
+/// How far p is beyond a solid's core along x, y and z, or across the axis of a cylinder, along it, and 0.
+Vec excesses(const Wall& wall, const Vec& p) {
+  const Real up = excess(p[1], wall.half[1]);
+  if (wall.kind == Wall::solid_box) return {excess(p[0], wall.half[0]), up, excess(p[2], wall.half[2])};
+  return {positive_part(square_root(p[0] * p[0] + p[2] * p[2]) - wall.half[0]), up, 0};
+}
+
+/// From the nearest point of a solid's core to p.
+Vec from_core(const Wall& wall, const Vec& p) {
+  const Vec e = excesses(wall, p);
+  if (wall.kind == Wall::solid_box) return e;
+  const Real share = e[0] / (wall.half[0] + e[0]);  // 1 - a/r where r > a, else 0
+  return {p[0] * share, e[1], p[2] * share};
+}
+
+Pose pose_of(const Mill& mill, const std::vector<Joint>& joints, const Real& time) {
   Pose pose;
   const Real clock = mill.start + time;
-  for (const Joint& joint : mill.joints) {
+  for (const Joint& joint : joints) {
     Real value = joint.angle + joint.speed * clock;
     Real rate = joint.speed;
     for (const Swing& swing : joint.swings) {
@@ -54,7 +72,20 @@ Pose pose_of(const Mill& mill, const Real& time) {
   return pose;
 }
 
+}  // namespace
+
+Pose pose_of(const Mill& mill, const Real& time) { return pose_of(mill, mill.joints, time); }
+
+Pose pose_of(const Mill& mill, const Wall& wall, const Real& time) {
+  return pose_of(mill, wall.solid() ? wall.joints : mill.joints, time);
+}
+
 Real gap(const Wall& wall, const Ball& ball, const Vec& p) {
+  if (wall.solid()) {
+    const Vec e = excesses(wall, p);
+    const Real reach = wall.size + ball.radius;
+    return dot(e, e) - reach * reach;
+  }
   const Real room = wall.size - ball.radius;
   if (wall.kind == Wall::plane)
     return length(wall.outward) * room + dot(wall.outward, wall.point) - dot(wall.outward, p);
@@ -64,11 +95,13 @@ Real gap(const Wall& wall, const Ball& ball, const Vec& p) {
 
 Real gap_rate(const Wall& wall, const Vec& p, const Vec& u) {
   if (wall.kind == Wall::plane) return -dot(wall.outward, u);
+  if (wall.solid()) return 2 * dot(from_core(wall, p), u);
   return -2 * dot(from_axis(wall, p), u);
 }
 
 Vec normal(const Wall& wall, const Ball& ball, const Vec& p) {
   if (wall.kind == Wall::plane) return -(wall.outward / length(wall.outward));
+  if (wall.solid()) return from_core(wall, p) / (wall.size + ball.radius);
   return -(from_axis(wall, p) / (wall.size - ball.radius));
 }
 

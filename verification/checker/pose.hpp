@@ -1,4 +1,5 @@
-// Where the vessel is, how it moves, and how far its walls are: docs/certificates.md, "Rules for the states".
+// Where the vessel and the solids in it are, how they move, and how far their surfaces are:
+// docs/certificates.md, "Rules for the states".
 #pragma once
 
 #include <array>
@@ -7,7 +8,7 @@
 
 namespace checker {
 
-/// The vessel at a time, or at all times of a bracket.
+/// The vessel or a solid at a time, or at all times of a bracket. Its frame is meant by "vessel frame".
 struct Pose {
   std::array<Vec, 3> rows{Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}};  ///< of the rotation R
   Vec origin{};                                                       ///< C
@@ -29,7 +30,11 @@ struct Pose {
   }
 };
 
+/// Of the vessel.
 Pose pose_of(const Mill& mill, const Real& time);
+
+/// Of the vessel, or of the wall that is a solid.
+Pose pose_of(const Mill& mill, const Wall& wall, const Real& time);
 
 /// The gap f between a wall and a ball at the place p in the vessel frame (rule 2).
 Real gap(const Wall& wall, const Ball& ball, const Vec& p);
@@ -37,7 +42,7 @@ Real gap(const Wall& wall, const Ball& ball, const Vec& p);
 /// f' where the ball moves with the velocity u in the vessel frame.
 Real gap_rate(const Wall& wall, const Vec& p, const Vec& u);
 
-/// The normal N into the vessel, a unit vector, where the ball touches the wall.
+/// The normal N from the wall to the ball, a unit vector, where the ball touches the wall.
 Vec normal(const Wall& wall, const Ball& ball, const Vec& p);
 
 }  // namespace checker

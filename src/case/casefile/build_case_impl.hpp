@@ -629,10 +629,7 @@ model::AnyMotion<Real> to_motion(const auto& part, const CaseSpec& spec) {
 /// @param mill  without its bodies
 template <class Real>
 model::Body<Real> to_body(const Solid& body, const model::Mill<Real>& mill, const CaseSpec& spec) {
-  model::Joints<Quantity> joints{
-      body.on_vessel ? joints_of(spec.mill) : std::vector<model::Joint<Quantity>>{}, period_of(spec.mill)};
-  joints.list.insert(joints.list.end(), body.joints.begin(), body.joints.end());
-  const auto motion = to_chain<Real>(joints, spec);
+  const auto motion = to_chain<Real>({joints_from_ground(body, spec), period_of(spec.mill)}, spec);
   const Real domain = motion.reach(mill.motion.reach(mill.vessel.reach())) * (1 + rounding_margin<Real>());
   const model::RoundedBody<Real> shape(body.is_round, to_vector<Real>(body.core()), body.rounding.to<Real>());
   return {motion,

@@ -291,6 +291,8 @@ struct CaseSpec {
 
 /// "0.01 m + 0.001 m sin(2 pi 5 t) inward", for readers.
 std::string describe(const model::Piston<Quantity>& piston);
+/// The joints of a body, those of the vessel that carries it before its own.
+std::vector<model::Joint<Quantity>> joints_from_ground(const Solid& body, const CaseSpec& spec);
 /// "box of 60 x 4 x 10 mm, on the ground: turn about y by 600 deg/s t", for readers.
 std::string describe(const Solid& body);
 

@@ -685,6 +685,12 @@ void require_no_bodies(const CaseSpec& spec, const std::string& what) {
                     spec.bodies.front().where, spec.bodies.front().name, what));
 }
 
+std::vector<Joint<Quantity>> joints_from_ground(const Solid& body, const CaseSpec& spec) {
+  auto joints = body.on_vessel ? joints_of(spec.mill) : std::vector<Joint<Quantity>>{};
+  joints.insert(joints.end(), body.joints.begin(), body.joints.end());
+  return joints;
+}
+
 std::string describe(const Solid& body) {
   std::string text = body.is_round ? "cylinder" : "box";
   for (std::size_t k = 0; k < (body.is_round ? 2 : 3); ++k)

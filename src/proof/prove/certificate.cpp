@@ -38,9 +38,17 @@ Json line_of(const model::Joint<Quantity>& joint) {
   return line;
 }
 
+template <class Part>
+Json lines_of(const std::vector<Part>& parts);
+
 Json line_of(const ExactWall& wall) {
   if (wall.kind == ExactWall::plane)
     return {{"plane", texts(wall.normal)}, {"point", texts(wall.point)}, {"distance", wall.size.text()}};
+  if (wall.is_solid())
+    return {{"solid", wall.kind == ExactWall::solid_box ? "box" : "cylinder"},
+            {"half", texts(wall.half)},
+            {"rounding", wall.size.text()},
+            {"joints", lines_of(wall.joints)}};
   return {{wall.kind == ExactWall::cylinder ? "cylinder" : "sphere", wall.size.text()}};
 }
 
@@ -73,7 +81,7 @@ Json lines_of(const std::vector<Part>& parts) {
 
 Json header_of(const ExactCase& c, std::size_t events, long bits) {
   return {{"format", "edmill certificate"},
-          {"version", 1},
+          {"version", c.walls.back().is_solid() ? 2 : 1},
           {"case", c.name},
           {"digest", c.digest},
           {"events", events},
@@ -113,7 +121,7 @@ Json read_header(std::istream& in) {
       throw std::runtime_error("twice the key " + key.dump());
     return true;
   });
-  if (header.at("format") != "edmill certificate" || header.at("version") != 1)
+  if (header.at("format") != "edmill certificate" || (header.at("version") != 1 && header.at("version") != 2))
     throw std::runtime_error("another format");
   for (const auto* count : {"events", "bits"})
     if (!header.at(count).is_number_unsigned())

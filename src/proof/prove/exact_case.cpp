@@ -16,11 +16,9 @@ namespace {
 
 using boost::multiprecision::cpp_int;
 using casefile::CaseSpec;
-using model::Joint;
 
 /// The joints of a motion, without swings of zero amplitude: a certificate lists no zeros.
-std::vector<Joint<Quantity>> moving_joints(const casefile::MotionSpec& motion) {
-  auto joints = casefile::joints_of(motion);
+ExactJoints moving_joints(ExactJoints joints) {
   for (auto& joint : joints) {
     if (joint.axis[0].zero() && joint.axis[1].zero() && joint.axis[2].zero()) joint.axis[0] = 1;
     std::erase_if(joint.swings, [](const auto& swing) { return swing.amplitude.zero(); });
@@ -36,7 +34,9 @@ ExactWall plane(std::size_t axis, int side, const Quantity& distance) {
   wall.size = distance;
   return wall;
 }
-ExactWall round_wall(ExactWall::Kind kind, const Quantity& diameter) { return {kind, {}, {}, diameter / 2}; }
+ExactWall round_wall(ExactWall::Kind kind, const Quantity& diameter) {
+  return {kind, {}, {}, diameter / 2, {}, {}};
+}
 
 /// The walls of a vessel in order, and half its sizes if it can be filled with balls at random.
 struct Vessel {
@@ -65,7 +65,7 @@ Vessel vessel_of(const model::Sphere<Quantity>& v) {
 Vessel vessel_of(const model::Polyhedron<Quantity>& v) {
   Vessel vessel;
   for (const auto& face : v.faces)
-    vessel.walls.push_back({ExactWall::plane, face.normal, face.point, face.distance});
+    vessel.walls.push_back({ExactWall::plane, face.normal, face.point, face.distance, {}, {}});
   return vessel;
 }
 template <class Other>
@@ -177,9 +177,16 @@ ExactCase exact_case(const CaseSpec& spec) {
   result.digest = spec.digest;
   result.start = spec.initial_time;
   result.gravity = spec.gravity;
-  result.joints = moving_joints(spec.mill);
+  result.joints = moving_joints(casefile::joints_of(spec.mill));
   auto vessel = std::visit([](const auto& v) { return vessel_of(v); }, spec.vessel);
   result.walls = std::move(vessel.walls);
+  for (const auto& body : spec.bodies)
+    result.walls.push_back({body.is_round ? ExactWall::solid_cylinder : ExactWall::solid_box,
+                            {},
+                            {},
+                            body.rounding,
+                            body.core(),
+                            moving_joints(casefile::joints_from_ground(body, spec))});
   std::vector<int> materials;
   for (const auto& given : spec.balls) {
     ExactBall ball = ball_of(given);

@@ -1,5 +1,5 @@
 // A case as a proof needs it: exact numbers, every motion a chain of joints, every wall a plane, cylinder or
-// sphere.
+// sphere, or a body inside the vessel.
 #pragma once
 
 #include <string>
@@ -16,10 +16,16 @@ using casefile::QuantityVector;
 /// Decimal digits of the runs that place balls at random and order the events to be proven.
 inline constexpr unsigned placing_digits = 200;
 
+using ExactJoints = std::vector<model::Joint<Quantity>>;
+
 struct ExactWall {
-  enum Kind { plane, cylinder, sphere } kind = plane;
+  enum Kind { plane, cylinder, sphere, solid_box, solid_cylinder } kind = plane;
   QuantityVector normal{}, point{};  ///< of a plane: outward, of any length; inside, n.(p - point)/|n| < size
-  Quantity size;                     ///< distance of the plane from the point, or radius [m]
+  Quantity size;          ///< distance of the plane from the point, radius, or rounding of a solid [m]
+  QuantityVector half{};  ///< of a solid's core: half edges, or radius, half height, radius [m]
+  ExactJoints joints;     ///< of a solid: from the ground
+
+  bool is_solid() const { return kind >= solid_box; }
 };
 
 template <class Number>
@@ -43,8 +49,8 @@ struct ExactCase {
   std::string name, digest;
   Quantity start;  ///< the initial time [s]
   QuantityVector gravity{};
-  std::vector<model::Joint<Quantity>> joints;  ///< from the ground to the vessel
-  std::vector<ExactWall> walls;
+  ExactJoints joints;            ///< from the ground to the vessel
+  std::vector<ExactWall> walls;  ///< of the vessel, then the bodies inside it
   std::vector<ExactLaw> laws;
   std::vector<ExactBall> balls;
   std::vector<std::vector<std::size_t>> law_of_walls;  ///< by ball and wall

@@ -1,9 +1,11 @@
-// Enclosures of the vessel's pose, of balls in free flight and of their gaps, and proofs that bodies do not
-// meet during a flight. docs/certificates.md, "Rules for the states", rules 4 and 5
+// Enclosures of the poses of the vessel and of bodies inside it, of balls in free flight and of their gaps,
+// and proofs that bodies do not meet during a flight. docs/certificates.md, "Rules for the states", rules 4
+// and 5
 #pragma once
 
 #include <map>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -23,14 +25,14 @@ inline Vector turned_back(const Matrix& m, const Vector& v) {
   return {column(0), column(1), column(2)};
 }
 
-/// Place, velocity and acceleration of a ball in the vessel frame.
-struct InVessel {
+/// Place, velocity and acceleration of a ball in the frame of the vessel or of a body.
+struct InFrame {
   Vector place, velocity, acceleration;
 };
 
-/// The pose of the vessel at a time, or enclosed over a bracket of times.
+/// The pose of a frame at a time, or enclosed over a bracket of times.
 struct Pose {
-  Matrix axes = Matrix::Identity();       ///< R: its columns are the axes of the vessel frame
+  Matrix axes = Matrix::Identity();       ///< R: its columns are the axes of the frame
   Vector centre, velocity, acceleration;  ///< of its origin [m], [m/s], [m/s^2]
   Vector omega, omega_rate;               ///< [rad/s], [rad/s^2]
 
@@ -71,7 +73,7 @@ struct Pose {
   }
 
   /// @param r, v, gravity  inertial position and velocity of a ball in flight
-  InVessel seen(const Vector& r, const Vector& v, const Vector& gravity) const {
+  InFrame seen(const Vector& r, const Vector& v, const Vector& gravity) const {
     const Vector d = r - centre, carried = cross<Enclosure>(omega, d);
     const Vector u = v - (velocity + carried);
     const Vector frame = acceleration + cross<Enclosure>(omega_rate, d) + cross<Enclosure>(omega, carried) +
@@ -80,29 +82,26 @@ struct Pose {
   }
 };
 
-/// The joints of a case, in the precision that is current at construction.
+/// The joints of a case, in the precision that is current at construction. Frame 0 is that of the vessel.
 class Motion {
  public:
   explicit Motion(const ExactCase& exact) : start_(enclosure_of(exact.start)) {
     arb_const_pi(turn_.arb(), Precision::bits());
     turn_ = turn_ + turn_;
-    const auto to_enclosure = [](const Quantity& number) { return enclosure_of(number); };
-    for (const auto& given : exact.joints) {
-      const Vector axis = enclosure_of(given.axis);
-      joints_.push_back({.rotates = given.rotates,
-                         .axis = axis / norm<Enclosure>(axis),
-                         .shift = enclosure_of(given.shift),
-                         .angle = enclosure_of(given.angle),
-                         .speed = enclosure_of(given.speed),
-                         .swings = model::converted_swings<Enclosure>(given.swings, to_enclosure)});
+    add(exact.joints);
+    for (const auto& wall : exact.walls) {
+      frames_.push_back(wall.is_solid() ? chains_.size() : 0);
+      if (wall.is_solid()) add(wall.joints);
     }
   }
 
+  std::size_t frame_of(std::size_t wall) const { return frames_[wall]; }
+
   /// @param time  [s] after the start of the case
-  Pose pose(const Enclosure& time) const {
+  Pose pose(const Enclosure& time, std::size_t frame = 0) const {
     Pose pose;
     const Enclosure clock = start_ + time;
-    for (const auto& joint : joints_) {
+    for (const auto& joint : chains_[frame]) {
       // [turns] or [m]
       Enclosure value = joint.angle + joint.speed * clock, rate = joint.speed, second;
       for (const auto& swing : joint.swings) {
@@ -128,8 +127,23 @@ class Motion {
     std::vector<model::Swing<Enclosure>> swings;
   };
 
+  void add(const ExactJoints& joints) {
+    const auto to_enclosure = [](const Quantity& number) { return enclosure_of(number); };
+    auto& chain = chains_.emplace_back();
+    for (const auto& given : joints) {
+      const Vector axis = enclosure_of(given.axis);
+      chain.push_back({.rotates = given.rotates,
+                       .axis = axis / norm<Enclosure>(axis),
+                       .shift = enclosure_of(given.shift),
+                       .angle = enclosure_of(given.angle),
+                       .speed = enclosure_of(given.speed),
+                       .swings = model::converted_swings<Enclosure>(given.swings, to_enclosure)});
+    }
+  }
+
   Enclosure start_, turn_;  ///< [s], 2 pi
-  std::vector<Joint> joints_;
+  std::vector<std::vector<Joint>> chains_;
+  std::vector<std::size_t> frames_;  ///< by wall
 };
 
 /// Position and velocity at the exact time `reference`, and the constant spin. A flight is a parabola for all
@@ -145,8 +159,8 @@ struct Flight {
   Vector velocity_at(const Enclosure& time, const Vector& gravity) const {
     return velocity + gravity * Enclosure(time - reference);
   }
-  /// The ball in the vessel frame, where `pose` is that of the vessel at `time`.
-  InVessel seen(const Pose& pose, const Enclosure& time, const Vector& gravity) const {
+  /// The ball in the frame whose pose at `time` is `pose`.
+  InFrame seen(const Pose& pose, const Enclosure& time, const Vector& gravity) const {
     return pose.seen(position_at(time, gravity), velocity_at(time, gravity), gravity);
   }
   /// A copy with `change` applied to each component.
@@ -160,6 +174,63 @@ struct Gap {
   Enclosure value, rate, second;
 };
 
+/// How far a coordinate is beyond the interval from -half to half, and whether it is: 0, 1 or all between.
+struct Excess {
+  Enclosure by, outside;
+
+  Excess(const Enclosure& p, const Enclosure& half) {
+    Enclosure below;
+    arb_nonnegative_part(by.arb(), Enclosure(p - half).arb());
+    arb_nonnegative_part(below.arb(), Enclosure(-p - half).arb());
+    by -= below;
+    const bool is_edge = half.is_zero();  // the core has no extent along this axis
+    if (is_edge) by = p;
+    if (is_edge || less(half, p) || less(p, -half))
+      outside = 1;
+    else if (!(less(p, half) && less(-half, p)))
+      arb_unit_interval(outside.arb());
+  }
+};
+
+/// The squared distance of a point from the core of a solid. It is differentiable everywhere, and its second
+/// derivative, which jumps where the nearest point of the core passes from a face to an edge, is enclosed
+/// with both of its values there: Taylor's formula holds for such functions.
+/// @param square  of the distance at which the ball touches the solid
+inline Gap gap_of_solid(bool is_round, const Vector& half, const Enclosure& square, const InFrame& ball) {
+  const Vector &p = ball.place, &v = ball.velocity, &a = ball.acceleration;
+  Gap half_gap{-square / 2, {}, {}};
+  const auto add = [&](int axis) {
+    const Excess excess(p[axis], half[axis]);
+    half_gap.value += excess.by * excess.by / 2;
+    half_gap.rate += excess.by * v[axis];
+    half_gap.second += excess.outside * (v[axis] * v[axis]) + excess.by * a[axis];
+  };
+  add(1);
+  if (is_round) {  // the distance r from the axis beyond the core's radius: (r - a) r' = (1 - a/r) (p.v)
+    const Enclosure distance = sqrt(p[0] * p[0] + p[2] * p[2]), along = p[0] * v[0] + p[2] * v[2];
+    const Excess excess(distance, half[0]);
+    Enclosure far;
+    arb_max(far.arb(), distance.arb(), half[0].arb(), Precision::bits());
+    const Enclosure share = excess.by / far;
+    half_gap.value += excess.by * excess.by / 2;
+    half_gap.rate += share * along;
+    half_gap.second += share * (v[0] * v[0] + v[2] * v[2] + p[0] * a[0] + p[2] * a[2]) +
+                       excess.outside * half[0] * (along * along) / (far * far * far);
+  } else {
+    add(0);
+    add(2);
+  }
+  return {2 * half_gap.value, 2 * half_gap.rate, 2 * half_gap.second};
+}
+
+/// From the nearest point of a solid's core to p.
+inline Vector from_core(bool is_round, const Vector& half, const Vector& p) {
+  const Enclosure up = Excess(p[1], half[1]).by;
+  if (!is_round) return {Excess(p[0], half[0]).by, up, Excess(p[2], half[2]).by};
+  const Enclosure distance = sqrt(p[0] * p[0] + p[2] * p[2]), share = Excess(distance, half[0]).by / distance;
+  return {p[0] * share, up, p[2] * share};
+}
+
 /// The walls of a case for one ball, whose radius is subtracted.
 class Walls {
  public:
@@ -167,20 +238,22 @@ class Walls {
   Walls(const ExactCase& exact, const ExactBall& ball) {
     const Enclosure radius = enclosure_of(ball.radius);
     for (const auto& given : exact.walls) {
-      Wall& wall = walls_.emplace_back(Wall{given.kind, enclosure_of(given.normal), {}, {}, {}});
+      Wall& wall = walls_.emplace_back(
+          Wall{given.kind, enclosure_of(given.normal), enclosure_of(given.half), {}, {}, {}});
       const Enclosure size = enclosure_of(given.size);
       if (given.kind == ExactWall::plane) {
         wall.length = norm<Enclosure>(wall.outward);
         wall.offset = wall.length * (size - radius) + dot<Enclosure>(wall.outward, enclosure_of(given.point));
       } else {
-        wall.room = size - radius;
+        wall.room = given.is_solid() ? size + radius : size - radius;
         wall.offset = wall.room * wall.room;
       }
     }
   }
 
-  Gap gap(std::size_t wall, const InVessel& ball) const {
+  Gap gap(std::size_t wall, const InFrame& ball) const {
     const Wall& w = walls_[wall];
+    if (w.is_solid()) return gap_of_solid(w.kind == ExactWall::solid_cylinder, w.half, w.offset, ball);
     if (w.kind == ExactWall::plane)
       return {w.offset - dot<Enclosure>(w.outward, ball.place), -dot<Enclosure>(w.outward, ball.velocity),
               -dot<Enclosure>(w.outward, ball.acceleration)};
@@ -188,10 +261,11 @@ class Walls {
     return {w.offset - squared_norm<Enclosure>(p), -2 * dot<Enclosure>(p, u),
             -2 * (squared_norm<Enclosure>(u) + dot<Enclosure>(p, a))};
   }
-  /// Inward unit normal where the ball touches the wall with its centre at `place`.
+  /// Unit normal, from the wall to the ball, where the ball touches the wall with its centre at `place`.
   Vector normal(std::size_t wall, const Vector& place) const {
     const Wall& w = walls_[wall];
     if (w.kind == ExactWall::plane) return -w.outward / w.length;
+    if (w.is_solid()) return from_core(w.kind == ExactWall::solid_cylinder, w.half, place) / w.room;
     return -w.across(place) / w.room;
   }
 
@@ -199,9 +273,12 @@ class Walls {
   struct Wall {
     ExactWall::Kind kind;
     Vector outward;    ///< n of a plane
+    Vector half;       ///< of a solid's core
     Enclosure length;  ///< |n|
-    Enclosure offset;  ///< |n| (distance - R) + n.point
-    Enclosure room;    ///< R_v - R of round walls
+    Enclosure offset;  ///< |n| (distance - R) + n.point; otherwise the square of `room`
+    Enclosure room;    ///< R_v - R of round walls, rounding + R of solids
+
+    bool is_solid() const { return kind >= ExactWall::solid_box; }
 
     /// Removes the component that a round wall does not depend on: that along a cylinder's axis, y.
     Vector across(Vector v) const {
@@ -237,11 +314,11 @@ class WallExclusion {
   /// The ball in a window: at its middle, and enclosed over all of it.
   struct Window {
     Enclosure length_from_middle;
-    InVessel middle, all;
+    InFrame middle, all;
   };
 
-  const Window& window(int depth, long index) {
-    const auto found = windows_.find({depth, index});
+  const Window& window(std::size_t frame, int depth, long index) {
+    const auto found = windows_.find({frame, depth, index});
     if (found != windows_.end()) return found->second;
     const auto at = [&](long k) {
       Enclosure share(static_cast<double>(k));
@@ -252,14 +329,14 @@ class WallExclusion {
     Enclosure all;
     arb_union(all.arb(), from.arb(), to.arb(), Precision::bits());
     const auto seen = [&](const Enclosure& time) {
-      return span_.flight.seen(motion_.pose(time), time, gravity_);
+      return span_.flight.seen(motion_.pose(time, frame), time, gravity_);
     };
-    return windows_.emplace(std::pair(depth, index), Window{all - middle, seen(middle), seen(all)})
+    return windows_.emplace(std::tuple(frame, depth, index), Window{all - middle, seen(middle), seen(all)})
         .first->second;
   }
 
   bool bisect(std::size_t wall, int depth, long index, std::string& text) {
-    const Window& w = window(depth, index);
+    const Window& w = window(motion_.frame_of(wall), depth, index);
     const Gap middle = walls_.gap(wall, w.middle);
     const Enclosure second = walls_.gap(wall, w.all).second, &s = w.length_from_middle;
     Enclosure square;
@@ -282,7 +359,7 @@ class WallExclusion {
   const Walls& walls_;
   const Vector& gravity_;
   Span span_;
-  std::map<std::pair<int, long>, Window> windows_;
+  std::map<std::tuple<std::size_t, int, long>, Window> windows_;  ///< by frame, depth, index
 };
 
 /// |r_i - r_j|^2 - (R_i + R_j)^2 of two balls in flight: a convex parabola, since both fall alike.

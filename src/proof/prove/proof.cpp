@@ -195,11 +195,15 @@ class Prover {
     return flight.with_each([](const Enclosure& component) { return rounded(component, coarse_bits); });
   }
 
+  Pose pose_of_wall(int wall, const Enclosure& time) const {
+    return fine_.motion.pose(time, fine_.motion.frame_of(wall));
+  }
+
   Gap gap_at(const Meeting& next, const Enclosure& time) const {
     const Flight& one = tracks_[next.ball].flight;
     if (next.with_wall)
-      return fine_.balls[next.ball].walls.gap(next.partner,
-                                              one.seen(fine_.motion.pose(time), time, fine_.gravity));
+      return fine_.balls[next.ball].walls.gap(
+          next.partner, one.seen(pose_of_wall(next.partner, time), time, fine_.gravity));
     const Flight& two = tracks_[next.partner].flight;
     // The relative motion is uniform, so it is extrapolated from the middle of a bracket without gravity.
     const Enclosure middle = time.middle();
@@ -301,9 +305,9 @@ class Prover {
     const Vector position = flight.position_at(middle, fine_.gravity),
                  velocity = flight.velocity_at(middle, fine_.gravity);
     const Vector fast = velocity + fine_.gravity * d;
-    const Pose pose = fine_.motion.pose(time);
+    const Pose pose = pose_of_wall(wall, time);
     const auto seen = pose.seen(position + fast * d, fast, fine_.gravity);
-    const Pose pose_at_middle = fine_.motion.pose(middle);
+    const Pose pose_at_middle = pose_of_wall(wall, middle);
     const Vector place =
         turned_back(pose_at_middle.axes, position - pose_at_middle.centre) + seen.velocity * d;
     const Vector inward = ball.walls.normal(wall, place);
@@ -435,7 +439,6 @@ std::vector<Meeting> candidates(const casefile::CaseSpec& spec, const ProofOptio
 }  // namespace
 
 Proof prove(const casefile::CaseSpec& spec, const ProofOptions& options) {
-  casefile::require_no_bodies(spec, "edmill prove");
   const auto begin = std::chrono::steady_clock::now();
   Proof proof;
   proof.exact = exact_case(spec);

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Bodies inside the vessel: what is refused, random mills with bodies of all kinds, and the same events in three scalars.
 
-usage: PYTHONPATH=tests/support python3 bodies_test.py EDMILL [MILLS] [SEED]
+usage: PYTHONPATH=tests/support python3 bodies_test.py EDMILL [MILLS] [SEED] [CHARGES]
 """
+import collections
 import pathlib
 import random
 import sys
@@ -11,7 +12,9 @@ from program import EXAMPLES, Trials, edmill, said, summary
 
 mills = int(sys.argv[2]) if len(sys.argv) > 2 else 12
 seed = int(sys.argv[3]) if len(sys.argv) > 3 else 20261130
+charges = int(sys.argv[4]) if len(sys.argv) > 4 else 1  # of each mill
 rng = random.Random(seed)
+reasons = collections.Counter()  # why the runs ended
 
 CASE = """[run]
 end_time = "{end}"
@@ -102,11 +105,13 @@ def random_mill(t, trial):
                        bodies="".join(body() for _ in range(rng.choice([1, 1, 2, 3]))), restitution=rng.choice([0.3, 0.53, 0.9]),
                        friction=rng.choice([0, 0.3]), count=rng.choice([5, 20, 60]), diameter=rng.choice([3, 5, 6]))
     pathlib.Path("case.toml").write_text(text)
-    done = edmill("run", "case.toml", "--quiet", "--out", "mill", timeout=300)
-    t.check(done.returncode in (0, 8), f"mill {trial} of seed {seed}: exit code {done.returncode}: {done.stderr}\n{text}")
-    energy = summary("mill")["energy"]
-    closure = energy["closure_relative"]
-    t.check(closure is None or abs(closure) <= 1e-11, f"mill {trial} of seed {seed}: energy closes to {closure} of the dose")
+    for charge in range(charges):
+        done = edmill("run", "case.toml", "--quiet", "--out", "mill", "--set", f"run.seed={rng.randint(1, 9999)}", timeout=300)
+        t.check(done.returncode in (0, 8), f"mill {trial} of seed {seed}: exit code {done.returncode}: {done.stderr}\n{text}")
+        result = summary("mill")
+        reasons[result["end_reason"]] += 1
+        closure = result["energy"]["closure_relative"]
+        t.check(closure is None or abs(closure) <= 1e-11, f"mill {trial} of seed {seed}: energy closes to {closure} of the dose")
 
 
 def borders(t):
@@ -137,4 +142,4 @@ with Trials() as t:
     scalars(t)
     for trial in range(mills):
         random_mill(t, trial)
-print(f"{mills} mills with bodies, seed {seed}, {t.checks} checks")
+print(f"{mills} mills with bodies, {charges} charges each, seed {seed}, {t.checks} checks, ended by: {dict(reasons)}")

@@ -27,7 +27,7 @@ edmill_script(commands_test cli/commands_test.py $<TARGET_FILE:small_dem_dump> T
 edmill_script(digits_long cli/digits_test.py whole LONG 86400)
 edmill_script(sensitivity_long cli/sensitivity_test.py whole LONG 86400)
 edmill_script(ordinary_charges_long cli/ordinary_charges_test.py 1000 LONG 14400)
-edmill_script(bodies_long cli/bodies_test.py 1000 LONG 14400)
+edmill_script(bodies_long cli/bodies_test.py 25 20261201 40 LONG 14400)
 edmill_script(one_writer_long cli/one_writer_test.py ${one_writer_needs} 100 LONG 3600)
 edmill_script(left_behind_long cli/left_behind_test.py 200 LONG 3600)
 edmill_script(tampered_long cli/tampered_test.py 1000 LONG 3600)

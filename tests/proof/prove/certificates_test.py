@@ -21,8 +21,8 @@ from program import edmill, rows
 getcontext().prec = 60
 WITHOUT_ARB = "--without-arb" in sys.argv
 CHECKER, REFERENCE, FOLDER = sys.argv[2], pathlib.Path(sys.argv[3]), pathlib.Path(sys.argv[4])
-SHIPPED = {"one_ball": 500, "three_balls": 500, "balls_28": 2000, "planetary": 500, "box": 500}
-SHORT = {"one_ball": 20, "three_balls": 40, "balls_28": 60, "planetary": 40, "box": 40}
+SHIPPED = {"one_ball": 500, "three_balls": 500, "balls_28": 2000, "planetary": 500, "box": 500, "stirred": 500}
+SHORT = {"one_ball": 20, "three_balls": 40, "balls_28": 60, "planetary": 40, "box": 40, "stirred": 60}
 
 
 def fail(text):
@@ -149,6 +149,22 @@ def tamperings(lines):
     yield changed("another case: a negative restitution", put("laws", [{**law, "restitution": "-2"} for law in lines[0]["laws"]]), 0)
     yield changed("another case: a density below zero", lambda h: put("density", "-1")(h["balls"][0]), 0)
     yield changed("another case: a law that creates slip", put("laws", [{**law, "min_tangential": "2"} for law in lines[0]["laws"]]), 0)
+    round_solids = [k for k, w in enumerate(lines[0]["walls"]) if w.get("solid") == "cylinder"]
+    solid = next((lines[k]["wall"] for k in events if lines[k].get("wall") in round_solids), None)
+    if round_solids:
+        a, b, _ = lines[0]["walls"][solid]["half"]
+        def in_solid(key, value):
+            return lambda h: put(key, value)(h["walls"][solid])
+        yield changed("another case: a solid of another size", in_solid("half", ["7/1000", b, "7/1000"]), 0)
+        yield changed("another case: a cylinder with two radii", in_solid("half", [a, b, "7/1000"]), 0)
+        yield changed("another case: a solid of negative size", in_solid("half", ["-" + a, b, "-" + a]), 0)
+        yield changed("another case: the rounding of a solid", in_solid("rounding", "1/1000"), 0)
+        yield changed("another case: a negative rounding", in_solid("rounding", "-1/1000"), 0)
+        yield changed("another case: a box in place of a cylinder", in_solid("solid", "box"), 0)
+        yield changed("another case: a solid of an unknown kind", in_solid("solid", "cone"), 0)
+        yield changed("another case: a solid at rest", lambda h: put("joints", [])(h["walls"][solid]), 0)
+        yield changed("another case: a solid left out", lambda h: h["walls"].pop(), 0)
+        yield changed("another case: a version without solids", put("version", 1), 0)
     yield changed("numbers with what a reader does not see", put("start", "0\0/7"), 0)
     yield changed("fewer bits than the enclosures were computed with", lambda h: put("bits", h["bits"] - 32)(h), 0)
     yield changed("more events announced than there are", lambda h: put("events", h["events"] + 1)(h), 0)
@@ -197,7 +213,7 @@ def check_headers(name, case, text):
     code, said = says(text[0], "--set", "contact.restitution=0.51")
     if code != 6:
         fail(f"{name}: prove --check with another restitution in the case: exit code {code}: {said}")
-    for line in ("", "{}", "no json", text[1], text[0][:-1], json.dumps({**header, "version": 2}), text[0].replace('"bits"', '"bits":1,"bits"')):
+    for line in ("", "{}", "no json", text[1], text[0][:-1], json.dumps({**header, "version": 3}), text[0].replace('"bits"', '"bits":1,"bits"')):
         code, said = says(line)
         if code != 2 or said.count("\n") or "header: found" not in said:
             fail(f"{name}: prove --check of {line[:40]!r}: exit code {code}: {said}")

@@ -40,6 +40,7 @@ TEST_F(CertifyTest, ThreeBalls) { is_made_again("three_balls", 500); }
 TEST_F(CertifyTest, TwentyEightBalls) { is_made_again("balls_28", 2000); }
 TEST_F(CertifyTest, PlanetaryJar) { is_made_again("planetary", 500); }
 TEST_F(CertifyTest, ShakenBox) { is_made_again("box", 500); }
+TEST_F(CertifyTest, StirredTank) { is_made_again("stirred", 500); }
 
 TEST_F(CertifyTest, GoesOnWhereTheWidestScalarOfFixedDigitsDoesNotSuffice) {
   const auto outcome = edmill("certify '" + reference("balls_28.toml").string() +
