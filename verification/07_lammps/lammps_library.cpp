@@ -29,6 +29,7 @@ Lammps::Lammps() : library_(dlopen(library_name, RTLD_NOW | RTLD_GLOBAL)) {
   find(version_, "lammps_version");
   find(command_, "lammps_command");
   find(extract_, "lammps_extract_atom");
+  find(extract_fix_, "lammps_extract_fix");
   find(set_callback_, "lammps_set_fix_external_callback");
   std::string words[] = {"lammps", "-log", "none", "-screen", "none", "-nocite"};
   char* arguments[6];

@@ -27,6 +27,11 @@ class Lammps {
   void command(const std::string& text) { command_(handle_, text.c_str()); }
   /// A value of each ball; the pointer holds until LAMMPS enlarges its arrays.
   double** vectors(const char* name) { return static_cast<double**>(extract_(handle_, name)); }
+  /// A row of a fix for each ball, null before there is one.
+  double** rows_of_fix(const std::string& name) {
+    constexpr int by_ball = 1, array = 2;
+    return static_cast<double**>(extract_fix_(handle_, name.c_str(), by_ball, array, 0, 0));
+  }
   double* numbers(const char* name) { return static_cast<double*>(extract_(handle_, name)); }
   void set_callback(const char* fix, Callback callback, void* self) {
     set_callback_(handle_, fix, callback, self);
@@ -46,6 +51,7 @@ class Lammps {
   int (*version_)(void*) = nullptr;
   char* (*command_)(void*, const char*) = nullptr;
   void* (*extract_)(void*, const char*) = nullptr;
+  void* (*extract_fix_)(void*, const char*, int, int, int, int) = nullptr;
   void (*set_callback_)(void*, const char*, Callback, void*) = nullptr;
 };
 

@@ -88,6 +88,12 @@ LammpsMill::LammpsMill(const LammpsSetting& s, const std::vector<LammpsBall>& ba
         " side in units box");
   for (const auto& command : s.vial) say(command);
   say("fix walls all wall/gran/region granular", contact.str(), "region vial");
+  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+    say("variable angle", k, " equal step*dt*", s.bodies[k].speed);
+    say("region body", k, " ", s.bodies[k].region, " side out units box rotate v_angle", k, " 0 0 0 0 1 0");
+    say("fix body", k, " all wall/gran/region granular", contact.str(), "region body", k, " contacts");
+  }
+  work_of_bodies_.resize(s.bodies.size());
   say("fix motion all nve/sphere");
   // After the walls: `drive` then sees all forces of the contacts.
   say("fix frame all external pf/callback 1 1");
@@ -146,7 +152,21 @@ void LammpsMill::drive(std::int64_t step, int count, double** x, double** forces
     }
     if (step > driven_ && step > 0) work_ += dt * (mass_ * dot(a, now_v) + inertia_ * dot(turn, now_spin));
   }
+  if (step > driven_ && step > 0) add_work_of_bodies();
   driven_ = step;
+}
+
+/// The torque of the contacts, with the fix's force on a ball and its place.
+void LammpsMill::add_work_of_bodies() {
+  for (std::size_t k = 0; k < work_of_bodies_.size(); ++k) {
+    double** rows = lammps_.rows_of_fix("body" + std::to_string(k));
+    double torque = 0;
+    for (int i = 0; i < count_; ++i)
+      if (rows[i][0] > 0) torque += rows[i][6] * rows[i][1] - rows[i][4] * rows[i][3];
+    const double done = setting_.time_step * setting_.bodies[k].speed * torque;
+    work_of_bodies_[k] += done;
+    work_ += done;
+  }
 }
 
 }  // namespace edmill::verification

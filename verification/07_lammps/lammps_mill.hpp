@@ -37,10 +37,17 @@ struct LammpsBall {
   Triple position, velocity, spin;  ///< in the vessel's frame and against it [m, m/s, rad/s]
 };
 
+/// A body in the vessel: a region of LAMMPS that turns about the y axis.
+struct LammpsBody {
+  std::string region;  ///< "cylinder y 0 0 0.006 -0.03 0.03"
+  double speed = 0;    ///< [rad/s]
+};
+
 struct LammpsSetting {
   LammpsMotion motion;
   std::function<VesselFrame(double time)> frame{};  ///< of another motion, in the place of the above
   std::vector<std::string> vial{};  ///< commands that make the region "vial", in the place of a cylinder
+  std::vector<LammpsBody> bodies{};
   double vessel_radius = 0, vessel_half_height = 0;  ///< [m]
   double ball_diameter = 0, density = 0;             ///< [m, kg/m3]
   double modulus = 0, poisson = 0.3;                 ///< Young's modulus [Pa]
@@ -60,8 +67,10 @@ class LammpsMill {
   void run(std::int64_t steps);
   double time() const { return static_cast<double>(steps_) * setting_.time_step; }
   std::vector<LammpsBall> balls();
-  /// What fictitious forces and torques did so far. [J]
+  /// What fictitious forces and torques and bodies did so far. [J]
   double work() const { return work_; }
+  /// Work of the torque on a body, about the y axis. [J]
+  double work_of_body(std::size_t body) const { return work_of_bodies_[body]; }
   /// Kinetic energy against the vessel, spin included. [J]
   double kinetic_energy();
   /// work() less the change of kinetic_energy(): lost in contacts, or stored in those that last. [J]
@@ -73,6 +82,7 @@ class LammpsMill {
     return setting_.frame ? setting_.frame(time) : VesselFrame(setting_.motion, time);
   }
   void drive(std::int64_t step, int count, double** x, double** forces);
+  void add_work_of_bodies();
 
   LammpsSetting setting_;
   int count_;
@@ -80,6 +90,7 @@ class LammpsMill {
   Lammps lammps_;
   std::int64_t steps_ = 0, driven_ = -1;
   double work_ = 0, first_energy_ = 0;
+  std::vector<double> work_of_bodies_;
 };
 
 }  // namespace edmill::verification

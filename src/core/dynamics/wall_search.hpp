@@ -10,6 +10,7 @@
 #include <boost/math/tools/toms748_solve.hpp>
 
 #include "base/hermite.hpp"
+#include "dynamics/body_groups.hpp"
 #include "dynamics/flight.hpp"
 #include "dynamics/gap_functions.hpp"
 #include "model/mill.hpp"
@@ -184,6 +185,7 @@ class WallSearch {
 
   MovingVessel<M, V> mill_;
   BoundsTable<M, V> bounds_;
+  Real own_speed_{0};  ///< no point of a body is faster [m/s]
   [[no_unique_address]] RoughSearch<Real, V> rough_;
 };
 
@@ -218,6 +220,7 @@ class AnyWallSearch {
   explicit AnyWallSearch(const model::Mill<Real>& mill)
       : AnyWallSearch(mill.motion, mill.vessel, mill.gravity) {
     walls_ = mill.vessel.wall_count();
+    groups_ = BodyGroups(model::mill_cast<double>(mill).bodies);
     for (const auto& body : mill.bodies) {
       const auto& search = bodies_.emplace_back(body.motion, body.shape, mill.gravity);
       if (search.longest_window() < longest_window_) longest_window_ = search.longest_window();
@@ -288,9 +291,13 @@ class AnyWallSearch {
   }
 
   [[gnu::noinline]] WallAnswer<Real> with_bodies(const WallQuery<Real>& query, WallAnswer<Real> first) const;
+  BodyGroups::Times clear_times(const WallQuery<Real>& query) const;
+  WallAnswer<Real> first_with_body(std::size_t body, const WallQuery<Real>& query, const Real& length,
+                                   const Real& clear) const;
 
   Search search_;
   std::vector<BodySearch<Real>> bodies_;
+  BodyGroups groups_;
   int walls_ = 0;  ///< of the vessel
   Policy policy_;
   Real longest_window_, reach_;

@@ -17,7 +17,9 @@ template <model::Motion M, model::Vessel V>
 WallSearch<M, V>::WallSearch(const M& motion, const V& vessel, const Vec3<Real>& gravity)
     : mill_(motion, vessel, gravity),
       bounds_(mill_),
-      rough_(motion.template cast<double>(), vessel.template cast<double>(), vector_cast<double>(gravity)) {}
+      rough_(motion.template cast<double>(), vessel.template cast<double>(), vector_cast<double>(gravity)) {
+  if constexpr (is_body) own_speed_ = motion.wall_speed(vessel.size());
+}
 
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::within_reach(const Functions& functions, const Vec3<Real>& position, const Real& speed,
@@ -31,7 +33,8 @@ auto WallSearch<M, V>::within_reach(const Functions& functions, const Vec3<Real>
   return near;
 }
 
-/// For how long a ball cannot reach a body, however it flies [s].
+/// For how long a ball cannot reach a body, however it flies [s]: their distance changes by no more than both
+/// move, in whatever frame it is measured.
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::clear_time([[maybe_unused]] const Functions& functions,
                                   [[maybe_unused]] const Vec3<Real>& position,
@@ -39,7 +42,7 @@ auto WallSearch<M, V>::clear_time([[maybe_unused]] const Functions& functions,
   if constexpr (is_body) {
     const Real rounding = mill_.reach * rounding_margin<Real>();
     return (functions.room().clearance(position) - rounding) /
-           ((speed + mill_.wall_speed) * (1 + rounding_margin<Real>()));
+           ((speed + own_speed_) * (1 + rounding_margin<Real>()));
   } else {
     return Real(0);
   }
@@ -739,53 +742,93 @@ std::optional<int> WallSearch<M, V>::exact_order(const WallQuery<Real>& query, i
   return second ? std::optional(first->compare(*second)) : std::nullopt;
 }
 
-/// The first contact with the vessel or a body. Where the times of two are closer than their errors a wider
-/// scalar decides; in the widest, the lower id goes first by a rule.
+/// The first contact with the vessel or a body. Each body is searched window by window as far as the others
+/// have been. Where the times of two contacts are closer than their errors a wider scalar decides; in the
+/// widest, the lower id goes first by a rule.
 /// @param first  answer for the vessel
 template <class Real>
 WallAnswer<Real> AnyWallSearch<Real>::with_bodies(const WallQuery<Real>& query,
                                                   WallAnswer<Real> first) const {
   const DriveClock<Real>& clock = bodies_.front().mill().clock;
+  const auto clear = clear_times(query);
   for (std::size_t k = 0; k < bodies_.size() && first.verdict != Verdict::undecided; ++k) {
-    auto rest = query;
-    if (first.verdict == Verdict::none)
-      rest.length = std::min(query.length, first.searched);
-    else  // contacts up to a little past this one matter
-      rest.length = std::min<Real>(query.length, clock.elapsed(query.begin, first.time) + first.time_error +
-                                                     longest_window_ * rounding_margin<Real>());
-    auto found = [&] {
-      if constexpr (is_double)
-        return bodies_[k].search(rest);
-      else
-        return bodies_[k](rest);
-    }();
+    // Contacts up to a little past the first one matter.
+    const Real needed = first.verdict == Verdict::none
+                            ? std::min(query.length, first.searched)
+                            : Real(clock.elapsed(query.begin, first.time) + first.time_error);
+    const Real whole = first.verdict == Verdict::none
+                           ? needed
+                           : std::min<Real>(query.length, needed + longest_window_ * rounding_margin<Real>());
+    if (clear[k] >= whole) continue;
+    const auto found = first_with_body(k, query, whole, Real(clear[k]));
+    if (found.verdict == Verdict::undecided) return found;
     const bool by_rule = first.by_rule || found.by_rule;
-    if (found.verdict == Verdict::contact) {
-      found.wall = walls_ + static_cast<int>(k);
-      found.pose = {};
-      if (first.verdict == Verdict::contact) {
-        const Real later = clock.elapsed(first.time, found.time), error = found.time_error + first.time_error;
-        const bool tied = !(later > error) && !(later < -error);
-        if (tied && !std::is_void_v<Wider<Real>>) return {Verdict::undecided};
-        first.by_rule = by_rule || tied;
-        if (!(later < -error)) continue;
-      }
-      first = found;
-    } else if (found.verdict == Verdict::undecided) {
-      return found;
-    } else {
-      // A border so near that the next search would begin before it: a wider scalar goes beyond it.
-      const bool stays =
-          found.searched < rest.length && found.searched < 64 * epsilon<Real>() * clock.period();
-      if (stays && !std::is_void_v<Wider<Real>>) return {Verdict::undecided};
-      const Real needed = first.verdict == Verdict::contact
-                              ? Real(clock.elapsed(query.begin, first.time) + first.time_error)
-                              : first.searched;
+    if (found.verdict == Verdict::none) {
       if (found.searched < needed) first = WallAnswer<Real>::none(found.searched);
+    } else if (first.verdict == Verdict::none) {
+      first = found;
+    } else {
+      const Real later = clock.elapsed(first.time, found.time), error = found.time_error + first.time_error;
+      const bool tied = !(later > error) && !(later < -error);
+      if (tied && !std::is_void_v<Wider<Real>>) return {Verdict::undecided};
+      if (later < -error) first = found;
+      first.by_rule = by_rule || tied;
+      continue;
     }
     first.by_rule = by_rule;
   }
   return first;
+}
+
+template <class Real>
+BodyGroups::Times AnyWallSearch<Real>::clear_times(const WallQuery<Real>& query) const {
+  const auto& mill = bodies_.front().mill();
+  const Real dt = mill.clock.elapsed(query.flight.start, query.begin);
+  const Real speed =
+      norm<Real>(velocity_after(query.flight, mill.gravity, dt)) + mill.gravity_size * query.length;
+  return groups_.clear_times(instant_cast<double>(query.begin),
+                             vector_cast<double>(position_after(query.flight, mill.gravity, dt)),
+                             static_cast<double>(query.radius), static_cast<double>(speed));
+}
+
+/// The first contact with a body within `length` of the begin of a query. None if there is none, or if it
+/// takes too many windows to find.
+/// @param clear  so long it is out of reach [s]
+template <class Real>
+WallAnswer<Real> AnyWallSearch<Real>::first_with_body(std::size_t body, const WallQuery<Real>& query,
+                                                      const Real& length, const Real& clear) const {
+  constexpr int most_windows = 64;
+  const DriveClock<Real>& clock = bodies_.front().mill().clock;
+  auto rest = query;
+  Real searched = clear > length / 64 ? clear : Real(0);
+  if (searched > 0) rest.begin = clock.after(query.begin, searched);
+  rest.length = length - searched;
+  bool by_rule = false;
+  for (int windows = 0; windows < most_windows && rest.length > 0; ++windows) {
+    auto found = [&] {
+      if constexpr (is_double)
+        return bodies_[body].search(rest);
+      else
+        return bodies_[body](rest);
+    }();
+    found.by_rule = by_rule = by_rule || found.by_rule;
+    if (found.verdict == Verdict::contact) {
+      found.wall = walls_ + static_cast<int>(body);
+      found.pose = {};
+    }
+    if (found.verdict != Verdict::none) return found;
+    // A border so near that the next search would begin before it: a wider scalar goes beyond it.
+    if (found.searched < rest.length && found.searched < 64 * epsilon<Real>() * clock.period()) {
+      if (!std::is_void_v<Wider<Real>>) return {Verdict::undecided};
+      break;
+    }
+    searched += found.searched;
+    rest.begin = clock.after(query.begin, searched);
+    rest.length = length - searched;
+  }
+  auto none = WallAnswer<Real>::none(rest.length > 0 ? searched : length);
+  none.by_rule = by_rule;
+  return none;
 }
 
 }  // namespace edmill::dynamics

@@ -270,6 +270,8 @@ class ChainMotion {
   const Real& period() const { return joints_.period; }  ///< of the clock [s]
 
   Pose pose(const Instant<Real>& when) const { return made<true>(when); }
+  /// The pose without its rates.
+  Pose place(const Instant<Real>& when) const { return made<false>(when); }
   /// Computed without the known pose, whose rates would need derivatives beyond those that it has.
   Pose pose_nearby(const Instant<Real>& when, const Pose&, const Instant<Real>&) const { return pose(when); }
   /// `position_in_vessel` at an instant of the same period as `known`, from the pose at `known`. With R and C

@@ -1,0 +1,43 @@
+// Bodies that move together, and how long a ball cannot reach each of them. A broad phase in double, whose
+// margins are far above its rounding: what it excludes needs no search in any scalar.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "model/mill.hpp"
+
+namespace edmill::dynamics {
+
+/// Bodies whose joints move alike, such as the arms of a rotor, differ by a constant transformation. One pose
+/// of the joints that move is enough for all of them. theory.md, section 2
+class BodyGroups {
+ public:
+  static constexpr std::size_t most = 64;  ///< bodies
+  using Times = std::array<double, most>;
+
+  BodyGroups() = default;
+  explicit BodyGroups(const std::vector<model::Body<double>>& bodies);
+
+  /// For how long a ball cannot reach each body, however it flies, by body [s]; negative where it is near.
+  /// @param position  of its centre at `when`, inertial
+  /// @param speed     its largest [m/s]
+  Times clear_times(const Instant<double>& when, const Vec3<double>& position, double radius,
+                    double speed) const;
+
+ private:
+  struct Member {
+    std::size_t body;
+    model::ChainPose<double> place;  ///< in the frame of the group
+    model::RoundedBody<double> shape;
+    double speed, margin;  ///< no point of it is faster [m/s]; above the rounding of its distance [m]
+  };
+  struct Group {
+    model::ChainMotion<double> motion;
+    std::vector<Member> members;
+  };
+  std::vector<Group> groups_;
+};
+
+}  // namespace edmill::dynamics
