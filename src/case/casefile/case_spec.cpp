@@ -367,6 +367,9 @@ std::vector<std::string> problems_of(const CaseSpec& spec) {
   check(contact, spec.ball_ball, spec);
   check(contact, spec.ball_wall, spec);
   for (const auto& pair : spec.pairs) check(contact, pair.law, spec);
+  for (const auto& body : spec.bodies)
+    for (const auto& half : body.core())
+      top.require(!half.negative() && !body.rounding.negative(), "body", "sizes not below the roundings");
   check_times(top.section("run"), spec);
   std::vector<Section> pistons(spec.pistons.size(), vessel);
   if (document.problems.empty()) require_travel(pistons, spec);

@@ -43,7 +43,7 @@ class Auditor : Judge {
         flights_(*this),
         stalls_(case_.mill, case_.balls.size()),
         last_(case_.balls.size()),
-        with_wall_(case_.mill.vessel.walls().size()) {}
+        with_wall_(static_cast<std::size_t>(case_.mill.wall_count())) {}
 
   /// Starts the flights of all balls from their states at the beginning of the log.
   void begin(const std::vector<model::BallState<double>>& states, double time) {
@@ -131,7 +131,7 @@ class Auditor : Judge {
         fmt::format("the wall before is touched: walls are numbered from 1 on, as with --walls {}", numbers));
     add("pairs", from_both_sides_, Kind::duplicate,
         "impacts of two balls are logged for the one and for the other: log each once");
-    const auto walls = case_.mill.vessel.walls();
+    const auto walls = case_.mill.walls();
     const auto missed = findings_.of(Kind::missed_event).count;
     for (std::size_t wall = 0; wall < walls.size(); ++wall)
       if (const auto through = flights_.flown_through()[wall];
@@ -363,7 +363,7 @@ Audit audit_events(const model::Case<double>& the_case, const std::vector<model:
 
 logs::EventLog open_log(const model::Case<double>& the_case, const Options& options) {
   return {options.log, options.conventions, static_cast<int>(the_case.balls.size()),
-          static_cast<int>(the_case.mill.vessel.walls().size()), 1e15 * the_case.mill.motion.period()};
+          the_case.mill.wall_count(), 1e15 * the_case.mill.motion.period()};
 }
 
 }  // namespace

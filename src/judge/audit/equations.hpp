@@ -28,6 +28,13 @@ struct WallRates {
     constexpr double far = 1e6;
     WallRates rates{motion.wall_speed(vessel), motion.acceleration_within(motion.reach(vessel)),
                     motion.wall_speed(far) / far};
+    for (const auto& body : mill.bodies) {
+      const double size = body.shape.size();
+      rates.speed = std::max(rates.speed, body.motion.wall_speed(size));
+      rates.acceleration =
+          std::max(rates.acceleration, body.motion.acceleration_within(body.motion.reach(size)));
+      rates.turning = std::max(rates.turning, body.motion.wall_speed(far) / far);
+    }
     if (const auto* pistons = mill.vessel.pistons()) {
       rates.speed += pistons->bound(1);
       rates.acceleration += pistons->bound(2) + 2 * rates.turning * pistons->bound(1);

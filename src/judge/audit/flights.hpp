@@ -60,7 +60,7 @@ class Flights : Judge {
         ladder_(case_.mill, smallest_radius(case_), 32.0),
         top_speed_(32),
         tracks_(case_.balls.size()),
-        flown_through_(case_.mill.vessel.walls().size()) {}
+        flown_through_(static_cast<std::size_t>(case_.mill.wall_count())) {}
 
   Track& of(int ball) { return tracks_[ball]; }
   const Track& of(int ball) const { return tracks_[ball]; }
@@ -154,7 +154,7 @@ class Flights : Judge {
     const double radius = radius_of(ball);
     const auto frame = nested_at(track.start);
     double overlap = 0;
-    for (int wall = 0; wall < case_.mill.vessel.wall_count(); ++wall)
+    for (int wall = 0; wall < case_.mill.wall_count(); ++wall)
       overlap = std::max(overlap, -wall_gap(frame, case_, wall, ball, track.flight.position));
     const double smaller = radius - overlap - slack;
     if (smaller < radius / 2) return std::nullopt;  // outside the vessel, which was reported before

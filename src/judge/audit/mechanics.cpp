@@ -16,16 +16,20 @@ Vec inside(const VesselFrame& frame, const Vec& position) {
   return {dot(d, frame.x), dot(d, frame.y), dot(d, frame.z)};
 }
 
+/// The frame of a motion whose axes are not nested.
+template <class M>
+VesselFrame plain_frame(const M& motion, const typename M::Pose& pose) {
+  VesselFrame frame{motion.axis_x(pose), motion.axis_y(pose), motion.axis_z(pose),
+                    motion.to_inertial(pose, Vec(0, 0, 0))};
+  frame.centre_velocity = motion.wall_velocity(pose, frame.centre);
+  frame.angular_velocity = motion.angular_velocity(pose);
+  return frame;
+}
+
 VesselFrame frame_of(const model::AnyMotion<double>& motion, const model::AnyPose<double>& pose,
                      bool as_printed) {
   const auto* spex = motion.get_if<model::SpexMotion<double>>();
-  if (!spex) {
-    VesselFrame frame{motion.axis_x(pose), motion.axis_y(pose), motion.axis_z(pose),
-                      motion.to_inertial(pose, Vec(0, 0, 0))};
-    frame.centre_velocity = motion.wall_velocity(pose, frame.centre);
-    frame.angular_velocity = motion.angular_velocity(pose);
-    return frame;
-  }
+  if (!spex) return plain_frame(motion, pose);
   const auto& p = std::get<model::SpexPose<double>>(pose);
   const double s = p.cos_alpha, c = -p.sin_alpha;  // sin and cos of theta = alpha + pi/2
   const double sg = p.sin_gamma, cg = p.cos_gamma;
@@ -58,7 +62,7 @@ Vec contact_velocity(const LoggedImpact& impact, Vec BodyState::*velocity, Vec B
 }
 
 /// Rotation of a wall's normal per displacement of the ball [1/m]. @param step  displacement [m]
-double bend_of(const model::AnyVessel<double>& room, int wall, const Vec& place, double step) {
+double bend_of(const auto& room, int wall, const Vec& place, double step) {
   const Vec normal = room.normal(wall, place);
   double square = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -70,11 +74,21 @@ double bend_of(const model::AnyVessel<double>& room, int wall, const Vec& place,
   return std::sqrt(square) / step;
 }
 
+/// Calls f(frame, room, number) with what a wall belongs to, its frame and its number there: the vessel, or a
+/// body.
+template <class F>
+auto with_wall(const model::Mill<double>& mill, int wall, const VesselFrame& vessel, double radius, F&& f) {
+  const auto* body = mill.body_of(wall);
+  if (!body) return f(vessel, mill.vessel.inset(radius), wall);
+  return f(plain_frame(body->motion, body->motion.pose(vessel.when)), body->shape.inset(radius), 0);
+}
+
 }  // namespace
 
 VesselFrame vessel_at(const model::Mill<double>& mill, double time, bool as_printed) {
   const auto when = DriveClock<double>(mill.motion.period()).at(time);
   auto frame = frame_of(mill.motion, mill.motion.pose(when), as_printed);
+  frame.when = when;
   if (const auto* pistons = mill.vessel.pistons())
     for (int wall = 0; wall < mill.vessel.wall_count(); ++wall)
       frame.moved.push_back(pistons->of_wall(wall, when));
@@ -83,8 +97,10 @@ VesselFrame vessel_at(const model::Mill<double>& mill, double time, bool as_prin
 
 double wall_gap(const VesselFrame& frame, const model::Case<double>& the_case, int wall, int ball,
                 const Vec& position) {
-  const auto room = the_case.mill.vessel.inset(the_case.balls[ball].radius);
-  return -room.overlap(wall, inside(frame, position)) - frame.of_wall(wall).value;
+  return with_wall(the_case.mill, wall, frame, the_case.balls[ball].radius,
+                   [&](const VesselFrame& own, const auto& room, int number) {
+                     return -room.overlap(number, inside(own, position)) - own.of_wall(number).value;
+                   });
 }
 
 double gap_of(const LoggedEvent& event, const model::Case<double>& the_case, const VesselFrame& frame) {
@@ -120,11 +136,17 @@ const std::array<WallVelocity, 10> wall_velocities = {{
      }},
 }};
 
-void LoggedImpact::set_wall_velocity(const WallVelocity& formula, const VesselFrame& nested,
-                                     const VesselFrame& printed) {
+void LoggedImpact::set_wall_velocity(const WallVelocity& formula, const model::Mill<double>& mill,
+                                     const VesselFrame& nested, const VesselFrame& printed) {
   const Vec& ball_centre = event->body[0].position;
-  wall_velocity = formula.at({nested, printed, ball_centre - normal * ball[0].radius, ball_centre}) +
-                  normal * nested.of_wall(event->partner).rate;
+  const Vec contact = ball_centre - normal * ball[0].radius;
+  if (const auto* body = mill.body_of(event->partner)) {
+    const auto own = plain_frame(body->motion, body->motion.pose(nested.when));
+    wall_velocity = formula.at({own, own, contact, ball_centre});
+  } else {
+    wall_velocity =
+        formula.at({nested, printed, contact, ball_centre}) + normal * nested.of_wall(event->partner).rate;
+  }
 }
 
 LoggedImpact impact_of(const LoggedEvent& event, const model::Case<double>& the_case,
@@ -140,13 +162,15 @@ LoggedImpact impact_of(const LoggedEvent& event, const model::Case<double>& the_
     impact.effective_mass = ball.mass;
     impact.compliance = 1 + 1 / ball.reduced_inertia;
     if (!placed) return impact;
-    const auto room = mill.vessel.inset(ball.radius);
-    const Vec seen = inside(frame, place), normal = room.normal(event.partner, seen);
-    impact.normal = frame.x * normal[0] + frame.y * normal[1] + frame.z * normal[2];
-    if (!(size(impact.normal) > 0)) impact.normal = frame.x;  // undefined on the axis of a cylinder
-    if (!mill.vessel.is_flat(event.partner))
-      impact.bend = bend_of(room, event.partner, seen, 1e-6 * mill.vessel.reach());
-    impact.set_wall_velocity(wall_velocities[0], frame, frame);
+    with_wall(mill, event.partner, frame, ball.radius,
+              [&](const VesselFrame& own, const auto& room, int number) {
+                const Vec seen = inside(own, place), normal = room.normal(number, seen);
+                impact.normal = own.x * normal[0] + own.y * normal[1] + own.z * normal[2];
+                if (!(size(impact.normal) > 0)) impact.normal = own.x;  // undefined on the axis of a cylinder
+                if (!room.is_flat(number))
+                  impact.bend = bend_of(room, number, seen, 1e-6 * mill.vessel.reach());
+              });
+    impact.set_wall_velocity(wall_velocities[0], mill, frame, frame);
     return impact;
   }
   partner = the_case.balls[event.partner];

@@ -18,7 +18,7 @@ using logs::Available, logs::BodyState, logs::LoggedEvent, logs::unknown;
 EIGEN_ALWAYS_INLINE double dot(const Vec& a, const Vec& b) { return a.dot(b); }
 EIGEN_ALWAYS_INLINE double size(const Vec& a) { return std::sqrt(a.dot(a)); }
 
-/// The vessel at an instant: its axes x, y, z and its centre C in the inertial frame.
+/// The vessel, or a body in it, at an instant: its axes x, y, z and its centre C in the inertial frame.
 struct VesselFrame {
   Vec x, y, z, centre;
   Vec centre_velocity{0, 0, 0}, angular_velocity{0, 0, 0};
@@ -27,6 +27,7 @@ struct VesselFrame {
   double roll_rate = 0;  ///< gamma' about x' [rad/s]
   /// Displacements of the walls that move in the vessel, by wall; empty if there are none.
   std::vector<model::Moved<double>> moved{};
+  Instant<double> when{};
 
   model::Moved<double> of_wall(int wall) const {
     return moved.empty() ? model::Moved<double>{} : moved[wall];
@@ -38,6 +39,7 @@ struct VesselFrame {
 VesselFrame vessel_at(const model::Mill<double>& mill, double time, bool as_printed);
 
 /// Gap of a ball to a wall [m]; negative for an overlap. (2.17'), (2.19'), (2.21)
+/// @param frame  of the vessel
 double wall_gap(const VesselFrame& frame, const model::Case<double>& the_case, int wall, int ball,
                 const Vec& position);
 /// Gap of the bodies of an event [m].
@@ -103,7 +105,9 @@ struct LoggedImpact {
   double effective_mass = 0, compliance = 0;
 
   /// Sets the wall velocity by a code's formula, plus the motion of the wall within the vessel.
-  void set_wall_velocity(const WallVelocity& formula, const VesselFrame& nested, const VesselFrame& printed);
+  /// @param nested, printed  of the vessel
+  void set_wall_velocity(const WallVelocity& formula, const model::Mill<double>& mill,
+                         const VesselFrame& nested, const VesselFrame& printed);
   bool with_wall() const { return event->with_wall; }
   std::size_t count() const { return event->count(); }  ///< of balls
   Vec before() const;                                   ///< relative velocity of the contact points. (2.27)

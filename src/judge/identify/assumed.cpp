@@ -101,13 +101,13 @@ std::optional<model::Case<double>> Assumed::built() const {
   const auto& vessel = result.mill.vessel;
   const bool room = std::none_of(balls.begin(), balls.end(),
                                  [&](const auto& ball) { return vessel.inset(ball.radius).is_empty(); });
-  if (!room || vessel.wall_count() != walls) return std::nullopt;
+  if (!room || result.mill.wall_count() != walls) return std::nullopt;
   return result;
 }
 
 Assumed assumed_of(const casefile::CaseSpec& spec) {
   const auto built = casefile::build_case<double>(spec).the_case;
-  return {spec, built.balls, {}, built.mill.vessel.wall_count(), casefile::joints_of(spec.mill).size()};
+  return {spec, built.balls, {}, built.mill.wall_count(), casefile::joints_of(spec.mill).size()};
 }
 
 casefile::Quantity exactly(double value) {
@@ -142,7 +142,7 @@ std::vector<SharedSubset> subsets_of(const casefile::CaseSpec& spec, const model
   };
   of_impacts("with walls", [](const LoggedEvent& e, std::size_t) { return e.with_wall; });
   of_impacts("between balls", [](const LoggedEvent& e, std::size_t) { return !e.with_wall; });
-  const auto walls = the_case.mill.vessel.walls();
+  const auto walls = the_case.mill.walls();
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall)
     of_impacts("at " + walls[wall].meaning,
                [wall](const LoggedEvent& e, std::size_t) { return e.with_wall && e.partner == wall; });
@@ -155,9 +155,10 @@ std::vector<SharedSubset> subsets_of(const casefile::CaseSpec& spec, const model
       of_impacts("at " + name,
                  [at](const LoggedEvent& e, std::size_t) { return e.with_wall && at[e.partner]; });
   };
-  const auto& vessel = the_case.mill.vessel;
-  at_walls("flat walls", [&](int wall) { return vessel.is_flat(wall); });
-  at_walls("round walls", [&](int wall) { return !vessel.is_flat(wall); });
+  const auto& mill = the_case.mill;
+  at_walls("flat walls", [&](int wall) { return !mill.body_of(wall) && mill.vessel.is_flat(wall); });
+  at_walls("round walls", [&](int wall) { return !mill.body_of(wall) && !mill.vessel.is_flat(wall); });
+  at_walls("bodies in the vessel", [&](int wall) { return mill.body_of(wall) != nullptr; });
   for (std::size_t k = 0; k < spec.materials.size() && !spec.wall_materials.empty(); ++k)
     at_walls("walls of " + spec.materials[k].name,
              [&](int wall) { return spec.wall_materials[wall] == static_cast<int>(k) + 1; });

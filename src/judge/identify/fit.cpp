@@ -129,7 +129,7 @@ void set_half_widths(const Eigen::MatrixXd& j, const Eigen::VectorXd& rows, Hypo
 void assume_wall_velocity(const model::Mill<double>& mill, const Terms& terms, LoggedImpact& impact) {
   if (terms.wall_velocity_delay != 0 || terms.wall_velocity_formula != 0) {
     const double time = impact.event->time - terms.wall_velocity_delay;
-    impact.set_wall_velocity(audit::wall_velocities[terms.wall_velocity_formula],
+    impact.set_wall_velocity(audit::wall_velocities[terms.wall_velocity_formula], mill,
                              audit::vessel_at(mill, time, false), audit::vessel_at(mill, time, true));
   }
   impact.wall_velocity *= terms.wall_velocity;

@@ -75,20 +75,27 @@ void add_numbers(const std::string& section, const Assumed& nominal, Member memb
   });
 }
 
-/// Adds the numbers of the joints of a mill; they are not keys of its type.
-void add_joints(const Assumed& nominal, std::vector<Assumption>& list) {
-  const auto& joints = std::get<model::Chain<Quantity>>(nominal.spec.mill).given.list;
+/// Adds the numbers of the joints of a mill or a body; they are not keys of its type.
+/// @param chains  the same joints in an assumed case, several times if a body is repeated. A copy has one
+/// joint more, a constant rotation before the first that rotates.
+void add_joints(const std::string& section, Assumed nominal,
+                const std::function<std::vector<std::vector<model::Joint<Quantity>>*>(Assumed&)>& chains,
+                std::vector<Assumption>& list) {
+  const auto joints = *chains(nominal).front();
+  const auto first_turn = std::find_if(joints.begin(), joints.end(), [](const auto& j) { return j.rotates; });
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const auto& joint = joints[j];
+    const bool behind = static_cast<std::ptrdiff_t>(j) >= first_turn - joints.begin();
     const auto add = [&](const std::string& key, Dimension dimension, auto member) {
       const Quantity& value = *member(joint);
       if (value.zero()) return;
       const bool turns = dimension == Dimension::angle || dimension == Dimension::angular_speed;
       const double unit = turns ? 2 * pi : 1;
-      list.push_back(number(fmt::format("mill.joint.{}.{}", j, key), dimension, unit * value.to<double>(),
-                            [=](Assumed& a, double x) {
-                              auto& chain = std::get<model::Chain<Quantity>>(a.spec.mill);
-                              *member(chain.given.list[j]) = exactly(x / unit);
+      list.push_back(number(fmt::format("{}.joint.{}.{}", section, j, key), dimension,
+                            unit * value.to<double>(), [=, count = joints.size()](Assumed& a, double x) {
+                              for (auto* chain : chains(a))
+                                *member((*chain)[j + (behind ? chain->size() - count : 0)]) =
+                                    exactly(x / unit);
                             }));
     };
     for (int axis = 0; axis < 3; ++axis)
@@ -104,6 +111,44 @@ void add_joints(const Assumed& nominal, std::vector<Assumption>& list) {
           [s](auto& own) { return &own.swings[s].frequency; });
       list.back().is_speed = true;
     }
+  }
+}
+
+/// Adds the numbers of the bodies in the vessel, of all copies of a body together.
+void add_bodies(const Assumed& nominal, std::vector<Assumption>& list) {
+  const auto& bodies = nominal.spec.bodies;
+  std::size_t first = 0;
+  for (std::size_t entry = 0; first < bodies.size(); ++entry) {
+    const auto is_copy = [where = bodies[first].where](const auto& other) { return other.where == where; };
+    const auto end = first + static_cast<std::size_t>(std::ranges::count_if(bodies, is_copy));
+    const auto key = fmt::format("body.{}", entry);
+    const auto add = [&](const std::string& name, Dimension dimension, const Quantity& value, auto set) {
+      list.push_back(number(key + "." + name, dimension, value.to<double>(), [=](Assumed& a, double x) {
+        for (std::size_t k = first; k < end; ++k) set(a.spec.bodies[k], exactly(x));
+      }));
+    };
+    add_joints(
+        key, nominal,
+        [=](Assumed& a) {
+          std::vector<std::vector<model::Joint<Quantity>>*> chains;
+          for (std::size_t k = first; k < end; ++k) chains.push_back(&a.spec.bodies[k].joints);
+          return chains;
+        },
+        list);
+    for (std::size_t axis = 0; axis < (bodies[first].is_round ? 2 : 3); ++axis) {
+      const auto name = bodies[first].is_round ? (axis == 0 ? "diameter" : "height")
+                                               : with_axis("size", static_cast<int>(axis));
+      if (bodies[first].size[axis].zero()) continue;
+      add(name, Dimension::length, bodies[first].size[axis], [axis](auto& body, const Quantity& x) {
+        body.size[axis] = x;
+        if (body.is_round && axis == 0) body.size[2] = x;
+      });
+      list.back().is_diameter = bodies[first].is_round && axis == 0;
+    }
+    if (!bodies[first].rounding.zero())
+      add("rounding", Dimension::length, bodies[first].rounding,
+          [](auto& body, const Quantity& x) { body.rounding = x; });
+    first = end;
   }
 }
 
@@ -477,7 +522,10 @@ std::vector<double> Assumption::trial_values(double end) const {
 std::vector<Assumption> numbers_of(const Assumed& nominal) {
   std::vector<Assumption> list;
   if (std::holds_alternative<model::Chain<Quantity>>(nominal.spec.mill))
-    add_joints(nominal, list);
+    add_joints(
+        "mill", nominal,
+        [](Assumed& a) { return std::vector{&std::get<model::Chain<Quantity>>(a.spec.mill).given.list}; },
+        list);
   else
     add_numbers("mill", nominal, &casefile::CaseSpec::mill, list);
   if (!std::holds_alternative<model::StillMill<Quantity>>(nominal.spec.mill)) {
@@ -490,6 +538,7 @@ std::vector<Assumption> numbers_of(const Assumed& nominal) {
   }
   if (!std::holds_alternative<model::Polyhedron<Quantity>>(nominal.spec.vessel))
     add_numbers("vessel", nominal, &casefile::CaseSpec::vessel, list);
+  add_bodies(nominal, list);
   add_gravity(nominal, list);
   add_laws(nominal, list);
   add_all_balls(nominal, list);

@@ -81,7 +81,6 @@ Judged compare(const compare::ComparisonOptions& options) {
 }
 
 Judged audit(const casefile::CaseSpec& spec, const AuditOptions& given) {
-  casefile::require_no_bodies(spec, "edmill audit");
   const io::Spool pipes;
   if (dem::is_contact_log(given.log)) {
     refuse(
