@@ -302,10 +302,6 @@ std::string describe_gravity(const CaseSpec& spec);
 /// What the balls of a case can collide with.
 model::Partners partners_of(const CaseSpec& spec);
 
-/// For what cannot judge or follow contacts with bodies yet. @param what  "edmill audit"
-/// @throws InputError when the case has bodies
-void require_no_bodies(const CaseSpec& spec, const std::string& what);
-
 /// Reads and checks a case file.
 /// @param overrides  "section.key=value", applied over the file; a value that is not TOML is taken as text
 /// @throws InputError with every problem of the file: file, line, key, found, expected

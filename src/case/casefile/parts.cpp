@@ -677,14 +677,6 @@ void require_bodies_inside(Entries<BodyTable>& entries, const CaseSpec& spec) {
   }
 }
 
-void require_no_bodies(const CaseSpec& spec, const std::string& what) {
-  if (!spec.bodies.empty())
-    throw InputError(
-        fmt::format("{}: found {}, expected a case without bodies in the vessel: {} does not "
-                    "treat contacts with them yet",
-                    spec.bodies.front().where, spec.bodies.front().name, what));
-}
-
 std::vector<Joint<Quantity>> joints_from_ground(const Solid& body, const CaseSpec& spec) {
   auto joints = body.on_vessel ? joints_of(spec.mill) : std::vector<Joint<Quantity>>{};
   joints.insert(joints.end(), body.joints.begin(), body.joints.end());

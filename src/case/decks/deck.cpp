@@ -42,9 +42,11 @@ struct DeckCase {
   std::vector<model::BallState<double>> states;  ///< inertial
   SoftLaw of_balls, of_walls;
   model::Mill<double> mill;
-  model::Joints<double> joints;  ///< of the vessel
-  double begin;                  ///< time of the states [s]
-  model::AnyPose<double> pose;   ///< of the vessel at the begin
+  model::Joints<double> joints;                  ///< of the vessel
+  std::vector<model::Joints<double>> of_bodies;  ///< from the ground
+  std::vector<bool> on_vessel;                   ///< by body
+  double begin;                                  ///< time of the states [s]
+  model::AnyPose<double> pose;                   ///< of the vessel at the begin
   /// Values of the templates' fields, by name.
   fmt::dynamic_format_arg_store<fmt::format_context> fields = {};
 
@@ -53,6 +55,7 @@ struct DeckCase {
     fields.push_back(fmt::arg(name, value));
     if constexpr (sizeof...(more) > 0) add(more...);
   }
+  Instant<double> at_begin() const { return DriveClock<double>(mill.motion.period()).at(begin); }
   std::string filled(std::string_view text) const { return fmt::vformat(text, fields); }
 
   /// Density of a ball as given in the case: computed from the mass, without its rounding.
@@ -103,6 +106,10 @@ void refuse_what_no_code_has(const casefile::CaseSpec& spec, const casefile::Ini
   if (!problems.empty()) throw InputError(problems);
 }
 
+model::Joints<double> in_double(const model::Joints<casefile::Quantity>& joints) {
+  return model::converted_joints<double>(joints, [](const casefile::Quantity& q) { return q.to<double>(); });
+}
+
 /// Gravity as a command of LAMMPS and LIGGGHTS; empty where there is none.
 std::string weight_of(const Vec3<double>& g) {
   const double size = norm<double>(g);
@@ -110,6 +117,8 @@ std::string weight_of(const Vec3<double>& g) {
   return fmt::format("fix weight all gravity {} vector {} {} {}\n", size, g[0] / size, g[1] / size,
                      g[2] / size);
 }
+
+bool moves(const model::Joint<double>& joint) { return joint.speed != 0 || !joint.swings.empty(); }
 
 /// Unit; zero for a joint without one.
 std::array<double, 3> axis_of(const model::Joint<double>& joint) {
@@ -142,20 +151,26 @@ using FormulaVector = Vec3<Formula>;
 
 FormulaVector numbers(const std::array<double, 3>& x) { return {x[0], x[1], x[2]}; }
 
-/// [0.003 * sin(62.8 * t + 0.5)]: the displacement of all translations along each axis at the time `t`, as
-/// LAMMPS and Python write formulas. @pre c.translates()
-std::array<Formula, 3> displacement_formulas(const DeckCase& c, const std::string& time) {
+/// [0.003 * sin(62.8 * t + 0.5)]: what speed and swings of a joint add up to at the time `t`, times a factor.
+Formula moved_formula(const model::Joint<double>& joint, double factor, const std::string& time) {
+  Formula sum;
+  if (joint.speed != 0) sum += fmt::format("{}*{}", factor * joint.speed, time);
+  for (const auto& s : joint.swings)
+    if (s.amplitude != 0)
+      sum += fmt::format("{}*sin({}*{}+{})", factor * s.amplitude, turn * s.frequency, time, turn * s.phase);
+  return sum;
+}
+
+/// The displacement of all translations along each axis at the time `t`, as LAMMPS and Python write formulas.
+/// @pre none of the joints turns
+std::array<Formula, 3> displacement_formulas(const std::vector<model::Joint<double>>& joints,
+                                             const std::string& time) {
   std::array<Formula, 3> sums;
-  for (const auto& joint : c.joints.list) {
+  for (const auto& joint : joints) {
     const auto axis = axis_of(joint);
     for (std::size_t k = 0; k < 3; ++k) {
       if (joint.shift[k] != 0) sums[k] += fmt::format("{}", joint.shift[k]);
-      if (axis[k] == 0) continue;
-      if (joint.speed != 0) sums[k] += fmt::format("{}*{}", axis[k] * joint.speed, time);
-      for (const auto& s : joint.swings)
-        if (s.amplitude != 0)
-          sums[k] += fmt::format("{}*sin({}*{}+{})", axis[k] * s.amplitude, turn * s.frequency, time,
-                                 turn * s.phase);
+      if (axis[k] != 0) sums[k] += moved_formula(joint, axis[k], time);
     }
   }
   for (auto& sum : sums)
@@ -163,10 +178,10 @@ std::array<Formula, 3> displacement_formulas(const DeckCase& c, const std::strin
   return sums;
 }
 
-/// Needs `import numpy as np`.
-std::string pose_in_python(DeckCase& c) {
+/// A chain of joints as rows of a list in Python.
+std::string joints_in_python(const model::Joints<double>& chain) {
   std::string joints;
-  for (const auto& j : c.joints.list) {
+  for (const auto& j : chain.list) {
     std::string swings;
     for (const auto& s : j.swings)
       swings += fmt::format("({}, {}, {}), ", j.rotates ? turn * s.amplitude : s.amplitude,
@@ -175,7 +190,12 @@ std::string pose_in_python(DeckCase& c) {
                           j.rotates ? "True" : "False", fmt::join(axis_of(j), ", "), fmt::join(j.shift, ", "),
                           turn * j.angle, j.rotates ? turn * j.speed : j.speed, swings);
   }
-  c.add("joints", joints);
+  return joints;
+}
+
+/// Needs `import numpy as np`.
+std::string pose_in_python(DeckCase& c) {
+  c.add("joints", joints_in_python(c.joints));
   return c.filled(pose_in);
 }
 
@@ -207,6 +227,15 @@ void tell_facets(DeckCase& c, const std::vector<WallMesh>& meshes, Deck& deck) {
                     100 * (1 / std::cos(numerics::pi<double>() / facets) - 1)));
 }
 
+/// Notes for bodies that are triangles.
+void tell_bodies(const DeckCase& c, Deck& deck) {
+  if (!c.mill.bodies.empty())
+    deck.notes.push_back(
+        "bodies in the vessel are triangles; round parts are prisms of 48 facets within them, 0.2 % narrower "
+        "in "
+        "the middle of a facet");
+}
+
 // LAMMPS of 2021 and later: exact regions. Regions turn about one axis at most, so a vessel that turns is
 // simulated in its own frame, with fictitious forces and torques computed in Python.
 
@@ -226,6 +255,71 @@ std::string region_of(const DeckCase& c, const std::string& moves) {
                   c.file));
 }
 
+/// A body as a region of LAMMPS, and the fix of its contacts. Regions have sharp edges, and turn about one
+/// axis before they are shifted.
+std::string body_of(const DeckCase& c, std::size_t k, const std::string& contact) {
+  const auto& body = c.mill.bodies[k];
+  const auto refuse = [&](const char* found, const char* expected) {
+    return InputError(
+        fmt::format("{}: found {}, {}, expected {}, which a region of LAMMPS can be: LIGGGHTS and "
+                    "YADE have bodies as triangles",
+                    c.file, body.name.label, found, expected));
+  };
+  std::vector<model::Joint<double>> before;  // the rotation
+  Formula angle;
+  std::array<double, 3> axis{}, place{};
+  auto joints = c.of_bodies[k].list;
+  if (!c.translates()) {  // in the vessel's frame
+    const auto& vessel = c.joints.list;
+    if (c.on_vessel[k]) joints.erase(joints.begin(), joints.begin() + std::ssize(vessel));
+    for (std::size_t j = 0; j < vessel.size() && !c.on_vessel[k]; ++j) {
+      auto back = vessel[j];
+      back.angle = -back.angle;
+      for (auto& part : back.shift) part = -part;
+      joints.insert(joints.begin(), back);
+    }
+  }
+  for (const auto& joint : joints) {
+    if (joint.rotates) {
+      const auto own = axis_of(joint);
+      if (axis == std::array<double, 3>{}) axis = own;
+      const Vec3<double> off{place[0], place[1], place[2]}, about{own[0], own[1], own[2]};
+      if (own != axis || norm<double>(cross<double>(off, about)) > 1e-15)
+        throw refuse("whose joints turn about several axes", "one that turns about one axis");
+      angle += Formula(turn * joint.angle) + moved_formula(joint, turn, "v_t");
+    } else if (axis == std::array<double, 3>{}) {
+      before.push_back(joint);
+    } else if (moves(joint)) {
+      throw refuse("which slides on what turns", "one that slides before it turns");
+    } else {
+      for (std::size_t i = 0; i < 3; ++i) place[i] += joint.shift[i];
+    }
+  }
+  const auto& [half, rounding] = std::pair(body.shape.half(), body.shape.rounding());
+  const bool sphere = half == Vec3<double>::Zero();
+  if (rounding > 0 && !sphere) throw refuse("with rounded edges", "sharp edges or a sphere");
+  std::string text, region;
+  if (sphere)
+    region = fmt::format("sphere {} {} {} {}", place[0], place[1], place[2], rounding);
+  else if (body.shape.is_round())
+    region = fmt::format("cylinder y {} {} {} {} {}", place[0], place[2], half[0], place[1] - half[1],
+                         place[1] + half[1]);
+  else
+    region = fmt::format("block {} {} {} {} {} {}", place[0] - half[0], place[0] + half[0],
+                         place[1] - half[1], place[1] + half[1], place[2] - half[2], place[2] + half[2]);
+  const auto shift = displacement_formulas(before, "v_t");
+  for (std::size_t i = 0; i < 3; ++i)
+    text += fmt::format("variable shift{}{} equal {}\n", k, "xyz"[i], shift[i].text);
+  region += fmt::format(" side out units box move v_shift{0}x v_shift{0}y v_shift{0}z", k);
+  if (!angle.text.empty()) {
+    text += fmt::format("variable angle{} equal {}\n", k, angle.text);
+    region += fmt::format(" rotate v_angle{} 0 0 0 {}", k, fmt::join(axis, " "));
+  }
+  return text +
+         fmt::format("region body{0} {1}\nfix body{0} all wall/gran/region granular {2} region body{0}\n", k,
+                     region, contact);
+}
+
 /// The parameter of LAMMPS's `damping tsuji` for a law.
 double tsuji_of(const DeckCase& c, const SoftLaw& law) {
   if (law.damping > 1.2728)
@@ -236,30 +330,40 @@ double tsuji_of(const DeckCase& c, const SoftLaw& law) {
   return lammps_restitution(law.damping);
 }
 
-/// Transforms the states to the vessel frame.
-/// @return the commands for fictitious forces and torques. They use the velocity at the step, not LAMMPS's
-/// velocity half a step before.
-std::string put_in_vessel(DeckCase& c) {
+void put_in_vessel(DeckCase& c) {
   const auto& motion = c.mill.motion;
   const Vec3<double> turning = motion.angular_velocity(c.pose);
-  std::string masses, radii;
-  for (std::size_t k = 0; k < c.balls.size(); ++k) {
-    auto& [x, v, w] = c.states[k];
+  for (auto& [x, v, w] : c.states) {
     const auto seen = motion.to_vessel_frame(c.pose, x, v);
-    c.states[k] = {seen.position, seen.velocity, motion.in_axes(c.pose, w - turning)};
-    masses += fmt::format("{}, ", c.balls[k].mass);
-    radii += fmt::format("{}, ", c.balls[k].radius);
+    x = seen.position, v = seen.velocity, w = motion.in_axes(c.pose, w - turning);
+  }
+}
+
+/// @return the commands for fictitious forces and torques. They use the velocity at the step, not LAMMPS's
+/// velocity half a step before.
+std::string fictitious_forces(DeckCase& c) {
+  std::string masses, radii;
+  for (const auto& ball : c.balls) {
+    masses += fmt::format("{}, ", ball.mass);
+    radii += fmt::format("{}, ", ball.radius);
   }
   c.add("pose", pose_in_python(c), "masses", masses, "radii", radii);
   return c.filled(lammps_frame_in);
 }
 
 Deck lammps_deck(DeckCase& c) {
-  const bool in_vessel = !c.translates();
-  c.add("forces", in_vessel ? put_in_vessel(c) : "");
+  const bool in_vessel = !c.translates(), at_rest = std::ranges::none_of(c.joints.list, moves);
+  for (std::size_t k = 0; k < c.mill.bodies.size(); ++k)
+    if (in_vessel && !at_rest && !c.on_vessel[k])
+      throw InputError(
+          fmt::format("{}: found {} on the ground in a vessel that turns, expected a body on the "
+                      "vessel or a vessel that does not turn: the deck computes in the vessel's frame",
+                      c.file, c.mill.bodies[k].name.label));
+  if (in_vessel) put_in_vessel(c);
+  c.add("forces", in_vessel && !at_rest ? fictitious_forces(c) : "");
   std::string vessel;
   if (!in_vessel) {
-    const auto formulas = displacement_formulas(c, "v_t");
+    const auto formulas = displacement_formulas(c.joints.list, "v_t");
     vessel = fmt::format("variable t equal {}+step*dt\n", c.begin);
     for (std::size_t k = 0; k < 3; ++k)
       vessel += fmt::format("variable move{} equal {}\n", "xyz"[k], formulas[k].text);
@@ -268,10 +372,20 @@ Deck lammps_deck(DeckCase& c) {
   c.add("frame", in_vessel ? "vessel" : "laboratory", "balls", atoms_of(c, "omega {} {} {}", true));
   c.add("tsuji", tsuji_of(c, c.of_balls));
   c.add("vessel", vessel + region_of(c, moves ? " move v_movex v_movey v_movez" : ""));
-  c.add("wall_tsuji", tsuji_of(c, c.of_walls), "weight", in_vessel ? "" : weight_of(c.mill.gravity));
+  c.add("wall_tsuji", tsuji_of(c, c.of_walls), "weight",
+        !in_vessel ? weight_of(c.mill.gravity)
+        : at_rest  ? weight_of(c.mill.motion.in_axes(c.pose, c.mill.gravity))
+                   : "");
+  std::string bodies;
+  if (in_vessel && !c.mill.bodies.empty()) bodies = fmt::format("variable t equal {}+step*dt\n", c.begin);
+  const auto contact = c.filled(
+      "hertz/material {young:.12g} {wall_tsuji:.9g} {poisson:g} tangential mindlin NULL 0.0 "
+      "{wall_friction:.12g} damping tsuji limit_damping");
+  for (std::size_t k = 0; k < c.mill.bodies.size(); ++k) bodies += body_of(c, k, contact);
+  c.add("bodies", bodies);
   Deck deck{
       {{c.options.name + ".in", c.filled(lammps_in)}}, fmt::format("lmp -in {}.in", c.options.name), {}};
-  if (in_vessel)
+  if (in_vessel && !at_rest)
     deck.notes = {
         "the vessel turns, which LAMMPS's regions do about one axis at most: the deck computes in the "
         "vessel's frame, with fictitious forces by python3-lammps"};
@@ -282,14 +396,12 @@ Deck lammps_deck(DeckCase& c) {
 // origin, and a translation by the remaining velocity. Their formulas are variables of LIGGGHTS, built joint
 // by joint.
 
-/// Orientation, angular velocity, and place and velocity of the vessel as variables of LIGGGHTS.
+/// Orientation, angular velocity, and place and velocity of the vessel or a body as variables of LIGGGHTS.
 class Chain {
  public:
-  explicit Chain(const DeckCase& c) {
-    // During a step the commands evaluate their rates with the step number of its end. The rates of its
-    // middle keep the walls in place.
-    lines = fmt::format("variable t equal {}+(step-0.5)*dt\n", c.begin);
-    for (const auto& joint : c.joints.list) joint.rotates ? add_rotation(joint) : add_translation(joint);
+  /// @param prefix  of the names of its variables
+  Chain(const model::Joints<double>& joints, std::string prefix) : prefix_(std::move(prefix)) {
+    for (const auto& joint : joints.list) joint.rotates ? add_rotation(joint) : add_translation(joint);
     // The velocity that the material point at the origin has.
     for (int i = 0; i < 3; ++i) velocity[i] = named(velocity[i] - named(spin.cross(centre_))[i]);
     // A rotation acts on the position at the beginning of a step, before the translation.
@@ -309,7 +421,7 @@ class Chain {
     const auto& text = formula.text;
     const bool is_variable = text.starts_with("v_") && text.find_first_of("*+(") == std::string::npos;
     if (text.empty() || text == "1" || is_variable) return formula;
-    const auto name = fmt::format("q{}", count_++);
+    const auto name = fmt::format("{}q{}", prefix_, count_++);
     lines += fmt::format("variable {} equal {}\n", name, text);
     return "v_" + name;
   }
@@ -358,6 +470,7 @@ class Chain {
     }
   }
 
+  std::string prefix_;
   int count_ = 0;
   Matrix orientation_ = Matrix::Identity();
   FormulaVector centre_;
@@ -390,20 +503,36 @@ Deck liggghts_deck(DeckCase& c) {
                     "flat walls or a cylinder, which LIGGGHTS can have as triangles",
                     c.file));
   Deck deck{{{}}, fmt::format("liggghts -in {}.in", c.options.name), {}};
-  std::string walls, names;
-  for (const auto& mesh : meshes) {
+  // During a step the commands evaluate their rates with the step number of its end. The rates of its middle
+  // keep the walls in place.
+  std::string rates = fmt::format("variable t equal {}+(step-0.5)*dt\n", c.begin), walls, names, moves;
+  const auto put = [&](const WallMesh& mesh, const auto& motion, const auto& pose) {
     const auto file = fmt::format("{}_{}.stl", c.options.name, mesh.name);
-    deck.files.push_back({file, stl_text({&mesh, 1}, c.mill.motion, c.pose)});
+    deck.files.push_back({file, stl_text({&mesh, 1}, motion, pose)});
     walls +=
         fmt::format("fix {0} all mesh/surface file {1} type 2 curvature {2:.6g} curvature_tolerant yes\n",
                     mesh.name, file, mesh.smooth_angle > 0 ? mesh.smooth_angle : 0.26);
     names += " " + mesh.name;
+  };
+  const auto move = [&](const model::Joints<double>& joints, const std::string& prefix,
+                        const std::vector<WallMesh>& own) {
+    const Chain chain(joints, prefix);
+    rates += chain.lines;
+    moves += moves_of(chain, own);
+  };
+  for (const auto& mesh : meshes) put(mesh, c.mill.motion, c.pose);
+  move(c.joints, "", meshes);
+  for (std::size_t k = 0; k < c.mill.bodies.size(); ++k) {
+    const auto& body = c.mill.bodies[k];
+    const auto mesh = mesh_of(body.shape, fmt::format("body{}", k));
+    put(mesh, body.motion, body.motion.pose(c.at_begin()));
+    move(c.of_bodies[k], mesh.name, {mesh});
   }
-  const Chain chain(c);
   tell_facets(c, meshes, deck);
-  c.add("balls", atoms_of(c, "omegax {} omegay {} omegaz {}", false), "rates", chain.lines, "walls", walls,
-        "mesh_count", meshes.size(), "meshes", names);
-  c.add("moves", moves_of(chain, meshes), "weight", weight_of(c.mill.gravity));
+  tell_bodies(c, deck);
+  c.add("balls", atoms_of(c, "omegax {} omegay {} omegaz {}", false), "rates", rates, "walls", walls,
+        "mesh_count", meshes.size() + c.mill.bodies.size(), "meshes", names);
+  c.add("moves", moves, "weight", weight_of(c.mill.gravity));
   deck.files.front() = {c.options.name + ".in", c.filled(liggghts_in)};
   return deck;
 }
@@ -411,10 +540,9 @@ Deck liggghts_deck(DeckCase& c) {
 // YADE 2023: infinite planes if the vessel only translates, otherwise triangles that turn about the point of
 // the vessel that is at rest.
 
-/// True if a point of the vessel is at rest at all sampled times: its centre moves perpendicularly to its
-/// angular velocity.
-bool turns_about_a_point(const DeckCase& c) {
-  const auto& motion = c.mill.motion;
+/// True if a point of the vessel or body is at rest at all sampled times: its centre moves perpendicularly to
+/// its angular velocity.
+bool turns_about_a_point(const DeckCase& c, const auto& motion) {
   const DriveClock<double> clock(motion.period());
   for (int k = 0; k < 64; ++k) {
     const auto pose = motion.pose(clock.at(c.begin + c.joints.period * k / 64));
@@ -430,9 +558,15 @@ bool turns_about_a_point(const DeckCase& c) {
 
 Deck yade_deck(DeckCase& c) {
   const auto* box = c.mill.vessel.get_if<model::BoxVessel<double>>();
-  const bool planes = box && c.translates();
+  const bool planes = box && c.translates() && c.mill.bodies.empty();
   const auto meshes = meshes_of(c.mill.vessel, c.options.facets);
-  if (!planes && (meshes.empty() || !turns_about_a_point(c)))
+  for (const auto& body : c.mill.bodies)
+    if (!turns_about_a_point(c, body.motion))
+      throw InputError(
+          fmt::format("{}: found {}, which has no point at rest, expected a body that turns about "
+                      "one, which YADE's engines move",
+                      c.file, body.name.label));
+  if (!planes && (meshes.empty() || !turns_about_a_point(c, c.mill.motion)))
     throw InputError(fmt::format(
         "{}: found a {}, expected a box that translates, or flat walls or a cylinder about a point at "
         "rest, which YADE's engines move",
@@ -446,14 +580,23 @@ Deck yade_deck(DeckCase& c) {
   }
   Deck deck{{{}}, fmt::format("yade -n -x -j1 {}.py", c.options.name), {}};
   tell_facets(c, meshes, deck);
+  tell_bodies(c, deck);
   c.add("balls", balls);
   if (planes) {
-    const auto place = displacement_formulas(c, "t");
+    const auto place = displacement_formulas(c.joints.list, "t");
     c.add("half", fmt::format("{}", fmt::join(box->half, ", ")), "place",
           fmt::format("{}, {}, {}", place[0].text, place[1].text, place[2].text));
     c.add("walls", c.filled(yade_planes_in));
   } else {
-    c.add("pose", pose_in_python(c));
+    std::string solids;
+    for (std::size_t k = 0; k < c.mill.bodies.size(); ++k) {
+      const auto& body = c.mill.bodies[k];
+      const auto mesh = mesh_of(body.shape, fmt::format("body{}", k));
+      const auto file = fmt::format("{}_{}.stl", c.options.name, mesh.name);
+      solids += fmt::format("    ('{}', [\n{}    ]),\n", file, joints_in_python(c.of_bodies[k]));
+      deck.files.push_back({file, stl_text({&mesh, 1}, body.motion, body.motion.pose(c.at_begin()))});
+    }
+    c.add("pose", pose_in_python(c), "solids", solids);
     c.add("walls", c.filled(yade_triangles_in));
     deck.files.push_back({c.options.name + "_walls.stl", stl_text(meshes, c.mill.motion, c.pose)});
   }
@@ -464,7 +607,6 @@ Deck yade_deck(DeckCase& c) {
 }  // namespace
 
 Deck make_deck(const casefile::CaseSpec& spec, const DeckOptions& options) {
-  casefile::require_no_bodies(spec, "edmill export");
   const auto built = casefile::build_case<double>(spec);
   refuse_what_no_code_has(spec, built);
   const auto& mill = built.the_case.mill;
@@ -476,19 +618,23 @@ Deck make_deck(const casefile::CaseSpec& spec, const DeckOptions& options) {
                                                : 0;
   const double interval = options.frame_interval > 0 ? options.frame_interval : options.contact_time / 5;
   const auto& largest = *std::ranges::max_element(balls, {}, &model::BallProperties<double>::radius);
-  DeckCase c{
-      .file = spec.file,
-      .options = options,
-      .balls = balls,
-      .states = built.states,
-      .of_balls = soft_law(mill.ball_ball, spec.file, options),
-      .of_walls = soft_law(mill.ball_wall, spec.file, options),
-      .mill = mill,
-      .joints = model::converted_joints<double>(
-          model::Joints<casefile::Quantity>{casefile::joints_of(spec.mill), casefile::period_of(spec.mill)},
-          [](const casefile::Quantity& q) { return q.to<double>(); }),
-      .begin = begin,
-      .pose = mill.motion.pose(clock.at(begin))};
+  DeckCase c{.file = spec.file,
+             .options = options,
+             .balls = balls,
+             .states = built.states,
+             .of_balls = soft_law(mill.ball_ball, spec.file, options),
+             .of_walls = soft_law(mill.ball_wall, spec.file, options),
+             .mill = mill,
+             .joints = in_double({casefile::joints_of(spec.mill), casefile::period_of(spec.mill)}),
+             .of_bodies = {},
+             .on_vessel = {},
+             .begin = begin,
+             .pose = mill.motion.pose(clock.at(begin))};
+  for (const auto& body : spec.bodies) {
+    c.of_bodies.push_back(
+        in_double({casefile::joints_from_ground(body, spec), casefile::period_of(spec.mill)}));
+    c.on_vessel.push_back(body.on_vessel);
+  }
   if (!(duration > 0))
     throw InputError(spec.file + ": found no run.end_time and no --duration, expected one of them");
   // A ball at an edge between two triangles of YADE touches both, so that they must be few.

@@ -58,6 +58,19 @@ std::vector<WallMesh> meshes_of(const model::AnyVessel<double>& vessel, int face
   return meshes;
 }
 
+WallMesh mesh_of(const model::RoundedBody<double>& body, const std::string& name) {
+  const auto mesh = model::mesh_of(body);
+  // Angles between the facets that model::mesh_of makes, and a little more.
+  WallMesh result{name, {}, body.rounding() > 0 ? 23.0 : body.is_round() ? 7.6 : 0};
+  const auto point = [&](int k) { return mesh.points[static_cast<std::size_t>(k)]; };
+  for (const auto& face : mesh.faces)
+    for (std::size_t k = 2; k < face.size(); ++k) {
+      const Triangle t{point(face[0]), point(face[k - 1]), point(face[k])};
+      if (norm<double>(cross<double>(t[1] - t[0], t[2] - t[0])) > 0) result.triangles.push_back(t);
+    }
+  return result;
+}
+
 Vec3<double> facet_normal(const model::Tube<double>& tube, int facets, const Vec3<double>& place) {
   const auto p = tube.frame.inside(place);
   const double apart = 2 * numerics::pi<double>() / facets,

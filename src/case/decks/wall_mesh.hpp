@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "model/bodies/rounded_body.hpp"
 #include "model/motion.hpp"
 #include "model/vessel.hpp"
 
@@ -23,6 +24,9 @@ struct WallMesh {
 /// A round wall becomes a prism around it, whose facets touch it along their middles, one of them on the
 /// vessel's x axis. Empty for a vessel that has none.
 std::vector<WallMesh> meshes_of(const model::AnyVessel<double>& vessel, int facets);
+
+/// The surface of a body, whose round parts are prisms within it.
+WallMesh mesh_of(const model::RoundedBody<double>& body, const std::string& name);
 
 /// Unit normal, out of the vessel, of the facet of that prism that is nearest to a position.
 Vec3<double> facet_normal(const model::Tube<double>& tube, int facets, const Vec3<double>& place);

@@ -121,8 +121,6 @@ class Simulation {
   Impact<Real> collide(const Event<Real>& event);
   Impact<Real> collide_with_wall(const Event<Real>& event);
   Impact<Real> collide_pair(const Event<Real>& event);
-  [[gnu::noinline]] void touch_body(const model::Body<Real>& body, const Vec3<Real>& position,
-                                    const Real& radius, Impact<Real>& impact) const;
   void update_pose();
   void raise_top_speed(int ball);
   bool friction_rests(int ball, const Real& flight_time, const model::ContactLaw<Real>& law);

@@ -474,17 +474,6 @@ void Simulation<Real>::update_pose() {
 
 /// The contact of a ball with a body: normal, overlap, and velocity of the body's surface.
 template <class Real>
-void Simulation<Real>::touch_body(const model::Body<Real>& body, const Vec3<Real>& position,
-                                  const Real& radius, Impact<Real>& impact) const {
-  const auto pose = body.motion.pose(now_);
-  const auto place = body.motion.position_in_vessel(pose, position);
-  const auto room = body.shape.inset(radius);
-  impact.normal = body.motion.direction_to_inertial(pose, room.normal(0, place));
-  impact.overlap = room.overlap(0, place);
-  impact.wall_velocity = body.motion.wall_velocity(pose, position - impact.normal * radius);
-}
-
-template <class Real>
 Impact<Real> Simulation<Real>::collide_with_wall(const Event<Real>& event) {
   const int ball = event.ball, wall = event.partner;
   find_neighbours(ball, near_);
@@ -502,7 +491,8 @@ Impact<Real> Simulation<Real>::collide_with_wall(const Event<Real>& event) {
   Impact<Real> impact{};
   const auto* body = mill_.body_of(wall);
   if (body) [[unlikely]] {
-    touch_body(*body, flight.position, radius, impact);
+    const auto touch = model::touch_of(mill_, wall, radius, now_, flight.position);
+    impact.normal = touch.normal, impact.overlap = touch.overlap, impact.wall_velocity = touch.wall_velocity;
   } else {
     model::with_parts<Real>(
         mill_.motion, mill_.vessel, [&]<class M, class V>(const M& motion, const V& vessel) {

@@ -130,6 +130,40 @@ Mill<To> mill_cast(const Mill<From>& m) {
           .bodies = std::move(bodies)};
 }
 
+/// Calls f(motion, room, number) with what a wall belongs to and its number there, the vessel or a body,
+/// where the room is that of the centre of a ball.
+template <class Real, class F>
+decltype(auto) at_wall(const Mill<Real>& mill, int wall, const Real& radius, F&& f) {
+  if (const auto* body = mill.body_of(wall)) return f(body->motion, body->shape.inset(radius), 0);
+  return f(mill.motion, mill.vessel.inset(radius), wall);
+}
+
+/// A ball at a wall, inertial.
+template <class Real>
+struct WallTouch {
+  Vec3<Real> normal;         ///< unit, from the wall to the ball
+  Vec3<Real> wall_velocity;  ///< at the point of contact [m/s]
+  Real overlap;              ///< [m]; negative for a gap
+};
+/// @param position  of the ball's centre
+template <class Real>
+WallTouch<Real> touch_of(const Mill<Real>& mill, int wall, const Real& radius, const Instant<Real>& time,
+                         const Vec3<Real>& position) {
+  return at_wall(mill, wall, radius, [&](const auto& motion, const auto& room, int number) {
+    const auto pose = motion.pose(time);
+    const auto place = motion.position_in_vessel(pose, position);
+    const Vec3<Real> normal = motion.direction_to_inertial(pose, room.normal(number, place));
+    WallTouch<Real> touch{normal, motion.wall_velocity(pose, Vec3<Real>(position - normal * radius)),
+                          room.overlap(number, place)};
+    if (const auto* pistons = mill.vessel.pistons(); pistons && !mill.body_of(wall)) {
+      const auto moved = pistons->of_wall(number, time);
+      touch.overlap += moved.value;
+      touch.wall_velocity += normal * moved.rate;
+    }
+    return touch;
+  });
+}
+
 /// Calls f(motion, vessel). In double, a SPEX with a cylinder is passed with its concrete types, so that f is
 /// compiled for them; everything else is passed as it is given.
 template <class Real, class F>

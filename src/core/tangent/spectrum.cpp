@@ -167,15 +167,8 @@ void TangentMap::with_wall(const ImpactAt& impact, int wall, const Struck& struc
     const double later = delay(impact.normal, direction.position, impact.approach_speed);
     Nearby body(struck, direction, mill_->gravity, later);
     const Instant<Dual> time{impact.time.period, Dual(impact.time.offset, later)};
-    const auto pose = mill.motion.pose(time);
-    const auto place = mill.motion.position_in_vessel(pose, body.position);
-    const Vec3<Dual> normal =
-        mill.motion.direction_to_inertial(pose, mill.vessel.inset(ball.radius).normal(wall, place));
-    Vec3<Dual> wall_velocity =
-        mill.motion.wall_velocity(pose, Vec3<Dual>(body.position - normal * ball.radius));
-    if (const auto* pistons = mill.vessel.pistons())
-      wall_velocity += normal * pistons->of_wall(wall, time).rate;
-    dynamics::collide_with_wall<Dual>(normal, ball, wall_velocity, body.velocity, body.spin, law,
+    const auto touch = model::touch_of(mill, wall, ball.radius, time, body.position);
+    dynamics::collide_with_wall<Dual>(touch.normal, ball, touch.wall_velocity, body.velocity, body.spin, law,
                                       impact.in_stall);
     direction = body.back(struck, mill_->gravity, later);
   }

@@ -139,10 +139,10 @@ class SingleContacts {
     auto measured = measured_by(c, gravity_, bodies, [&](double time, const BallState& i, const BallState&) {
       const auto pose = vessel_.at(time);
       const Vector n = vessel_.normal(pose, ball, c.partner, i.position), arm = n * -b.radius;
-      return Surfaces(
-          n, i.velocity + cross<double>(i.spin, arm) - vessel_.wall_velocity(pose, i.position + arm));
+      return Surfaces(n, i.velocity + cross<double>(i.spin, arm) -
+                             vessel_.wall_velocity(pose, c.partner, i.position + arm));
     });
-    measured.wall_speed = dot<double>(vessel_.wall_velocity(middle, c.before.position),
+    measured.wall_speed = dot<double>(vessel_.wall_velocity(middle, c.partner, c.before.position),
                                       vessel_.normal(middle, ball, c.partner, c.before.position));
     const double change = (1 + measured.law_restitution) * measured.wall_speed;
     if (measured.restitution && std::abs(measured.wall_speed) > 0.3 * measured.approach)

@@ -1,3 +1,4 @@
+#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -321,16 +322,66 @@ std::vector<int> ContactFinder::walls_met(const Stretch& s) const {
   return met;
 }
 
-/// Energy that a ball loses along a sequence of states [J].
-double ContactFinder::balance(std::size_t ball, const States& states) const {
+/// Energy relative to a frame that a ball loses along a sequence of states [J].
+double ContactFinder::balance(std::size_t frame, std::size_t ball, const States& states) const {
   auto pose = vessel_.at(states.front().first);
-  double lost = vessel_.energy(pose, ball, states.front().second);
+  double lost = vessel_.energy(pose, frame, ball, states.front().second);
   for (std::size_t k = 1; k < states.size(); ++k) {
     const auto next = vessel_.at(states[k].first);
-    lost += vessel_.work(pose, states[k - 1].second, next, states[k].second, ball, frames_.gravity);
+    lost += vessel_.work(pose, states[k - 1].second, next, states[k].second, frame, ball, frames_.gravity);
     pose = next;
   }
-  return lost - vessel_.energy(pose, ball, states.back().second);
+  return lost - vessel_.energy(pose, frame, ball, states.back().second);
+}
+
+/// The energy that balls lose relative to what they touch [J]. Where a ball touches walls that move
+/// differently, it is the energy relative to the vessel, with the work of the bodies: the impulse is divided
+/// among the normals.
+double ContactFinder::dose_of(const std::vector<Stretch>& group) const {
+  std::vector<std::vector<int>> met(group.size());
+  std::vector<std::size_t> touched;
+  for (std::size_t k = 0; k < group.size() && vessel_.has_bodies(); ++k) {
+    met[k] = walls_met(group[k]);
+    std::ranges::sort(met[k]);
+    met[k].erase(std::unique(met[k].begin(), met[k].end()), met[k].end());
+    for (const int wall : met[k]) touched.push_back(vessel_.frame_of(wall));
+  }
+  const bool alike = std::ranges::count(touched, touched.empty() ? 0 : touched[0]) == std::ssize(touched);
+  double dose = 0;
+  for (std::size_t k = 0; k < group.size(); ++k) {
+    const auto& s = group[k];
+    States states;
+    for (std::size_t f = s.first; f <= s.last; ++f)
+      states.emplace_back(frame(f).time, frame(f).balls[s.ball]);
+    dose += balance(alike && !touched.empty() ? touched[0] : 0, s.ball, states);
+    if (!alike) dose += work_of_bodies(s, met[k]);
+  }
+  return dose;
+}
+
+/// Work of bodies on a ball, relative to the vessel, by the part of its impulse along their normals [J].
+double ContactFinder::work_of_bodies(const Stretch& s, const std::vector<int>& walls) const {
+  if (walls.empty()) return 0;
+  double work = 0;
+  for (std::size_t f = s.first; f < s.last; ++f) {
+    const auto &from = frame(f), &to = frame(f + 1);
+    const auto& ball = to.balls[s.ball];
+    const auto pose = vessel_.at(to.time);
+    Eigen::MatrixXd normals(3, std::ssize(walls));
+    for (std::size_t w = 0; w < walls.size(); ++w)
+      normals.col(static_cast<Eigen::Index>(w)) = vessel_.normal(pose, s.ball, walls[w], ball.position);
+    const Vector push =
+        (ball.velocity - from.balls[s.ball].velocity - frames_.gravity * (to.time - from.time)) *
+        vessel_.ball(s.ball).mass;
+    const Eigen::VectorXd parts = normals.colPivHouseholderQr().solve(push);
+    for (std::size_t w = 0; w < walls.size(); ++w) {
+      const Vector n = normals.col(static_cast<Eigen::Index>(w));
+      const Vector faster = vessel_.wall_velocity(pose, walls[w], ball.position) -
+                            vessel_.wall_velocity(pose, 0, ball.position);
+      work += std::max(0.0, parts[static_cast<Eigen::Index>(w)]) * dot<double>(n, faster);
+    }
+  }
+  return work;
 }
 
 bool ContactFinder::make_single(const std::vector<Stretch>& group, int wall, Contact& contact) const {
@@ -364,7 +415,7 @@ bool ContactFinder::make_single(const std::vector<Stretch>& group, int wall, Con
       if (frame(f).time > contact.begin && frame(f).time < contact.end)
         states.emplace_back(frame(f).time, frame(f).balls[ball]);
     states.emplace_back(contact.end, after);
-    contact.dose += balance(ball, states);
+    contact.dose += balance(wall >= 0 ? vessel_.frame_of(wall) : 0, ball, states);
     (k == 0 ? contact.before : contact.partner_before) = before;
     (k == 0 ? contact.after : contact.partner_after) = after;
   }
@@ -378,11 +429,8 @@ void ContactFinder::report(std::vector<Stretch> group) {
   for (const auto& s : group) {
     first = std::min(first, s.first);
     last = std::max(last, s.last);
-    States states;
-    for (std::size_t f = s.first; f <= s.last; ++f)
-      states.emplace_back(frame(f).time, frame(f).balls[s.ball]);
-    contact.dose += balance(s.ball, states);
   }
+  contact.dose = dose_of(group);
   contact.free_until = contact.begin = frame(first).time;
   contact.free_from = contact.end = frame(last).time;
   contact.bodies = static_cast<int>(group.size());

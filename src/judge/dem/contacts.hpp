@@ -95,7 +95,9 @@ class ContactFinder {
   void report(std::vector<Stretch> group);
   std::vector<int> walls_met(const Stretch& s) const;
   using States = std::vector<std::pair<double, BallState>>;  ///< of a ball, by time
-  double balance(std::size_t ball, const States& states) const;
+  double balance(std::size_t frame, std::size_t ball, const States& states) const;
+  double dose_of(const std::vector<Stretch>& group) const;
+  double work_of_bodies(const Stretch& s, const std::vector<int>& walls) const;
   bool make_single(const std::vector<Stretch>& group, int wall, Contact& contact) const;
   void forget();
 

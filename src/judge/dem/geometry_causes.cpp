@@ -154,7 +154,9 @@ class Geometry {
 
 void add_numbers(const Assumed& nominal, std::vector<Candidate>& list) {
   for (const auto& p : identify::numbers_of(nominal)) {
-    if (!(p.key.starts_with("mill.") || p.key.starts_with("vessel.") || p.is_diameter)) continue;
+    if (!(p.key.starts_with("mill.") || p.key.starts_with("vessel.") || p.key.starts_with("body.") ||
+          p.is_diameter))
+      continue;
     auto& starts = list.emplace_back(Candidate{p}).first_values;
     for (const double share : {0.001, 0.003, 0.01, 0.03, 0.05, 0.1, 0.2, 0.5})
       for (const double sign : {-1.0, 1.0}) starts.push_back(p.value * (1 + sign * share));

@@ -45,7 +45,6 @@ void put_in_axes(BallState& ball, const identify::Axes& axes) {
 }  // namespace
 
 Imported import_dump(const casefile::CaseSpec& spec, const ImportOptions& options) {
-  casefile::require_no_bodies(spec, "edmill import");
   io::NamedFile file(options.log);
   const auto built = casefile::build_case<double>(spec);
   const auto& balls = built.the_case.balls;

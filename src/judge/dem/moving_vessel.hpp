@@ -1,6 +1,7 @@
-// The moving vessel of a case, and balls relative to it.
+// The moving vessel of a case with the bodies in it, and balls relative to them.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "model/mill.hpp"
@@ -11,6 +12,7 @@ using Vector = Vec3<double>;
 using BallState = model::BallState<double>;
 
 /// Motion and walls for balls of given radii. The motion of walls within the vessel (pistons) is ignored.
+/// Frame 0 is the vessel's; each body has one of its own.
 class MovingVessel {
  public:
   /// @param facets  of the prism that represents a round wall, as `meshes_of` makes it; 0 for a wall that is
@@ -18,25 +20,30 @@ class MovingVessel {
   MovingVessel(const model::Mill<double>& mill, const std::vector<model::BallProperties<double>>& balls,
                int facets = 0);
 
-  using Pose = model::AnyPose<double>;
-  Pose at(double time) const { return mill_.motion.pose(clock_.at(time)); }
+  using Pose = std::vector<model::AnyPose<double>>;  ///< by frame
+  Pose at(double time) const;
+  std::size_t frame_of(int wall) const {
+    return static_cast<std::size_t>(std::max(0, wall - mill_.vessel.wall_count() + 1));
+  }
 
   /// Gap of a ball's surface from a wall; negative for an overlap [m].
   double gap(const Pose& pose, std::size_t ball, int wall, const Vector& position) const;
-  /// Unit normal of a wall at the position of a ball, into the vessel, in the inertial frame.
+  /// Unit normal from a wall to a ball at a position, in the inertial frame.
   Vector normal(const Pose& pose, std::size_t ball, int wall, const Vector& position) const;
-  /// Velocity of the vessel's material at a position in the inertial frame [m/s].
-  Vector wall_velocity(const Pose& pose, const Vector& place) const {
-    return mill_.motion.wall_velocity(pose, place);
+  /// Velocity of a wall's material at a position in the inertial frame [m/s].
+  Vector wall_velocity(const Pose& pose, int wall, const Vector& place) const {
+    const auto frame = frame_of(wall);
+    return motions_[frame].wall_velocity(pose[frame], place);
   }
-  int walls() const { return mill_.vessel.wall_count(); }
+  int walls() const { return mill_.wall_count(); }
+  bool has_bodies() const { return motions_.size() > 1; }
 
-  /// Kinetic energy of a ball relative to the vessel [J].
-  double energy(const Pose& pose, std::size_t ball, const BallState& state) const;
-  /// Work of gravity and of the fictitious forces and torques on a ball between two states, relative to the
-  /// vessel [J]: the mean of the forces in both states times the displacement.
+  /// Kinetic energy of a ball relative to a frame [J].
+  double energy(const Pose& pose, std::size_t frame, std::size_t ball, const BallState& state) const;
+  /// Work of gravity and of the fictitious forces and torques on a ball between two states, relative to a
+  /// frame [J]: the mean of the forces in both states times the displacement.
   double work(const Pose& from, const BallState& before, const Pose& to, const BallState& after,
-              std::size_t ball, const Vector& gravity) const;
+              std::size_t frame, std::size_t ball, const Vector& gravity) const;
 
   /// Transforms a state from the vessel frame to the inertial frame.
   BallState inertial(const Pose& pose, const BallState& in_vessel) const;
@@ -50,6 +57,7 @@ class MovingVessel {
   const model::Tube<double>* prism(int wall) const;
 
   model::Mill<double> mill_;
+  std::vector<model::AnyMotion<double>> motions_;  ///< by frame
   std::vector<model::BallProperties<double>> balls_;
   DriveClock<double> clock_;
   std::vector<model::AnyVessel<double>> insets_;  ///< for each radius

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "casefile/output_entry.hpp"
@@ -81,7 +82,8 @@ struct CoverageKeys {
   }
 };
 
-/// The walls of a vessel, each in columns of equal parts of u and rows of equal parts of v.
+/// The walls of a vessel and the parts of the bodies in it, each in columns of equal parts of u and rows of
+/// equal parts of v.
 template <class Real>
 class WallCells {
  public:
@@ -89,33 +91,60 @@ class WallCells {
     model::WallSurface<Real> surface;
     std::size_t columns, rows;
     std::size_t first;  ///< of its cells
+    int id, part;       ///< of the wall, and the number of its part if it is a body
 
     std::size_t cell(std::size_t column, std::size_t row) const { return first + row * columns + column; }
     bool has(model::Coordinate c) const {
       const auto own = surface.coordinates();
-      return std::find(own.begin(), own.end(), c) != own.end();
+      return surface.has_coordinates() && std::find(own.begin(), own.end(), c) != own.end();
     }
     Real area_of_cell() const { return surface.area() / (Real(columns) * Real(rows)); }
   };
 
-  WallCells(const std::vector<model::WallSurface<Real>>& surfaces, const CoverageKeys& keys) {
-    for (const auto& surface : surfaces) {
-      const auto c = surface.coordinates();
-      walls_.push_back({surface, keys.parts_of(c[0]), keys.parts_of(c[1]), count_});
-      count_ += walls_.back().columns * walls_.back().rows;
+  WallCells(const std::vector<model::WallSurface<Real>>& surfaces,
+            const std::vector<model::Body<Real>>& bodies, const CoverageKeys& keys)
+      : keys_(keys) {
+    int id = 0;
+    for (const auto& surface : surfaces) add(surface, id++, 0);
+    for (const auto& body : bodies) {
+      first_part_.push_back(walls_.size());
+      int part = 0;
+      for (const auto& surface : body.shape.surfaces()) add(surface, id, part++);
+      ++id;
     }
   }
 
-  const std::vector<Wall>& walls() const { return walls_; }  ///< by id
+  const std::vector<Wall>& walls() const { return walls_; }  ///< and parts of bodies, by id
   std::size_t count() const { return count_; }               ///< of all cells
-  /// The cell of the contact point. @pre the impact is with a wall
-  std::size_t cell_of(const ImpactFacts<Real>& f) const {
-    const auto& wall = walls_[static_cast<std::size_t>(f.impact.partner)];
-    const auto place = wall.surface.map(own_contact_point(f, pose_of(f)));
-    return wall.cell(part(place.u, wall.columns), part(place.v, wall.rows));
+  /// The cell of the contact point, if what is touched has an area. @pre the impact is with a wall
+  std::optional<std::size_t> cell_of(const ImpactFacts<Real>& f) const {
+    const auto& mill = f.simulation.mill();
+    if (const auto* body = mill.body_of(f.impact.partner)) {
+      const auto pose = body->motion.pose(f.impact.time);
+      const auto part = body->shape.part_at(
+          body->motion.position_in_vessel(pose, f.simulation.flight(f.impact.ball).position));
+      const auto number = static_cast<std::size_t>(f.impact.partner - mill.vessel.wall_count());
+      return cell_at(walls_[first_part_[number] + part],
+                     body->motion.position_in_vessel(pose, f.contact_point));
+    }
+    return cell_at(walls_[static_cast<std::size_t>(f.impact.partner)], own_contact_point(f, pose_of(f)));
   }
 
  private:
+  void add(const model::WallSurface<Real>& surface, int id, int part) {
+    const auto c = surface.coordinates();
+    const bool is_body = !first_part_.empty(), empty = is_body && !(surface.area() > 0);
+    const auto parts = [&](int axis) -> std::size_t {
+      return empty ? 0 : surface.has_coordinates() ? keys_.parts_of(c[static_cast<std::size_t>(axis)]) : 1;
+    };
+    walls_.push_back({surface, parts(0), parts(1), count_, id, part});
+    count_ += walls_.back().columns * walls_.back().rows;
+  }
+  std::optional<std::size_t> cell_at(const Wall& wall, const Vec3<Real>& point) const {
+    if (wall.columns == 0) return std::nullopt;
+    const auto place = wall.surface.map(point);
+    return wall.cell(part(place.u, wall.columns), part(place.v, wall.rows));
+  }
   /// Index of the part that contains a value if [0, 1] has `count` equal parts; a value outside, by rounding,
   /// is in the first or the last.
   static std::size_t part(const Real& value, std::size_t count) {
@@ -124,17 +153,19 @@ class WallCells {
     return place < Real(count) ? static_cast<std::size_t>(place) : count - 1;
   }
 
+  CoverageKeys keys_;
   std::vector<Wall> walls_;
+  std::vector<std::size_t> first_part_;  ///< by body: the index in walls_
   std::size_t count_ = 0;
 };
 
-/// Dose and impacts by cells of the vessel's walls.
+/// Dose and impacts by cells of the vessel's walls and the surfaces of bodies.
 template <class Real>
 class CoverageOutput : public TableOutput<Real> {
  public:
   CoverageOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
       : TableOutput<Real>(spec, run),
-        walls_(run.surfaces(spec), spec.own_keys<CoverageKeys>()),
+        walls_(run.surfaces(spec), run.bodies, spec.own_keys<CoverageKeys>()),
         cells_(walls_.count()) {
     for (std::size_t k = 0; k < model::coordinate_infos.size(); ++k) {
       const auto c = static_cast<model::Coordinate>(k);
@@ -148,14 +179,19 @@ class CoverageOutput : public TableOutput<Real> {
   void archive_record(Archive& a) override { a(cells_); }
 
   void record(const ImpactFacts<Real>& f) override {
-    if (!f.impact.with_wall || f.simulation.mill().body_of(f.impact.partner)) return;
-    auto& cell = cells_[walls_.cell_of(f)];
-    ++cell.impacts;
-    cell.dose += f.outcome.milling_dose;
+    if (!f.impact.with_wall) return;
+    if (const auto number = walls_.cell_of(f)) {
+      ++cells_[*number].impacts;
+      cells_[*number].dose += f.outcome.milling_dose;
+    }
   }
 
   void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
-    std::vector<Column> columns{{"wall", integer, "", wall_names(simulation.mill().vessel.walls())}};
+    std::vector<Column> columns{{"wall", integer, "", wall_names(simulation.mill().walls())}};
+    if (!this->run.bodies.empty())
+      columns.push_back({"part", integer, "",
+                         "of a body: of a box the faces x-, x+, y-, y+, z-, z+ and its rounded edges; of a "
+                         "cylinder the lower and upper edge, the side, the lower and upper end"});
     for (const auto c : coordinates_) {
       const auto& info = model::info_of(c);
       for (const char* end : {"_low", "_high"})
@@ -198,7 +234,8 @@ class CoverageOutput : public TableOutput<Real> {
 
   void write_cell(std::size_t index, std::size_t column, std::size_t row) {
     const auto& wall = walls_.walls()[index];
-    this->put(static_cast<std::uint64_t>(index));
+    this->put(static_cast<std::uint64_t>(wall.id));
+    if (!this->run.bodies.empty()) this->put(static_cast<std::uint64_t>(wall.part));
     for (const auto c : coordinates_) {
       const bool along_u = wall.surface.coordinates()[0] == c;
       const std::size_t part = along_u ? column : row, parts = along_u ? wall.columns : wall.rows;

@@ -46,7 +46,6 @@ class LyapunovOutput : public TableOutput<Real> {
         wanted_(
             std::min<std::uint64_t>(spec.own_keys<LyapunovKeys>().exponents, 9 * run.ball_colours.size())),
         intervals_(spec.timer) {
-    require_no_bodies(spec, run);
     if (!spec.timer.interval) return;
     std::vector<Column> columns{{"time", number, "s", "end of the interval"}};
     for (std::uint64_t k = 1; k <= wanted_; ++k)

@@ -43,15 +43,6 @@ struct RunContext {
   }
 };
 
-/// For outputs that cannot treat bodies in the vessel.
-/// @throws InputError when the run has some
-template <class Real>
-void require_no_bodies(const casefile::OutputSpec& spec, const RunContext<Real>& run) {
-  if (!run.bodies.empty())
-    throw InputError("output of type '" + spec.type +
-                     "': found bodies in the vessel, expected a case without: it does not treat them yet");
-}
-
 /// The run at the time of a row or a frame.
 template <class Real>
 struct Moment {

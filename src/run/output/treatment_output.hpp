@@ -48,11 +48,9 @@ class TreatmentOutput : public TableOutput<Real> {
         most_(spec.own_keys<TreatmentKeys>().most),
         share_(spec.own_keys<TreatmentKeys>().share.template to<Real>()),
         threshold_(spec.own_keys<TreatmentKeys>().threshold.template to<Real>()),
-        walls_(run.surfaces(spec), spec.own_keys<TreatmentKeys>().cells),
+        walls_(run.surfaces(spec), run.bodies, spec.own_keys<TreatmentKeys>().cells),
         on_walls_(walls_.count()),
-        on_balls_(run.ball_colours.size()) {
-    require_no_bodies(spec, run);
-  }
+        on_balls_(run.ball_colours.size()) {}
 
  protected:
   void archive_record(Archive& a) override { a(on_walls_, on_balls_, impacts_); }
@@ -61,8 +59,10 @@ class TreatmentOutput : public TableOutput<Real> {
     if (f.outcome.milling_dose < threshold_) return;
     ++impacts_;
     ++on_balls_[static_cast<std::size_t>(f.impact.ball)];
-    ++(f.impact.with_wall ? on_walls_[walls_.cell_of(f)]
-                          : on_balls_[static_cast<std::size_t>(f.impact.partner)]);
+    if (!f.impact.with_wall)
+      ++on_balls_[static_cast<std::size_t>(f.impact.partner)];
+    else if (const auto cell = walls_.cell_of(f))
+      ++on_walls_[*cell];
   }
 
   void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {

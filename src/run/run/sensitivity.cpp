@@ -36,14 +36,6 @@ Instant<mpfr> on_clock_of(const model::Mill<mpfr>& mill, const mpfr& period, con
   return {t.period, t.offset + mpfr(t.period) * (period - mill.motion.period()) + later};
 }
 
-mpfr gap_of(const model::Mill<mpfr>& mill, const mpfr& radius, int wall, const Instant<mpfr>& time,
-            const Vector& position) {
-  const auto place = mill.motion.position_in_vessel(mill.motion.pose(time), position);
-  mpfr gap = -mill.vessel.inset(radius).overlap(wall, place);
-  if (const auto* pistons = mill.vessel.pistons()) gap -= pistons->of_wall(wall, time).value;
-  return gap;
-}
-
 /// @param states  just before the impact; they become those after it
 dynamics::ImpactOutcome<mpfr> collide(const Perturbation& in, const engine::Impact<mpfr>& impact,
                                       const Instant<mpfr>& time, States& states) {
@@ -57,15 +49,8 @@ dynamics::ImpactOutcome<mpfr> collide(const Perturbation& in, const engine::Impa
     return dynamics::collide_balls<mpfr>(normal, own, partner, one.velocity, one.spin, two.velocity, two.spin,
                                          in.mill.law_between(own, partner), rests);
   }
-  const auto& motion = in.mill.motion;
-  const auto pose = motion.pose(time);
-  const auto place = motion.position_in_vessel(pose, one.position);
-  const Vector normal =
-      motion.direction_to_inertial(pose, in.mill.vessel.inset(own.radius).normal(impact.partner, place));
-  Vector wall_velocity = motion.wall_velocity(pose, Vector(one.position - normal * own.radius));
-  if (const auto* pistons = in.mill.vessel.pistons())
-    wall_velocity += normal * pistons->of_wall(impact.partner, time).rate;
-  return dynamics::collide_with_wall<mpfr>(normal, own, wall_velocity, one.velocity, one.spin,
+  const auto touch = model::touch_of(in.mill, impact.partner, own.radius, time, one.position);
+  return dynamics::collide_with_wall<mpfr>(touch.normal, own, touch.wall_velocity, one.velocity, one.spin,
                                            in.mill.law_with_wall(own, impact.partner), rests);
 }
 
@@ -118,8 +103,9 @@ class Linearised : public engine::Observer<mpfr> {
     mpfr gap;
     if (impact.with_wall) {
       const auto at = [&](const Perturbation& in, const Vector& position) {
-        return gap_of(in.mill, radius(in, 0), impact.partner, on_clock_of(in.mill, period, impact.time, 0),
-                      position);
+        return mpfr(-model::touch_of(in.mill, impact.partner, radius(in, 0),
+                                     on_clock_of(in.mill, period, impact.time, 0), position)
+                         .overlap);
       };
       const Vector moved = before[0].position + t[0]->position * step;
       gap = (at(other, moved) - at(base_, before[0].position)) / step;
@@ -368,7 +354,6 @@ void write(std::ostream& out, const casefile::CaseSpec& spec, const SensitivityO
 }  // namespace
 
 Sensitivities sensitivity(const casefile::CaseSpec& spec, const SensitivityOptions& options) {
-  casefile::require_no_bodies(spec, "edmill sensitivity");
   constexpr unsigned most_digits = most_digits_of_step - 20;
   if (options.digits > most_digits)
     throw InputError(fmt::format("--digits: found {}, expected at most {}: a derivative has no more",

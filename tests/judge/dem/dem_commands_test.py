@@ -58,6 +58,9 @@ def facets():
             fails("wrong.csv:2: found ", "audit", "one.toml", "wrong.csv")
 
 
+TANK = '[mill]\ntype = "chain"\njoint = [{ rotate = "y", angle = "45 deg" }]\n[vessel]\ndiameter = "40 mm"\nheight = "40 mm"\n'
+ROTOR = ('[[body]]\nsize = ["10 mm", "4 mm", "4 mm"]\n{}\non = "ground"\n'
+         'joint = [{{ rotate = "y", speed = "600 rpm" }}, {{ translate = ["8 mm", 0, 0] }}]\n')
 MILLS = {  # a case, and the codes that cannot have it
     "box": ('[mill]\ntype = "vibratory"\namplitude = ["3 mm", "0 mm", "0 mm"]\nspeed = "3000 rpm"\n[vessel]\ntype = "box"\nsize = ["4 cm", "4 cm", "4 cm"]\n', {}),
     "spex": ('[vessel]\ndiameter = "38 mm"\nheight = "57 mm"\n', {}),
@@ -67,6 +70,17 @@ MILLS = {  # a case, and the codes that cannot have it
     "sphere": ('[vessel]\ntype = "sphere"\ndiameter = "40 mm"\n', {"liggghts": "round in two ways", "yade": "round in two ways"}),
     "capsule": ('[vessel]\ntype = "capsule"\ndiameter = "30 mm"\nheight = "60 mm"\n',
                 {"lammps": "no single region", "liggghts": "round in two ways", "yade": "round in two ways"}),
+    "stirred": (TANK + ROTOR.format(""), {}),
+    "sphere inside": (TANK + '[[body]]\nsize = ["8 mm", "8 mm", "8 mm"]\nrounding = "4 mm"\n', {}),
+    "rounded": (TANK + ROTOR.format('rounding = "1 mm"'), {"lammps": "body 0, with rounded edges"}),
+    "two axes": (TANK + ROTOR.format("").replace('translate = ["8 mm", 0, 0]', 'rotate = "x", angle = "30 deg"'),
+                 {"lammps": "body 0, whose joints turn about several axes"}),
+    "sliding": (TANK + '[[body]]\nsize = ["9 mm", "4 mm", "4 mm"]\njoint = [{ translate = "x", swing = [{ amplitude = "5 mm", speed = "600 rpm" }] }]\n',
+                {"yade": "body 0, which has no point at rest"}),
+    "baffle": ('[vessel]\ndiameter = "38 mm"\nheight = "57 mm"\n[[body]]\nsize = ["2 mm", "30 mm", "6 mm"]\njoint = [{ translate = ["16 mm", 0, 0] }]\n',
+               {}),
+    "rotor in a drum": ('[mill]\ntype = "drum"\nspeed = "60 rpm"\n[vessel]\ndiameter = "40 mm"\nheight = "40 mm"\n' + ROTOR.format("").replace('"y"', '"z"'),
+                        {"lammps": "body 0 on the ground in a vessel that turns"}),
 }
 COMMON = '[contact]\nrestitution = 0.6\nfriction = 0.4\n[[balls]]\ncount = 3\ndiameter = "5 mm"\n'
 

@@ -1,15 +1,19 @@
 #!/usr/bin/env python3
-"""Bodies inside the vessel: what is refused, random mills with bodies of all kinds, and the same events in three scalars.
+"""Bodies inside the vessel: what is refused, outputs and derivatives, judges, random mills with bodies of all kinds, and the same events in
+three scalars.
 
 usage: PYTHONPATH=tests/support python3 bodies_test.py EDMILL [MILLS] [SEED] [CHARGES]
 """
 import collections
+import csv
 import pathlib
 import random
 import sys
+from decimal import Decimal
 
-from program import EXAMPLES, Trials, edmill, said, summary
+from program import EXAMPLES, SOURCE, Trials, edmill, said, summary
 
+REFERENCE = SOURCE / "regression/reference/stirred.toml"
 mills = int(sys.argv[2]) if len(sys.argv) > 2 else 12
 seed = int(sys.argv[3]) if len(sys.argv) > 3 else 20261130
 charges = int(sys.argv[4]) if len(sys.argv) > 4 else 1  # of each mill
@@ -61,16 +65,65 @@ def refusals(t):
     for body, words in REFUSED.items():
         pathlib.Path("case.toml").write_text(CASE.format(bodies="[[body]]\n" + body, **TANK))
         t.refused(edmill("check", "case.toml"), repr(body), words)
-    stirred = EXAMPLES / "stirred.toml"
-    said("run", stirred, "--quiet", "--out", "done", "--set", "run.end_time=0.6 s")
-    for command in (("audit", stirred, "done"), ("export", stirred, "--to", "lammps"),
-                    ("sensitivity", stirred, "--events", "5", "--by", "contact.restitution")):
-        done = edmill(*command)
-        t.check(done.returncode == 2 and done.stderr.count("\n") == 1 and "without bodies in the vessel" in done.stderr, f"{command}: {done.stderr}")
-    for kind, keys in (("treatment", "share_per_impact = 0.001\n"), ("lyapunov", "")):
-        text = stirred.read_text() + f'[[output]]\ntype = "{kind}"\nfile = "a.csv"\n{keys}'
-        pathlib.Path("case.toml").write_text(text)
-        t.refused(edmill("run", "case.toml", "--quiet", "--out", "o"), kind, "found bodies in the vessel")
+
+
+def table(file):
+    """Rows of a file, without the units of its columns."""
+    lines = [row for row in csv.reader(line for line in open(file, encoding="utf-8") if not line.startswith("#"))]
+    return [dict(zip((name.split(" [")[0] for name in lines[0]), row)) for row in lines[1:]]
+
+
+def outputs(t):
+    """Maps hold all the dose of a body; derivatives by a body's numbers are those of runs beside it."""
+    text = REFERENCE.read_text().replace('end_time = "10 s"', 'end_time = "0.15 s"')
+    for kind, keys in (("coverage", ""), ("bodies", ""), ("treatment", "share_per_impact = 0.001\n"), ("lyapunov", "")):
+        text += f'[[output]]\ntype = "{kind}"\n{keys}'
+    pathlib.Path("maps.toml").write_text(text)
+    said("run", "maps.toml", "--quiet", "--out", "maps")
+    dose, area = collections.Counter(), collections.Counter()
+    for row in table("maps/coverage.csv"):
+        dose[row["wall"]] += float(row["dose"])
+        area[row["wall"]] += float(row["area"])
+    for row in table("maps/bodies.csv"):
+        if row["kind"] == "wall":
+            wall = row["body"]
+            t.check(abs(dose[wall] - 2 * float(row["dose"])) <= 1e-9 * dose[wall], f"dose of wall {wall}: {dose[wall]}, {row}")
+            t.check(abs(area[wall] - float(row["area"])) <= 1e-9 * area[wall], f"area of wall {wall}: {area[wall]}, {row}")
+    t.check(len(table("maps/treatment.csv")) == 12 and float(table("maps/lyapunov.csv")[0]["per_second"]) > 0, "treatment and exponents")
+    events, step = 60, Decimal("1e-12")
+    keys = {"body.1.rounding": (2, "mm", Decimal(1)), "body.1.joint.1.speed": (600, "rpm", Decimal(1))}
+    said("sensitivity", REFERENCE, "--events", events, *(word for key in keys for word in ("--by", key)), "--out", "rates.csv")
+    rates = table("rates.csv")
+
+    def times(*changes):
+        said("certify", REFERENCE, "--collisions", events, "--digits", 30, "--out", "events.csv", *changes)
+        return [Decimal(row["time"]) for row in table("events.csv")]
+    base = times()
+    for number, (key, (value, unit, _)) in enumerate(keys.items()):
+        other = times("--set", f'{key}="{value + step} {unit}"')
+        for k in range(events):
+            expected, found = (other[k] - base[k]) / step, Decimal(rates[k][f"d_time_{number}"])
+            t.check(abs(found - expected) <= Decimal("1e-6") * abs(expected) + Decimal("1e-15"), f"{key}, event {k}: {found}, not {expected}")
+
+
+def judges(t):
+    """A log of a case with bodies is clean; that of another body names it; one without its impacts misses them."""
+    text = (EXAMPLES / "stirred.toml").read_text().replace("count = 150", "count = 60").replace('end_time = "3 s"', 'end_time = "0.7 s"')
+    pathlib.Path("stirred.toml").write_text(text + '[[output]]\ntype = "collisions"\nstates = true\n')
+    said("run", "stirred.toml", "--quiet", "--out", "right")
+    t.check("verdict: clean" in edmill("audit", "stirred.toml", "right").stdout, "a clean log")
+    for change, name in (('body.1.joint.1.speed="606 rpm"', "body.1.joint.1.speed = 606 "), ('body.1.rounding="1.9 mm"', "body.1.rounding = 1.9 "),
+                         ('body.0.diameter="12.4 mm"', "body.0.diameter = 12.4 ")):
+        said("run", "stirred.toml", "--quiet", "--out", "wrong", "--set", change)
+        found = edmill("audit", "stirred.toml", "wrong", "--identify").stdout
+        t.check("looks like   " + name in found, f"{change}: {found[-900:]}")
+    rows = [line for line in open("right/collisions.csv", encoding="utf-8") if not line.startswith("#")]
+    place = rows[0].split(",").index("partner")
+    kept = [row for row in rows if row.split(",")[place - 1:place + 1] != ["wall", "5"]]
+    t.check(len(kept) < len(rows) - 20, "impacts with arm 1")
+    pathlib.Path("less.csv").write_text("".join(kept))
+    found = edmill("audit", "stirred.toml", "less.csv").stdout
+    t.check("missed_event" in found and "with wall 5" in found, f"without arm 1: {found[-900:]}")
 
 
 def body():
@@ -138,6 +191,8 @@ def scalars(t):
 
 with Trials() as t:
     refusals(t)
+    outputs(t)
+    judges(t)
     borders(t)
     scalars(t)
     for trial in range(mills):

@@ -96,7 +96,46 @@ class RoundedBody {
   static int wall_count() { return 1; }
   static int function_count() { return static_cast<int>(functions); }
   static std::vector<WallInfo> walls() { return {{"body", "the body"}}; }
-  static std::vector<WallSurface<Real>> surfaces() { return {}; }
+  /// The parts of the surface: of a box the faces x-, x+, y-, y+, z-, z+ and all of its rounded edges; of a
+  /// cylinder the lower and the upper edge, the side, the lower and the upper end. Parts may have no area.
+  std::vector<WallSurface<Real>> surfaces() const {
+    const Real &a = half_[0], &b = half_[1], &c = half_[2], &r = rounding_;
+    if (!is_round_) {
+      auto faces = box_surfaces<Real>(half_);
+      for (std::size_t k = 0; k < faces.size(); ++k) {
+        auto face = std::get<Rectangle<Real>>(faces[k].kind());
+        face.centre[static_cast<int>(k / 2)] += k % 2 == 0 ? Real(-r) : r;
+        faces[k] = face;
+      }
+      const Real flat = 8 * (a * b + b * c + c * a), rest = area() - flat;
+      faces.emplace_back(Patch<Real>{r > 0 ? rest : Real(0)});
+      return faces;
+    }
+    const Vec3<Real> top{Real(0), b, Real(0)}, end{Real(0), Real(b + r), Real(0)};
+    const Frame<Real> middle{Vec3<Real>::Zero(), Vec3<Real>::UnitX(), Vec3<Real>::UnitY(),
+                             Vec3<Real>::UnitZ()};
+    const auto at = [&](const Vec3<Real>& place, int up) {
+      return Frame<Real>{place * Real(up), middle.x, middle.y * Real(up), middle.z * Real(up)};
+    };
+    return {Edge<Real>{{at(top, -1)}, a, r}, Edge<Real>{{at(top, 1)}, a, r},
+            Tube<Real>{{middle}, Real(a + r), b}, Disc<Real>{{at(end, -1)}, a}, Disc<Real>{{at(end, 1)}, a}};
+  }
+  /// The number among `surfaces()` of the part that a ball at p touches; a sharp edge belongs to the part
+  /// that the ball is farther beyond.
+  std::size_t part_at(const Vec3<Real>& p) const {
+    const Vec3<Real> d = from_core(p);
+    const auto beyond = [&](int i) { return i == 0 && is_round_ ? across(d) : magnitude(d[i]); };
+    const int axes = is_round_ ? 2 : 3;
+    int first = 0, outside = 0;
+    for (int i = 0; i < axes; ++i) {
+      outside += beyond(i) > 0 ? 1 : 0;
+      if (beyond(i) > beyond(first)) first = i;
+    }
+    const std::size_t up = d[1] > 0 ? 1 : 0;
+    const bool on_edge = outside > 1 && rounding_ > 0;
+    if (is_round_) return on_edge ? up : first == 0 ? 2 : 3 + up;
+    return on_edge ? 6 : static_cast<std::size_t>(2 * first + (d[first] > 0 ? 1 : 0));
+  }
   Real reach() const { return domain_; }
   Real extent() const { return domain_; }
   Vec3<Real> half_sizes() const { return {domain_, domain_, domain_}; }

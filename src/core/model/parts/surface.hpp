@@ -246,6 +246,21 @@ struct Rectangle {
   }
 };
 
+/// What has an area and no coordinates, such as the rounded edges of a box.
+template <class Real>
+struct Patch {
+  static constexpr const char* name = "patches";
+  static constexpr std::array coordinates{Coordinate::u, Coordinate::v};
+
+  Real size;  ///< [m2]
+
+  WallPlace<Real> map(const Vec3<Real>&) const { return {Real(1) / 2, Real(1) / 2}; }
+  Vec3<Real> point(const Real&, const Real&) const { return Vec3<Real>::Zero(); }
+  Real area() const { return size; }
+  Real edge(int, std::size_t, std::size_t) const { return Real(0); }
+  Rings<Real> rings() const { return {{}}; }
+};
+
 /// A flat polygon: u and v along the edges of a rectangle around it.
 template <class Real>
 struct Polygon : Rectangle<Real> {
@@ -277,7 +292,8 @@ Polygon<Real> polygon_of(const std::vector<Vec3<Real>>& corners) {
 template <class Real>
 class WallSurface {
  public:
-  using Kind = std::variant<Disc<Real>, Tube<Real>, Zone<Real>, Edge<Real>, Rectangle<Real>, Polygon<Real>>;
+  using Kind = std::variant<Disc<Real>, Tube<Real>, Zone<Real>, Edge<Real>, Rectangle<Real>, Polygon<Real>,
+                            Patch<Real>>;
 
   template <class Surface>
   WallSurface(const Surface& surface) : kind_(surface) {}
@@ -287,6 +303,7 @@ class WallSurface {
   const char* name() const {
     return visit([](const auto& s) { return s.name; });
   }
+  bool has_coordinates() const { return !std::holds_alternative<Patch<Real>>(kind_); }
   /// Names and units of u and v.
   std::array<Coordinate, 2> coordinates() const {
     return visit([](const auto& s) { return s.coordinates; });
