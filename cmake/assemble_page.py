@@ -14,7 +14,7 @@ PARTS = SOURCE / "src/bindings/browser"
 VIEW = SOURCE / "src/pages/report/mill_view.js"
 EXAMPLES = SOURCE / "docs/examples"
 CASES = {"SPEX 8000, 28 balls": "demo.toml", "planetary mill": "planetary.toml", "shaken box": "shaken_box.toml",
-         "steel and alumina, with a piston": "materials.toml"}
+         "steel and alumina, with a piston": "materials.toml", "stirred tank": "stirred.toml"}
 
 
 def main(engine, place):

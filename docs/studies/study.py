@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A study of docs/mills.md: runs its sweep, prints the table and draws the plot.
 
-usage: study.py ends|planetary|drum|law EDMILL [--out FOLDER]
+usage: study.py ends|planetary|drum|stirrer|law EDMILL [--out FOLDER]
 
 The sweep's folder keeps finished runs, so that a second call draws at once."""
 import argparse
@@ -21,12 +21,13 @@ STUDIES = {
     "ends": ("name", 1, "radius of the edges [mm]", range(0, 21, 5)),
     "planetary": ("mill.ratio", -1, "k = -ratio: speed of the jar seen from the disc, reversed, over the disc's", (1, 2, 3, 4, 5)),
     "drum": ("mill.speed", 100 / CRITICAL_RPM, "speed in % of the critical one", range(0, 121, 20)),
+    "stirrer": ("body.0.joint.1.speed", 1, "speed of the bar [rpm]", range(0, 1201, 300)),
     "law": ("mill.speed", 1, "speed of the drive [rpm]", range(600, 1401, 200)),
 }
 # Studies with several curves have a column that tells them apart, and its label.
 CURVES = {"law": ("name", "law"), "planetary": ("contact.friction", "friction")}
 QUANTITIES = (("milling_dose_rate", 1, "milling dose rate [W]"),
-              ("collision_rate_total", 1e-3, "impacts [1/ms]"),
+              ("impact_rate_total", 1e-3, "impacts [1/ms]"),
               ("dose_per_impact", 1e6, "milling dose of an impact [\u00b5J]"))
 
 
@@ -35,7 +36,7 @@ def values(row, quantity):
     if quantity != "dose_per_impact":
         return float(row[quantity]), float(row[quantity + "_ci95"])
     dose, half = values(row, "milling_dose_rate")
-    impacts, other = values(row, "collision_rate_total")
+    impacts, other = values(row, "impact_rate_total")
     return dose / impacts, dose / impacts * math.hypot(half / dose, other / impacts)
 
 
@@ -57,7 +58,9 @@ def main():
     if done.returncode:
         return done.returncode
     with open(folder / "sweep.csv", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
+        names, *rows = csv.reader(file)
+    names = [name.split(" [")[0] for name in names]  # without the units
+    rows = [dict(zip(names, row)) for row in rows]
     column, factor, label, x_ticks = STUDIES[given.study]
     curve, curve_label = CURVES.get(given.study, ("", ""))
     groups = {}

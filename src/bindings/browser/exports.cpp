@@ -130,6 +130,11 @@ class Session : private Observer<double> {
       json.add_group(std::to_string(wall++), "points", mesh.points, "faces", mesh.faces);
     }
     json.end();
+    json.begin("bodies");
+    for (std::size_t k = 0; k < mill_.bodies.size(); ++k)
+      json.add_group(std::to_string(k), "points", model::mesh_of(mill_.bodies[k].shape).points, "colour",
+                     spec_.bodies[k].colour);
+    json.end();
   }
 
   /// Simulates up to a time [s].
@@ -156,6 +161,12 @@ class Session : private Observer<double> {
     json.add("places", places);
     const auto frame = output::frame_of(mill_.motion, now);
     json.add("vessel", std::array{frame.origin, frame.x, frame.y, frame.z});
+    std::vector<std::array<Vec3<double>, 4>> bodies;
+    for (const auto& body : mill_.bodies) {
+      const auto own = output::frame_of(body.motion, now);
+      bodies.push_back({own.origin, own.x, own.y, own.z});
+    }
+    json.add("bodies", bodies);
     if (impacts_ > 0)
       json.add_group("last", "ball", last_.ball, "partner", last_.partner, "with_wall", last_.with_wall,
                      "approach_speed", last_.approach_speed, "separation_speed", last_.separation_speed,

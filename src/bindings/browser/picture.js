@@ -5,9 +5,10 @@ let scene = null, frame = null;
 
 function draw() {
   if (!scene || !frame) return view.draw([], [], {});
-  const [origin, ...axes] = frame.vessel;
-  const outside = p => [0, 1, 2].map(k => origin[k] + axes.reduce((sum, axis, c) => sum + axis[k] * p[c], 0));
-  const walls = scene.meshes.map(wall => ({points: wall.points.map(outside), flat: wall.faces.length === 1}));
+  const in_frame = ([origin, ...axes]) => p => [0, 1, 2].map(k => origin[k] + axes.reduce((sum, axis, c) => sum + axis[k] * p[c], 0));
+  const walls = scene.meshes.map(wall => ({points: wall.points.map(in_frame(frame.vessel)), flat: wall.faces.length === 1}));
+  const solids = Object.values(scene.bodies).map(({points, colour}, k) =>
+    ({points: points.map(in_frame(frame.bodies[k])), colour: `rgb(${colour.map(part => Math.round(255 * part))})`}));
   // What the vessel has swept so far is in the picture.
   const reach = Math.max(...walls.flatMap(({points}) => points.map(p => Math.hypot(...p.map((c, k) => c - scene.middle[k])))));
   if (reach > scene.size) {
@@ -17,7 +18,7 @@ function draw() {
   const colours = getComputedStyle(document.documentElement), line = colours.getPropertyValue('--soft').trim();
   const last = frame.last && [frame.last.ball, frame.last.with_wall ? -1 : frame.last.partner];
   const colour = k => last && last.includes(k) ? '#c2410c' : colours.getPropertyValue('--ball').trim();
-  view.draw(walls, scene.radii.map((radius, k) => ({radius, place: frame.places[k], colour: colour(k)})), {colour: line, opacity: 0.12, edge: line});
+  view.draw(walls, scene.radii.map((radius, k) => ({radius, place: frame.places[k], colour: colour(k)})), {colour: line, opacity: 0.12, edge: line}, [], solids);
 }
 
 // ---- Numbers and charts

@@ -21,6 +21,7 @@
 #include "casefile/build_case.hpp"
 #include "casefile/random.hpp"
 #include "casefile/rational.hpp"
+#include "casefile/room.hpp"
 #include "io/final_state.hpp"
 
 namespace edmill::casefile {
@@ -472,20 +473,27 @@ class Filling {
     return sum;
   }
 
+  /// Volume without the bodies at the start [m3].
+  double room() const {
+    if (mill_.bodies.empty()) return static_cast<double>(mill_.vessel.volume());
+    return free_volume(model::mill_cast<double>(mill_),
+                       {result_.start.period, static_cast<double>(result_.start.offset)});
+  }
+
   /// Reports a total volume that no packing reaches: from a dozen balls on, the densest is that of equal
   /// balls, pi/sqrt(18).
   bool fit_by_volume() {
     if (spec_.batches.empty()) return true;
     constexpr double densest = 0.7405, few = 12;
-    const double vessel = static_cast<double>(mill_.vessel.volume()), balls = volume_of_balls();
+    const double vessel = room(), balls = volume_of_balls();
     const double most = static_cast<double>(spec_.ball_count()) < few ? 1 : densest;
     if (balls <= most * vessel) return true;
     const auto& batch = spec_.batches.back();
     const double d = batch.diameter.to<double>(), one = numerics::pi<double>() / 6 * d * d * d;
     const double fitting = std::floor(batch.count - (balls - most * vessel) / one);
     problems_.push_back(fmt::format(
-        "{}: found balls that fill {:.3g} of the vessel's volume, expected at most {:.3g} of it{}",
-        batch.where, balls / vessel, most,
+        "{}: found balls that fill {:.3g} of the vessel's {}volume, expected at most {:.3g} of it{}",
+        batch.where, balls / vessel, mill_.bodies.empty() ? "" : "free ", most,
         fitting > 0
             ? fmt::format(", with at most {:.0f} balls in this batch in place of {}", fitting, batch.count)
             : ""));
@@ -521,8 +529,7 @@ class Filling {
           ": found no room for a ball between the bodies in the vessel, expected some");
     problems_.push_back(fmt::format(
         "{}: found {} balls at a packing fraction of {:.3g}, expected fewer: the first {} find room",
-        spec_.batches.front().where, drawn.size(),
-        volume_of_balls() / static_cast<double>(mill_.vessel.volume()), fitting));
+        spec_.batches.front().where, drawn.size(), volume_of_balls() / room(), fitting));
   }
 
   /// Pushes the first `count` of the drawn balls apart, from new random places. @return true if it succeeds

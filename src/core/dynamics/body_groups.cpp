@@ -60,8 +60,8 @@ BodyGroups::BodyGroups(const std::vector<model::Body<double>>& bodies) {
     const auto& [motion, shape, name, on_vessel] = bodies[k];
     auto joints = motion.joints();
     auto [first, rest] = split(std::move(joints.list));
-    const auto found =
-        std::find_if(moving.begin(), moving.end(), [&](const List& own) { return same(own, first); });
+    const auto found = std::find_if(moving.begin(), moving.end(),
+                                    [&, &own = first](const List& other) { return same(other, own); });
     const auto group = static_cast<std::size_t>(found - moving.begin());
     if (found == moving.end()) {
       moving.push_back(first);

@@ -120,7 +120,7 @@ void add_bodies(const Assumed& nominal, std::vector<Assumption>& list) {
   std::size_t first = 0;
   for (std::size_t entry = 0; first < bodies.size(); ++entry) {
     const auto is_copy = [where = bodies[first].where](const auto& other) { return other.where == where; };
-    const auto end = first + static_cast<std::size_t>(std::ranges::count_if(bodies, is_copy));
+    const auto end = first + static_cast<std::size_t>(std::count_if(bodies.begin(), bodies.end(), is_copy));
     const auto key = fmt::format("body.{}", entry);
     const auto add = [&](const std::string& name, Dimension dimension, const Quantity& value, auto set) {
       list.push_back(number(key + "." + name, dimension, value.to<double>(), [=](Assumed& a, double x) {

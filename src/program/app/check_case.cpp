@@ -6,6 +6,7 @@
 
 #include "casefile/build_case.hpp"
 #include "casefile/memory_for.hpp"
+#include "casefile/room.hpp"
 #include "io/output_folder.hpp"
 #include "report/report_page.hpp"
 #include "run/any_run.hpp"
@@ -91,8 +92,16 @@ CheckedCase check(const casefile::CaseSpec& spec) {
     };
     for (const auto& b : spec.balls) kind(b, 1);
     for (const auto& b : spec.batches) kind(b, b.count);
-    row("packing fraction", fmt::format("{:.4g}{}", volume / c.mill.vessel.volume(),
-                                        spec.pistons.empty() ? "" : " of the vessel without its pistons"));
+    row("packing fraction", fmt::format("{:.4g}{}", volume / casefile::free_volume(m, built.start),
+                                        !spec.pistons.empty() ? " of the vessel without its pistons"
+                                        : m.bodies.empty()    ? ""
+                                                              : " of the volume between the bodies"));
+    for (const auto& gap : casefile::narrow_gaps(spec, m))
+      row("narrow gap",
+          fmt::format(
+              "{} and {}: {:.3g} mm at {:.4g} s, less than a ball: balls that are squeezed there end the "
+              "run as stalled",
+              gap.one, gap.other, 1000 * gap.width, gap.time));
     if (spec.powder_mass)
       row("charge ratio", fmt::format("{:.4g} on {:g} kg of powder", mass / spec.powder_mass->to<double>(),
                                       spec.powder_mass->to<double>()));

@@ -331,12 +331,21 @@ class Page(unittest.TestCase):
         self.assertTrue(self.element("restitution").is_enabled() and self.element("friction").is_enabled())
 
     def test_each_case_runs_with_other_balls(self):
-        for case in ("planetary mill", "shaken box", "steel and alumina, with a piston"):
+        for case in ("planetary mill", "shaken box", "steel and alumina, with a piston", "stirred tank"):
             with self.subTest(case):
                 self.fill(case=case, most=300, pace="as fast as it can")
                 self.element("run").click()
                 self.wait(lambda: self.text("said") == "The run has ended.", 60)
                 self.assertEqual(self.facts()["impacts"], "300")
+        # The shaft and the arms of the tank are in the picture, in their own colour, and turn.
+        drawn = """const at = (x, y) => [...view.canvas.getContext('2d').getImageData(x, y, 1, 1).data];
+            const [x, y] = view.seen(frame.bodies[0][0]); return [Object.keys(scene.bodies).length, frame.bodies[1][1], at(x, y)]"""
+        count, axis, colour = self.browser.execute_script(drawn)
+        self.assertEqual(count, 5)
+        self.assertEqual(colour, [128, 128, 128, 255])
+        self.fill(most=600)
+        self.run_to_the_end()
+        self.assertNotEqual(self.browser.execute_script(drawn)[1], axis)
 
     def test_wrong_wishes_are_told(self):
         for values, words in (({"restitution": "1.5"}, "contact.restitution"), ({"count": "1000000"}, ""), ({"diameter": "12,7"}, "balls")):

@@ -1,4 +1,5 @@
 find_library(UDUNITS_LIBRARY udunits2 REQUIRED)
+edmill_test(room_test casefile/room_test.cpp)
 edmill_test(quantity_test casefile/quantity_test.cpp LIBRARIES ${UDUNITS_LIBRARY})
 edmill_test(keys_test casefile/keys_test.cpp)
 edmill_test(case_spec_test casefile/case_spec_test.cpp)
