@@ -182,19 +182,44 @@ model::AnyMotion<Real> to_motion(const Joints<Real>& given, const Real& period) 
   return model::ChainMotion<Real>(joints);
 }
 
-/// Replaces the vessel of a case by the program's own, and discards what the case says about walls.
+/// Replaces the vessel of a case by the program's own, and discards what the case says about its walls.
 /// @throws InputError when the case has moving walls or materials of walls, which cannot be transferred
 template <class Real>
 void forget_walls(model::Mill<Real>& mill, const model::AnyVessel<Real>& own) {
   auto& of_walls = mill.pairs.of_walls;
-  if (mill.vessel.pistons() || !mill.bodies.empty() ||
-      std::any_of(of_walls.begin(), of_walls.end(), [](int law) { return law >= 0; }))
+  const auto old_count = static_cast<std::size_t>(mill.vessel.wall_count()),
+             new_count = static_cast<std::size_t>(own.wall_count()), bodies = mill.bodies.size();
+  std::vector<int> kept;  // laws of the bodies
+  bool foreign = mill.vessel.pistons() != nullptr;
+  for (std::size_t k = 0; k < of_walls.size(); ++k) {
+    const auto wall = k % (old_count + bodies);
+    foreign = foreign || (wall < old_count && of_walls[k] >= 0);
+    if (wall == 0) kept.insert(kept.end(), new_count, -1);
+    if (wall >= old_count) kept.push_back(of_walls[k]);
+  }
+  if (foreign)
     throw InputError(
-        "vessel of the program: found a case with bodies, or whose walls move or have materials, expected a "
-        "case without");
-  if (!mill.pairs.empty())
-    of_walls.assign(mill.pairs.materials * static_cast<std::size_t>(own.wall_count()), -1);
+        "vessel of the program: found a case whose walls move or have materials, expected a case without");
+  of_walls = kept;
   mill.vessel = own;
+}
+
+/// Puts the bodies of a case on the motion and in the vessel that the program defines.
+template <class Real>
+void fit_bodies(model::Mill<Real>& mill, const casefile::CaseSpec& spec, bool own_joints) {
+  for (auto& body : mill.bodies) {
+    if (own_joints && body.on_vessel) {
+      auto joints = body.motion.joints();
+      const auto& carrier = mill.motion.template get_if<model::ChainMotion<Real>>()->joints().list;
+      const auto before = static_cast<std::ptrdiff_t>(casefile::joints_of(spec.mill).size());
+      joints.list.erase(joints.list.begin(), joints.list.begin() + before);
+      joints.list.insert(joints.list.begin(), carrier.begin(), carrier.end());
+      body.motion = model::ChainMotion<Real>(joints);
+    }
+    const Real domain = body.motion.reach(mill.motion.reach(mill.vessel.reach()));
+    body.shape = body.shape.among(Real(spec.largest_diameter() / 2 * (1 + 1e-9)),
+                                  domain * (1 + rounding_margin<Real>()));
+  }
 }
 
 /// Builds the case with the parts that the program defines.
@@ -212,6 +237,7 @@ casefile::InitialCase<Real> build(const casefile::CaseSpec& spec, const OwnParts
     forget_walls<Real>(mill, model::AlgebraicVessel<Real>(own.vessel->walls, {half[0], half[1], half[2]}));
   }
   if (!own.joints.empty()) mill.motion = to_motion<Real>(own.joints, mill.motion.period());
+  fit_bodies<Real>(mill, spec, !own.joints.empty());
   return casefile::build_case_in<Real>(mill, spec);
 }
 

@@ -116,7 +116,7 @@ diameter = "2 mm"
   };
   constexpr double whole = 60 * 40 * 30, sphere = 4.0 / 3 * 3.14159265358979 * 10 * 10 * 10;
   const std::string ball = "[[body]]\nsize = [\"20 mm\", \"20 mm\", \"20 mm\"]\nrounding = \"10 mm\"\n";
-  EXPECT_EQ(volume(""), whole);
+  EXPECT_DOUBLE_EQ(volume(""), whole);
   EXPECT_NEAR(volume(ball), whole - sphere, 0.01 * whole);
   // Twice the same body, and one that is half outside of the vessel.
   EXPECT_NEAR(volume(ball + ball), whole - sphere, 0.01 * whole);

@@ -361,5 +361,108 @@ TEST_P(BodySearches, LongAgreeWithASecondSolverIn50Digits) {
   expect_agreement<mpfr50, mpfr50>(20261135, 100000);
 }
 
+template <class Real>
+using BodyFunctions = GapFunctions<model::ChainMotion<Real>, model::RoundedBody<Real>>;
+template <class Real>
+MovingVessel<model::ChainMotion<Real>, model::RoundedBody<Real>> moving_body(const model::Mill<Real>& mill) {
+  return {mill.bodies[0].motion, mill.bodies[0].shape, mill.gravity};
+}
+
+/// A ball near the body and the functions of its region, in double and in 50 digits.
+struct NearBody {
+  NearBody(Draw& draw, const model::Mill<double>& mill, Start kind)
+      : body(moving_body(mill)),
+        wide_body(moving_body(model::mill_cast<mpfr50>(mill))),
+        query(random_query(draw, mill, draw.log_uniform(1e-3, 1) * mill.bodies[0].motion.longest_window(),
+                           kind)),
+        narrow(body, query.flight, query.radius, query.begin.period),
+        exact(wide_body, flight_cast<mpfr50>(query.flight), mpfr50(query.radius), query.begin.period) {
+    const auto begin = query.begin.offset;
+    place = narrow.seen(begin, narrow.pose(begin)).state.position;
+    narrow.enter(place);
+    exact.enter(vector_cast<mpfr50>(place));
+    const double age = narrow.elapsed(begin);
+    speed = norm<double>(query.flight.velocity) + body.gravity_size * (age + query.length);
+  }
+  MovingVessel<model::ChainMotion<double>, model::RoundedBody<double>> body;
+  MovingVessel<model::ChainMotion<mpfr50>, model::RoundedBody<mpfr50>> wide_body;
+  WallQuery<double> query;
+  BodyFunctions<double> narrow;
+  BodyFunctions<mpfr50> exact;
+  Vec3<double> place;
+  double speed;
+};
+
+TEST_P(BodySearches, RoundingErrorsStayBelowTheirBounds) {
+  Draw draw(20261141);
+  double worst = 0;
+  for (int k = 0; k < 400; ++k) {
+    const NearBody near(draw, random_mill(draw, GetParam()), static_cast<Start>(k % 4));
+    const double t = near.query.begin.offset + near.query.length * draw.uniform();
+    const auto found = near.narrow.start(t);
+    const auto truth = near.exact.start(mpfr50(t));
+    const auto bound = near.narrow.errors(near.narrow.elapsed(t), near.speed);
+    const auto active = near.narrow.room().active(near.place);
+    for (std::size_t f = 0; f < active.size(); ++f) {
+      if (!active[f]) continue;
+      const auto part = [&](double x, const mpfr50& y, double allowed) {
+        const double share = static_cast<double>(abs(mpfr50(x) - y)) / allowed;
+        worst = std::max(worst, share);
+        EXPECT_LT(share, 1) << GetParam().name << ", state " << k << ", function " << f;
+      };
+      // A border is moved by a distance that goes with the precision.
+      if (f == 0) part(found.gap[f], truth.gap[f], bound.gap[f]);
+      part(found.rate[f], truth.rate[f], bound.rate[f]);
+      part(found.curvature[f], truth.curvature[f], bound.curvature[f]);
+    }
+  }
+  std::cout << GetParam().name << ": largest error over its bound " << worst << "\n";
+  EXPECT_GT(worst, 1e-4);  // the bounds are not idle
+}
+
+TEST_P(BodySearches, DerivativesStayBelowTheirBounds) {
+  Draw draw(20261142);
+  double worst = 0;
+  int judged = 0;
+  for (int k = 0; k < 300; ++k) {
+    const NearBody near(draw, random_mill(draw, GetParam()), static_cast<Start>(k % 4));
+    const auto& room = near.narrow.room();
+    // Bounds are for a window in which the ball can reach the body, and in which the functions are smooth.
+    const double fastest = near.speed + near.body.wall_speed;
+    double length = near.query.length;
+    if (const auto way = room.smooth_way(near.place); way && *way < fastest * length) length = *way / fastest;
+    if (room.clearance(near.place) > fastest * length) continue;
+    ++judged;
+    const auto bound = derivative_bounds(near.body, near.speed, length);
+    const mpfr50 h("1e-8"), h2 = h * h;
+    for (int step = 0; step <= 2; ++step) {
+      const mpfr50 t = mpfr50(near.query.begin.offset) + mpfr50(length) * step / 2;
+      const auto place = near.exact.seen(t, near.exact.pose(t)).state.position;
+      if (!near.exact.room().is_valid(0, place)) continue;  // the search ends at the border
+      std::vector<GapSample<model::RoundedBody<mpfr50>>> g;
+      for (int n = -2; n <= 2; ++n) g.push_back(near.exact(t + n * h));
+      const auto active = room.active(near.place);
+      for (std::size_t f = 0; f < active.size(); ++f) {
+        if (!active[f]) continue;
+        const auto at = [&](int n) { return g[static_cast<std::size_t>(n + 2)].gap[f]; };
+        const mpfr50 derivatives[] = {(at(1) - 2 * at(0) + at(-1)) / h2,
+                                      (at(2) - 2 * at(1) + 2 * at(-1) - at(-2)) / (2 * h2 * h),
+                                      (at(2) - 4 * at(1) + 6 * at(0) - 4 * at(-1) + at(-2)) / (h2 * h2)};
+        for (std::size_t n = 0; n < 3; ++n) {
+          const double most = bound[static_cast<std::size_t>(room.kind_of(static_cast<int>(f)))][n];
+          const double found = static_cast<double>(abs(derivatives[n]));
+          EXPECT_LE(found, most * (1 + 1e-5) + 1e-9)
+              << GetParam().name << ", state " << k << ", derivative " << n + 2 << " of function " << f;
+          if (most > 0) worst = std::max(worst, found / most);
+        }
+      }
+    }
+  }
+  std::cout << GetParam().name << ": " << judged << " states, largest derivative over its bound " << worst
+            << "\n";
+  EXPECT_GT(judged, 100);
+  EXPECT_GT(worst, 0.02);
+}
+
 }  // namespace
 }  // namespace edmill::dynamics

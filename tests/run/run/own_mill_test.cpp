@@ -1,6 +1,7 @@
 // Vessels and motions of a program: those that a case can name, said by polynomials and joints, and others.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <vector>
@@ -93,6 +94,34 @@ TEST(OwnMill, JointsMoveAsTheMillOfTheCase) {
   arm.shift = {0.075, 0, 0};
   own.joints = {table, arm, jar};
   expect_alike(impacts_of<double>(the_case, {}, 150), impacts_of<double>(the_case, own, 150), 1e-9);
+}
+
+/// A paddle on the vessel and a bar on the ground, with a law of their own, in a cylinder of polynomials on
+/// joints of the program.
+TEST(OwnMill, BodiesAreThoseOfTheCase) {
+  const auto the_case = case_of("type = \"chain\"\njoint = [{ rotate = \"y\", speed = \"300 rpm\" }]", R"(
+[[material]]
+name = "rubber"
+[[body]]
+size = ["6 mm", "30 mm", "2 mm"]
+material = "rubber"
+joint = [{ rotate = "y", speed = "600 rpm" }, { translate = ["8 mm", 0, 0] }]
+[[body]]
+size = ["20 mm", "4 mm", "4 mm"]
+on = "ground"
+joint = [{ translate = [0, "-24 mm", 0] }, { rotate = "y", speed = "200 rpm" }]
+)");
+  OwnParts<double> own;
+  own.vessel = cylinder<double>(0.019, 0.0285);
+  Joint<double> table{true, {0, 1, 0}};
+  table.speed = {1, 1};
+  own.joints = {table};
+  const auto expected = impacts_of<double>(the_case, {}, 150);
+  expect_alike(expected, impacts_of<double>(the_case, own, 150), 1e-8);
+  for (const int body : {3, 4})
+    EXPECT_TRUE(std::any_of(expected.begin(), expected.end(), [&](const auto& impact) {
+      return impact.with_wall && impact.partner == body;
+    })) << body;
 }
 
 TEST(OwnMill, ABallInAConeStaysInIt) {
