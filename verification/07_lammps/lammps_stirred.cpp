@@ -39,6 +39,7 @@ density = "8 g/cm3"
 LammpsSetting setting_when_stirred(double contact_duration) {
   auto s = setting_of(0.007, contact_duration);
   s.vessel_radius = s.vessel_half_height = 0.03;  // only the box around it all
+  s.time_step *= 2;  // a twenty-fifth of a contact: the law is measured with the same steps
   s.damping = damping_for(0.6, s);
   return s;
 }
@@ -104,6 +105,8 @@ Rates edmill_stirred(int batches) {
 }
 
 void agree_when_stirred(int lammps_batches, int edmill_batches, double bound) {
+  constexpr double longest =
+      200e-6;  // contacts of 25 us take hours: the dose rate fluctuates more than a shaker's
   const auto edmill = edmill_stirred(edmill_batches);
   claim.say("stirred box: edmill's wall work of the bar " + Claim::text(edmill.power, 4) + " W");
   agree_in_the_limit(
@@ -117,11 +120,11 @@ void agree_when_stirred(int lammps_batches, int edmill_batches, double bound) {
                       bound);
         return rates.doses;
       },
-      bound);
+      bound, longest);
 }
 
-TEST_F(LammpsPeer, LongStirredBox) { agree_when_stirred(1400, 20000, 0.01); }
-TEST_F(LammpsPeer, StirredBoxInShort) { agree_when_stirred(10, 300, 0.15); }
+TEST_F(LammpsPeer, LongStirredBox) { agree_when_stirred(3000, 20000, 0.01); }
+TEST_F(LammpsPeer, StirredBoxInShort) { agree_when_stirred(16, 400, 0.15); }
 
 }  // namespace
 }  // namespace edmill::verification

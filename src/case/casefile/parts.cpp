@@ -107,8 +107,6 @@ Joint<Quantity> joint_of(Section& section, JointTable& table, bool copied) {
               : "a joint of its own for it, translate = [..] with three lengths");
   if (shift) {
     joint.shift = *shift;
-    if (is_zero(joint.shift))
-      section.problem("translate", "a joint that shifts nothing", "a length other than zero");
     return joint;
   }
   joint.axis = table.axis.direction;

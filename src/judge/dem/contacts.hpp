@@ -12,11 +12,13 @@
 #include <string>
 #include <vector>
 
+#include "decks/moving_vessel.hpp"
 #include "dem/frame_reader.hpp"
-#include "dem/moving_vessel.hpp"
 #include "io/csv_reader.hpp"
 
 namespace edmill::dem {
+
+using decks::BallState, decks::flown, decks::MovingVessel, decks::Vector;
 
 /// Kinds of contacts. `wall` and `pair` are single contacts, from which laws can be measured. In a `missed`
 /// one bodies overlap and one of them flies on, because the code did not compute the contact. In a `jump` a

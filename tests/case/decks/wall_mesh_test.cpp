@@ -7,7 +7,7 @@
 #include <random>
 
 #include "casefile/build_case.hpp"
-#include "dem/moving_vessel.hpp"
+#include "decks/moving_vessel.hpp"
 
 using namespace edmill;
 
@@ -50,7 +50,7 @@ diameter = "8 mm"
     const auto side =
         std::find_if(meshes.begin(), meshes.end(), [](const auto& mesh) { return mesh.name == "side"; });
     ASSERT_NE(side, meshes.end());
-    const dem::MovingVessel vessel(mill, built.the_case.balls, facets);
+    const decks::MovingVessel vessel(mill, built.the_case.balls, facets);
     const auto pose = vessel.at(0.123);
     for (int k = 0; k < 2000; ++k) {
       const Place inside{0.014 * share(random), 0.02 * share(random), 0.014 * share(random)};
@@ -61,7 +61,7 @@ diameter = "8 mm"
         const double apart = std::abs(dot<double>(Place(inside - triangle[0]), n)) - radius;
         if (apart < least) least = apart, nearest = n;
       }
-      const Place place = mill.motion.to_inertial(pose, inside);
+      const Place place = mill.motion.to_inertial(pose.front(), inside);
       int near = 0;
       for (int wall = 0; wall < vessel.walls(); ++wall) {
         if (!std::holds_alternative<model::Tube<double>>(
@@ -70,10 +70,10 @@ diameter = "8 mm"
         ++near;
         ASSERT_NEAR(vessel.gap(pose, 0, wall, place), least, 1e-15)
             << facets << " facets, seed " << seed << ", place " << k;
-        const Place n = mill.motion.direction_to_inertial(pose, nearest);
+        const Place n = mill.motion.direction_to_inertial(pose.front(), nearest);
         ASSERT_NEAR(std::abs(dot<double>(vessel.normal(pose, 0, wall, place), n)), 1, 1e-12);
         ASSERT_LT(dot<double>(vessel.normal(pose, 0, wall, place),
-                              Place(place - mill.motion.to_inertial(pose, Place(0, inside[1], 0)))),
+                              Place(place - mill.motion.to_inertial(pose.front(), Place(0, inside[1], 0)))),
                   0);
       }
       ASSERT_EQ(near, 1);

@@ -1,10 +1,10 @@
-#include "dem/moving_vessel.hpp"
+#include "decks/moving_vessel.hpp"
 
 #include <algorithm>
 
 #include "decks/wall_mesh.hpp"
 
-namespace edmill::dem {
+namespace edmill::decks {
 
 MovingVessel::MovingVessel(const model::Mill<double>& mill,
                            const std::vector<model::BallProperties<double>>& balls, int facets)
@@ -45,7 +45,7 @@ double MovingVessel::gap(const Pose& pose, std::size_t ball, int wall, const Vec
   if (const auto* body = mill_.body_of(wall)) return -body->shape.overlap(0, place) - balls_[ball].radius;
   if (const auto* tube = prism(wall))
     return tube->radius - balls_[ball].radius -
-           dot<double>(place - tube->frame.origin, decks::facet_normal(*tube, facets_, place));
+           dot<double>(place - tube->frame.origin, facet_normal(*tube, facets_, place));
   return -inset(ball).overlap(wall, place);
 }
 
@@ -54,10 +54,9 @@ Vector MovingVessel::normal(const Pose& pose, std::size_t ball, int wall, const 
   const Vector p = motions_[frame].position_in_vessel(pose[frame], position);
   const auto* body = mill_.body_of(wall);
   const auto* tube = prism(wall);
-  return motions_[frame].direction_to_inertial(pose[frame],
-                                               body   ? body->shape.normal(0, p)
-                                               : tube ? Vector(-decks::facet_normal(*tube, facets_, p))
-                                                      : inset(ball).normal(wall, p));
+  return motions_[frame].direction_to_inertial(pose[frame], body   ? body->shape.normal(0, p)
+                                                            : tube ? Vector(-facet_normal(*tube, facets_, p))
+                                                                   : inset(ball).normal(wall, p));
 }
 
 double MovingVessel::energy(const Pose& pose, std::size_t frame, std::size_t ball,
@@ -100,4 +99,4 @@ BallState flown(const BallState& state, const Vector& gravity, double duration) 
           state.velocity + gravity * duration, state.spin};
 }
 
-}  // namespace edmill::dem
+}  // namespace edmill::decks

@@ -1,4 +1,4 @@
-// The moving vessel of a case with the bodies in it, and balls relative to them.
+// The moving vessel of a case with the bodies in it, with the walls of a deck, and balls relative to them.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 #include "model/mill.hpp"
 
-namespace edmill::dem {
+namespace edmill::decks {
 
 using Vector = Vec3<double>;
 using BallState = model::BallState<double>;
@@ -69,4 +69,4 @@ class MovingVessel {
 /// Free flight from a state.
 BallState flown(const BallState& state, const Vector& gravity, double duration);
 
-}  // namespace edmill::dem
+}  // namespace edmill::decks
