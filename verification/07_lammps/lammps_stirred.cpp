@@ -124,7 +124,18 @@ void agree_when_stirred(int lammps_batches, int edmill_batches, double bound) {
 }
 
 TEST_F(LammpsPeer, LongStirredBox) { agree_when_stirred(3000, 20000, 0.01); }
-TEST_F(LammpsPeer, StirredBoxInShort) { agree_when_stirred(16, 400, 0.15); }
+
+/// A rough check of the coupling: contacts of 50 us lower the dose rate by a few percent.
+TEST_F(LammpsPeer, AStirredBoxInShort) {
+  const auto lammps = lammps_stirred(50e-6, 20), edmill = edmill_stirred(400);
+  const double dose = *numerics::estimate(lammps.doses).mean, other = *numerics::estimate(edmill.doses).mean;
+  claim.at_most("stirred box: edmill's wall work over its dose rate, off one",
+                std::abs(edmill.power / other - 1), 0.01);
+  claim.at_most("stirred box, contacts of 50 us: LAMMPS's power of the bar over its dose rate, off one",
+                std::abs(lammps.power / dose - 1), 0.03);
+  claim.at_most("stirred box, contacts of 50 us: LAMMPS over edmill, off one", std::abs(dose / other - 1),
+                0.15);
+}
 
 }  // namespace
 }  // namespace edmill::verification

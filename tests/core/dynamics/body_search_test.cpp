@@ -464,5 +464,52 @@ TEST_P(BodySearches, DerivativesStayBelowTheirBounds) {
   EXPECT_GT(worst, 0.02);
 }
 
+/// Rotors of several bodies, whose constant joints are before or after what turns, and bodies of their own.
+constexpr const char* rotors[] = {
+    R"([{ translate = [0, "5 mm", 0] }, { rotate = "y", speed = "600 rpm" }, { translate = ["9 mm", "1 mm", 0] }])",
+    R"([{ rotate = "y", speed = "600 rpm" }, { translate = [0, 0, "7 mm"] }, { rotate = "x", angle = "30 deg" }])",
+    R"([{ rotate = "y", angle = "40 deg" }, { rotate = "y", speed = "600 rpm" }, { translate = ["6 mm", 0, 0] }])",
+    R"([{ translate = ["3 mm", 0, 0] }, { rotate = "y", speed = "600 rpm" }])",
+    R"([{ rotate = "z", speed = "-200 rpm" }, { translate = ["4 mm", 0, 0] }, { rotate = "x", swing = [{ amplitude = "20 deg", speed = "900 rpm" }] }])",
+    R"([{ translate = "x", swing = [{ amplitude = "3 mm", speed = "900 rpm" }] }, { translate = [0, "2 mm", 0] }])",
+    "[]"};
+
+TEST(BodyGroups, ClearTimesAreThoseOfTheBodiesThemselves) {
+  Draw draw(20261143);
+  for (const char* mill_text : {"type = \"spex8000\"\nspeed = \"900 rpm\"",
+                                "type = \"chain\"\njoint = [{ rotate = \"y\", angle = \"45 deg\" }]"}) {
+    std::string text = fmt::format(
+        "[run]\nend_time = \"1 s\"\n[mill]\n{}\n[vessel]\ndiameter = \"80 mm\"\n"
+        "height = \"80 mm\"\n",
+        mill_text);
+    for (const char* joints : rotors)
+      for (const char* on : {"vessel", "ground"})
+        if (on == std::string("vessel") || std::string(mill_text).find("chain") != std::string::npos)
+          text += fmt::format(
+              "[[body]]\nsize = [\"8 mm\", \"4 mm\", \"3 mm\"]\nrounding = \"1 mm\"\non = \"{}\"\n"
+              "joint = {}\nrepeat = {}\n",
+              on, joints, std::string(joints).find("rotate") != std::string::npos ? 3 : 1);
+    text += "[contact]\nrestitution = 0.5\nfriction = 0.3\n[[balls]]\ncount = 1\ndiameter = \"4 mm\"\n";
+    const auto mill = casefile::build_mill<double>(casefile::parse_case(text, "rotors"));
+    const BodyGroups groups(mill.bodies);
+    const DriveClock<double> clock(mill.motion.period());
+    for (int k = 0; k < 2000; ++k) {
+      const auto when = clock.at(draw.uniform(0, 1));
+      const Vec3<double> place = mill.motion.to_inertial(
+          mill.motion.pose(when), Vec3<double>(draw.symmetric(), draw.symmetric(), draw.symmetric()) * 0.04);
+      const double radius = draw.uniform(0.001, 0.005), speed = draw.uniform(0.01, 10);
+      const auto times = groups.clear_times(when, place, radius, speed);
+      for (std::size_t b = 0; b < mill.bodies.size(); ++b) {
+        const auto& body = mill.bodies[b];
+        const double clearance =
+            body.shape.inset(radius).clearance(body.motion.position_in_vessel(body.motion.pose(when), place));
+        const double way = times[b] * (speed + body.motion.wall_speed(body.shape.size()));
+        ASSERT_LE(way, clearance + 1e-15) << body.name.label;
+        ASSERT_GE(way, clearance - 1e-6 * (1 + clearance)) << body.name.label;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace edmill::dynamics
