@@ -472,7 +472,7 @@ constexpr const char* rotors[] = {
     R"([{ translate = ["3 mm", 0, 0] }, { rotate = "y", speed = "600 rpm" }])",
     R"([{ rotate = "z", speed = "-200 rpm" }, { translate = ["4 mm", 0, 0] }, { rotate = "x", swing = [{ amplitude = "20 deg", speed = "900 rpm" }] }])",
     R"([{ translate = "x", swing = [{ amplitude = "3 mm", speed = "900 rpm" }] }, { translate = [0, "2 mm", 0] }])",
-    "[]"};
+    R"([{ translate = ["2 mm", 0, "-9 mm"] }])"};
 
 TEST(BodyGroups, ClearTimesAreThoseOfTheBodiesThemselves) {
   Draw draw(20261143);

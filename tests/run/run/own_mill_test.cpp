@@ -107,9 +107,9 @@ size = ["6 mm", "30 mm", "2 mm"]
 material = "rubber"
 joint = [{ rotate = "y", speed = "600 rpm" }, { translate = ["8 mm", 0, 0] }]
 [[body]]
-size = ["20 mm", "4 mm", "4 mm"]
+size = ["26 mm", "10 mm", "4 mm"]
 on = "ground"
-joint = [{ translate = [0, "-24 mm", 0] }, { rotate = "y", speed = "200 rpm" }]
+joint = [{ translate = [0, "-22 mm", 0] }, { rotate = "y", speed = "600 rpm" }]
 )");
   OwnParts<double> own;
   own.vessel = cylinder<double>(0.019, 0.0285);
