@@ -487,7 +487,7 @@ class Filling {
     constexpr double densest = 0.7405, few = 12;
     const double vessel = room(), balls = volume_of_balls();
     const double most = static_cast<double>(spec_.ball_count()) < few ? 1 : densest;
-    if (balls <= most * vessel) return true;
+    if (balls <= most * vessel || !(vessel > 0)) return true;  // without any room no ball can be placed
     const auto& batch = spec_.batches.back();
     const double d = batch.diameter.to<double>(), one = numerics::pi<double>() / 6 * d * d * d;
     const double fitting = std::floor(batch.count - (balls - most * vessel) / one);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <functional>
 
+#include "base/interruption.hpp"
+
 namespace edmill::casefile {
 
 namespace {
@@ -59,17 +61,29 @@ std::vector<Place> corners_of(const model::RoundedBody<double>& shape) {
   return corners;
 }
 
-/// Distance of a body from a wall of the vessel [m]. The overlap is greatest at a corner, since the vessel is
-/// convex.
+/// Distance of a place in the vessel from a wall [m]; of a vessel with rounded edges from all of its surface.
+double depth(const model::AnyVessel<double>& vessel, int wall, const Place& place) {
+  const double overlap = vessel.overlap(wall, place);
+  const auto* rounded = vessel.get_if<model::RoundedVessel<double>>();
+  if (!rounded || !vessel.contains(place)) return -overlap;
+  double fits = 0, too_large = vessel.reach();  // a ball about the place
+  for (int k = 0; k < 24; ++k) {
+    const double radius = (fits + too_large) / 2;
+    (rounded->inset(radius).contains(place) ? fits : too_large) = radius;
+  }
+  return fits;
+}
+
+/// Distance of a body from a wall of the vessel [m]. It is least at a corner, since the vessel is convex.
 double distance(const Body& body, const std::vector<Place>& corners, const model::Mill<double>& mill,
                 int wall, const Instant<double>& when) {
   const auto pose = body.motion.pose(when);
   const auto of_vessel = mill.motion.pose(when);
   double least = INFINITY;
   for (const auto& corner : corners)
-    least = std::min(
-        least, -mill.vessel.overlap(
-                   wall, mill.motion.position_in_vessel(of_vessel, body.motion.to_inertial(pose, corner))));
+    least = std::min(least,
+                     depth(mill.vessel, wall,
+                           mill.motion.position_in_vessel(of_vessel, body.motion.to_inertial(pose, corner))));
   return least - body.shape.rounding();
 }
 
@@ -83,15 +97,17 @@ struct Least {
 };
 /// @param change  the largest rate of the gap [m/s]
 /// @param enough  parts where the gap is certainly larger are left
+/// @param finest  to which the gap is known [m]
 void search(const std::function<double(double)>& gap, double from, double to, double change, double enough,
-            Least& least) {
+            double finest, Least& least) {
   const double middle = (from + to) / 2, value = gap(middle);
   least.joined = least.joined && !(value > 0);
   if (value < least.gap) least = {value, middle, least.joined};
   const double possible = value - change * (to - from) / 2;
-  if (possible > std::min(enough, std::max(least.gap, 0.0)) || change * (to - from) < enough / 200) return;
-  search(gap, from, middle, change, enough, least);
-  search(gap, middle, to, change, enough, least);
+  if (possible > std::min(enough, std::max(least.gap, 0.0)) || change * (to - from) < finest) return;
+  Interruption::check();
+  search(gap, from, middle, change, enough, finest, least);
+  search(gap, middle, to, change, enough, finest, least);
 }
 
 }  // namespace
@@ -112,7 +128,7 @@ double free_volume(const model::Mill<double>& mill, const Instant<double>& when)
     const Place place = mill.motion.to_inertial(pose, local);
     bool is_free = true;
     for (std::size_t b = 0; b < mill.bodies.size() && is_free; ++b)
-      is_free = mill.bodies[b].shape.contains(mill.bodies[b].motion.position_in_vessel(poses[b], place));
+      is_free = mill.bodies[b].shape.clearance(mill.bodies[b].motion.position_in_vessel(poses[b], place)) > 0;
     outside_of_bodies += is_free ? 1 : 0;
   }
   return inside > 0 ? mill.vessel.volume() * outside_of_bodies / inside : 0;
@@ -123,18 +139,24 @@ std::vector<NarrowGap> narrow_gaps(const CaseSpec& spec, const model::Mill<doubl
   const double diameter = spec.largest_diameter();
   if (mill.bodies.empty() || !(diameter > 0)) return found;
   const DriveClock<double> clock(mill.motion.period());
-  double slowest = 0;  // period
-  const auto look_at = [&](double frequency) {
-    if (frequency != 0) slowest = std::max(slowest, 1 / std::abs(frequency));
-  };
-  for (const auto& body : mill.bodies)
-    for (const auto& joint : body.motion.joints().list) {
-      if (joint.rotates) look_at(joint.speed);
-      for (const auto& swing : joint.swings) look_at(swing.frequency);
+  double slowest = clock.period();
+  bool slides = false;
+  const auto look_at = [&](const auto& joints) {
+    for (const auto& joint : joints) {
+      slides = slides || (!joint.rotates && joint.speed != 0);
+      if (joint.rotates && joint.speed != 0) slowest = std::max(slowest, 1 / std::abs(joint.speed));
+      for (const auto& swing : joint.swings)
+        if (swing.frequency != 0) slowest = std::max(slowest, 1 / std::abs(swing.frequency));
     }
+  };
+  for (const auto& body : mill.bodies) look_at(body.motion.joints().list);
+  if (const auto* chain = mill.motion.get_if<model::ChainMotion<double>>()) look_at(chain->joints().list);
   const double from = spec.initial_time.to<double>();
-  double to = from + std::max(slowest, clock.period());
-  if (spec.end_time) to = std::min(to, spec.end_time->to<double>());
+  double to = from + slowest;
+  if (spec.end_time) {
+    const double end = spec.end_time->to<double>();
+    to = slides ? end : std::min(to, end);
+  }
   // Two frames that do not move against each other are seen alike at all times.
   const auto moves = [&](const Body& body, const Seen& seen) {
     for (const double share : {0.137, 0.61})
@@ -149,10 +171,12 @@ std::vector<NarrowGap> narrow_gaps(const CaseSpec& spec, const model::Mill<doubl
   };
   const auto judge = [&](const std::string& one, const std::string& other, double change, const auto& gap) {
     Least least;
-    search([&](double time) { return gap(clock.at(time)); }, from, to, change, diameter, least);
+    const double finest = std::max(diameter / 200, change * (to - from) / 20000);
+    search([&](double time) { return gap(clock.at(time)); }, from, to, change, diameter, finest, least);
     if (!least.joined && least.gap < diameter)
       found.push_back({one, other, std::max(least.gap, 0.0), least.time});
   };
+  const bool rounded = mill.vessel.get_if<model::RoundedVessel<double>>() != nullptr;
   for (std::size_t k = 0; k < mill.bodies.size(); ++k) {
     const auto& body = mill.bodies[k];
     const double speed = body.motion.wall_speed(body.shape.size());
@@ -160,8 +184,8 @@ std::vector<NarrowGap> narrow_gaps(const CaseSpec& spec, const model::Mill<doubl
     if (moves(body, [&](const Place& p, const auto& when) {
           return mill.motion.position_in_vessel(mill.motion.pose(when), p);
         }))
-      for (int wall = 0; wall < mill.vessel.wall_count(); ++wall)
-        judge(body.name.label, mill.vessel.walls()[static_cast<std::size_t>(wall)].label,
+      for (int wall = 0; wall < (rounded ? 1 : mill.vessel.wall_count()); ++wall)
+        judge(body.name.label, rounded ? "vessel" : mill.vessel.walls()[static_cast<std::size_t>(wall)].label,
               speed + mill.motion.wall_speed(mill.vessel.reach()),
               [&](const auto& when) { return distance(body, corners, mill, wall, when); });
     for (std::size_t other = k + 1; other < mill.bodies.size(); ++other) {

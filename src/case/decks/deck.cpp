@@ -255,19 +255,22 @@ std::string region_of(const DeckCase& c, const std::string& moves) {
                   c.file));
 }
 
-/// A body as a region of LAMMPS, and the fix of its contacts. Regions have sharp edges, and turn about one
-/// axis before they are shifted.
-std::string body_of(const DeckCase& c, std::size_t k, const std::string& contact) {
-  const auto& body = c.mill.bodies[k];
-  const auto refuse = [&](const char* found, const char* expected) {
-    return InputError(
-        fmt::format("{}: found {}, {}, expected {}, which a region of LAMMPS can be: LIGGGHTS and "
-                    "YADE have bodies as triangles",
-                    c.file, body.name.label, found, expected));
-  };
-  std::vector<model::Joint<double>> before;  // the rotation
+/// What a region of LAMMPS does: it turns about an axis through the origin, then it is shifted.
+struct RegionMotion {
+  std::vector<model::Joint<double>> shifts;
+  std::array<double, 3> axis{}, place{};  ///< place: of the body, before it turns [m]
   Formula angle;
-  std::array<double, 3> axis{}, place{};
+};
+
+InputError no_region(const DeckCase& c, std::size_t body, const char* found, const char* expected) {
+  return InputError(
+      fmt::format("{}: found {}, {}, expected {}, which a region of LAMMPS can be: LIGGGHTS and YADE have "
+                  "bodies as triangles",
+                  c.file, c.mill.bodies[body].name.label, found, expected));
+}
+
+/// @throws InputError for a body that turns about several axes, or slides on what turns
+RegionMotion motion_of_region(const DeckCase& c, std::size_t k) {
   auto joints = c.of_bodies[k].list;
   if (!c.translates()) {  // in the vessel's frame
     const auto& vessel = c.joints.list;
@@ -279,25 +282,36 @@ std::string body_of(const DeckCase& c, std::size_t k, const std::string& contact
       joints.insert(joints.begin(), back);
     }
   }
+  RegionMotion motion;
+  auto& [shifts, axis, place, angle] = motion;
+  const std::array<double, 3> none{};
   for (const auto& joint : joints) {
     if (joint.rotates) {
       const auto own = axis_of(joint);
-      if (axis == std::array<double, 3>{}) axis = own;
+      if (axis == none) axis = own;
       const Vec3<double> off{place[0], place[1], place[2]}, about{own[0], own[1], own[2]};
       if (own != axis || norm<double>(cross<double>(off, about)) > 1e-15)
-        throw refuse("whose joints turn about several axes", "one that turns about one axis");
+        throw no_region(c, k, "whose joints turn about several axes", "one that turns about one axis");
       angle += Formula(turn * joint.angle) + moved_formula(joint, turn, "v_t");
-    } else if (axis == std::array<double, 3>{}) {
-      before.push_back(joint);
+    } else if (axis == none) {
+      shifts.push_back(joint);
     } else if (moves(joint)) {
-      throw refuse("which slides on what turns", "one that slides before it turns");
+      throw no_region(c, k, "which slides on what turns", "one that slides before it turns");
     } else {
       for (std::size_t i = 0; i < 3; ++i) place[i] += joint.shift[i];
     }
   }
+  return motion;
+}
+
+/// A body as a region of LAMMPS, and the fix of its contacts. Regions have sharp edges.
+std::string body_of(const DeckCase& c, std::size_t k, const std::string& contact) {
+  const auto& body = c.mill.bodies[k];
+  const auto motion = motion_of_region(c, k);
+  const auto& place = motion.place;
   const auto& [half, rounding] = std::pair(body.shape.half(), body.shape.rounding());
   const bool sphere = half == Vec3<double>::Zero();
-  if (rounding > 0 && !sphere) throw refuse("with rounded edges", "sharp edges or a sphere");
+  if (rounding > 0 && !sphere) throw no_region(c, k, "with rounded edges", "sharp edges or a sphere");
   std::string text, region;
   if (sphere)
     region = fmt::format("sphere {} {} {} {}", place[0], place[1], place[2], rounding);
@@ -307,13 +321,13 @@ std::string body_of(const DeckCase& c, std::size_t k, const std::string& contact
   else
     region = fmt::format("block {} {} {} {} {} {}", place[0] - half[0], place[0] + half[0],
                          place[1] - half[1], place[1] + half[1], place[2] - half[2], place[2] + half[2]);
-  const auto shift = displacement_formulas(before, "v_t");
+  const auto shift = displacement_formulas(motion.shifts, "v_t");
   for (std::size_t i = 0; i < 3; ++i)
     text += fmt::format("variable shift{}{} equal {}\n", k, "xyz"[i], shift[i].text);
   region += fmt::format(" side out units box move v_shift{0}x v_shift{0}y v_shift{0}z", k);
-  if (!angle.text.empty()) {
-    text += fmt::format("variable angle{} equal {}\n", k, angle.text);
-    region += fmt::format(" rotate v_angle{} 0 0 0 {}", k, fmt::join(axis, " "));
+  if (!motion.angle.text.empty()) {
+    text += fmt::format("variable angle{} equal {}\n", k, motion.angle.text);
+    region += fmt::format(" rotate v_angle{} 0 0 0 {}", k, fmt::join(motion.axis, " "));
   }
   return text +
          fmt::format("region body{0} {1}\nfix body{0} all wall/gran/region granular {2} region body{0}\n", k,
@@ -368,10 +382,10 @@ Deck lammps_deck(DeckCase& c) {
     for (std::size_t k = 0; k < 3; ++k)
       vessel += fmt::format("variable move{} equal {}\n", "xyz"[k], formulas[k].text);
   }
-  const bool moves = !in_vessel && c.mill.motion.wall_speed(0) > 0;
+  const bool shifted = !in_vessel && !c.joints.list.empty();
   c.add("frame", in_vessel ? "vessel" : "laboratory", "balls", atoms_of(c, "omega {} {} {}", true));
   c.add("tsuji", tsuji_of(c, c.of_balls));
-  c.add("vessel", vessel + region_of(c, moves ? " move v_movex v_movey v_movez" : ""));
+  c.add("vessel", vessel + region_of(c, shifted ? " move v_movex v_movey v_movez" : ""));
   c.add("wall_tsuji", tsuji_of(c, c.of_walls), "weight",
         !in_vessel ? weight_of(c.mill.gravity)
         : at_rest  ? weight_of(c.mill.motion.in_axes(c.pose, c.mill.gravity))

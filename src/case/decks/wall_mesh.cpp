@@ -58,7 +58,28 @@ std::vector<WallMesh> meshes_of(const model::AnyVessel<double>& vessel, int face
   return meshes;
 }
 
+/// A body without thickness: one sheet, since triangles have two sides.
+std::vector<Triangle> sheet_of(const model::RoundedBody<double>& body) {
+  const auto& half = body.half();
+  std::vector<Triangle> sheet;
+  if (body.is_round()) {
+    constexpr int sides = model::picture_sides;
+    const auto corner = [&](int k) {
+      const auto turn = numerics::sin_cos_turns<double>(static_cast<double>(k) / sides);
+      return Vec3<double>(half[0] * turn.cos, 0, half[0] * turn.sin);
+    };
+    for (int k = 2; k < sides; ++k) sheet.push_back({corner(0), corner(k - 1), corner(k)});
+    return sheet;
+  }
+  const int flat = half[0] > 0 ? half[1] > 0 ? 2 : 1 : 0;
+  const auto edge = [&](int k) { return Vec3<double>(Vec3<double>::Unit(k % 3) * half[k % 3]); };
+  const Vec3<double> u = edge(flat + 1), v = edge(flat + 2);
+  return {{u + v, v - u, -u - v}, {u + v, -u - v, u - v}};
+}
+
 WallMesh mesh_of(const model::RoundedBody<double>& body, const std::string& name) {
+  const bool is_flat = (body.half().array() == 0).any() && body.rounding() == 0;
+  if (is_flat) return {name, sheet_of(body), 0};
   const auto mesh = model::mesh_of(body);
   // Angles between the facets that model::mesh_of makes, and a little more.
   WallMesh result{name, {}, body.rounding() > 0 ? 23.0 : body.is_round() ? 7.6 : 0};

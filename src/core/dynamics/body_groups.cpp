@@ -68,11 +68,12 @@ BodyGroups::BodyGroups(const std::vector<model::Body<double>>& bodies) {
       groups_.push_back({model::ChainMotion<double>({first, joints.period, joints.times}), {}});
     }
     const model::ChainMotion<double> constant({rest, joints.period, joints.times});
-    groups_[group].members.push_back({.body = k,
-                                      .place = constant.pose({0, 0.0}),
-                                      .shape = shape,
-                                      .speed = motion.wall_speed(shape.size()) * (1 + 1e-9),
-                                      .margin = 1e-9 * shape.reach()});
+    groups_[group].members.push_back(
+        {.body = k,
+         .place = constant.pose({0, 0.0}),
+         .shape = shape,
+         .speed = motion.wall_speed(shape.size()) * (1 + 1e-9),
+         .margin = 1e-9 * shape.reach() + 1e-13 * motion.period() * motion.wall_speed(shape.size())});
   }
 }
 

@@ -31,7 +31,8 @@ class BodyGroups {
     std::size_t body;
     model::ChainPose<double> place;  ///< in the frame of the group
     model::RoundedBody<double> shape;
-    double speed, margin;  ///< no point of it is faster [m/s]; above the rounding of its distance [m]
+    double speed,
+        margin;  ///< no point of it is faster [m/s]; above the rounding of its distance, and of the time [m]
   };
   struct Group {
     model::ChainMotion<double> motion;

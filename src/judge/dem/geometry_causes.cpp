@@ -46,13 +46,18 @@ class Geometry {
       const auto pose = vessel.at(t);
       double best = 0.5 * norm<double>(impulse);
       int wall = -1;
-      for (int w = 0; w < vessel.walls(); ++w)
+      for (int w = 0; w < vessel.walls(); ++w) {
+        // A body has faces along the walls, too: those that are far away are not meant.
+        const auto ball = static_cast<std::size_t>(c.ball);
+        if (vessel.has_bodies() && vessel.gap(pose, ball, w, state.position) > vessel.ball(ball).radius)
+          continue;
         if (const double along = dot<double>(
                 vessel.normal(pose, static_cast<std::size_t>(c.ball), w, state.position), impulse);
             along > best) {
           best = along;
           wall = w;
         }
+      }
       if (wall < 0) continue;
       meetings_.push_back({static_cast<std::size_t>(c.ball), wall, t, state.position});
       reaches.push_back(norm<double>(impulse) / 1.5 * frames.interval / 2);

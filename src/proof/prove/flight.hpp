@@ -227,7 +227,9 @@ inline Gap gap_of_solid(bool is_round, const Vector& half, const Enclosure& squa
 inline Vector from_core(bool is_round, const Vector& half, const Vector& p) {
   const Enclosure up = Excess(p[1], half[1]).by;
   if (!is_round) return {Excess(p[0], half[0]).by, up, Excess(p[2], half[2]).by};
-  const Enclosure distance = sqrt(p[0] * p[0] + p[2] * p[2]), share = Excess(distance, half[0]).by / distance;
+  // (r - a)/r where r > a, also where the enclosure of r contains 0.
+  const Enclosure beyond = Excess(sqrt(p[0] * p[0] + p[2] * p[2]), half[0]).by,
+                  share = beyond / (half[0] + beyond);
   return {p[0] * share, up, p[2] * share};
 }
 

@@ -197,6 +197,10 @@ void forget_walls(model::Mill<Real>& mill, const model::AnyVessel<Real>& own) {
     if (wall == 0) kept.insert(kept.end(), new_count, -1);
     if (wall >= old_count) kept.push_back(of_walls[k]);
   }
+  constexpr std::size_t most = 48;  // as of a case
+  if (bodies > 0 && new_count + bodies > most)
+    throw InputError("vessel of the program: found " + std::to_string(new_count + bodies) +
+                     " walls and bodies, expected at most " + std::to_string(most));
   if (foreign)
     throw InputError(
         "vessel of the program: found a case whose walls move or have materials, expected a case without");

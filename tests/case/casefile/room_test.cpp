@@ -14,7 +14,8 @@ using namespace edmill;
 namespace {
 
 /// The narrow gaps for a ball of 8 mm in a tank of 80 mm by 70 mm at rest, by name: width [mm].
-std::map<std::string, double> gaps(const std::string& bodies, const std::string& end = "10 s") {
+std::map<std::string, double> gaps(const std::string& bodies, const std::string& end = "10 s",
+                                   const std::string& vessel = "") {
   const auto spec = casefile::parse_case(R"([run]
 end_time = ")" + end + R"("
 [mill]
@@ -23,7 +24,7 @@ joint = [{ rotate = "y", angle = "45 deg" }]
 [vessel]
 diameter = "80 mm"
 height = "70 mm"
-)" + bodies + R"([contact]
+)" + vessel + bodies + R"([contact]
 restitution = 0.6
 friction = 0.3
 [[balls]]
@@ -59,6 +60,22 @@ TEST(NarrowGaps, AreThoseOfClosedForms) {
       R"({ translate = [0, "-22 mm", 0] }, { translate = "y", swing = [{ amplitude = "5 mm", speed = "60 rpm" }] })";
   EXPECT_NEAR(gaps(bar(R"(["54 mm", "8 mm", "8 mm"])", swinging, "bar")).at("bar - cap -y"), 4, 1e-3);
   EXPECT_TRUE(gaps(bar(R"(["54 mm", "8 mm", "8 mm"])", swinging, "bar"), "0.4 s").empty());
+}
+
+TEST(NarrowGaps, OfASlowSlideAndInARoundedVessel) {
+  // It comes down by 1 mm/s, and touches the floor after 9 s.
+  const std::string sliding = R"({ translate = [0, "-22 mm", 0] }, { translate = "y", speed = "-1 mm/s" })";
+  const std::string one = bar(R"(["54 mm", "8 mm", "8 mm"])", sliding, "bar");
+  EXPECT_NEAR(gaps(one, "5 s").at("bar - cap -y"), 4, 0.05);
+  EXPECT_TRUE(gaps(one, "0.5 s").empty());
+  // The edges of the vessel are rounded by 3 mm, which is less than a ball: the bar in the middle is far from
+  // them.
+  const std::string turning = R"({ rotate = "y", speed = "600 rpm" })";
+  const std::string rounded = "type = \"rounded_cylinder\"\nedge_radius = \"3 mm\"\n";
+  EXPECT_TRUE(gaps(bar(R"(["54 mm", "8 mm", "8 mm"])", turning, "bar"), "1 s", rounded).empty());
+  const auto wide = gaps(bar(R"(["66 mm", "8 mm", "8 mm"])", turning, "bar"), "1 s", rounded);
+  ASSERT_EQ(wide.size(), 1U);
+  EXPECT_NEAR(wide.at("bar - vessel"), 40 - std::hypot(33, 4), 1e-4);
 }
 
 TEST(NarrowGaps, OfTwoBodies) {
@@ -118,6 +135,7 @@ diameter = "2 mm"
   const std::string ball = "[[body]]\nsize = [\"20 mm\", \"20 mm\", \"20 mm\"]\nrounding = \"10 mm\"\n";
   EXPECT_DOUBLE_EQ(volume(""), whole);
   EXPECT_NEAR(volume(ball), whole - sphere, 0.01 * whole);
+  EXPECT_NEAR(volume("[[body]]\nsize = [\"20 mm\", \"20 mm\", \"20 mm\"]\n"), whole - 8000, 0.01 * whole);
   // Twice the same body, and one that is half outside of the vessel.
   EXPECT_NEAR(volume(ball + ball), whole - sphere, 0.01 * whole);
   EXPECT_NEAR(volume(ball + "joint = [{ translate = [\"30 mm\", 0, 0] }]\n"), whole - sphere / 2,

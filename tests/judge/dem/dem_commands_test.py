@@ -72,6 +72,9 @@ MILLS = {  # a case, and the codes that cannot have it
                 {"lammps": "no single region", "liggghts": "round in two ways", "yade": "round in two ways"}),
     "stirred": (TANK + ROTOR.format(""), {}),
     "sphere inside": (TANK + '[[body]]\nsize = ["8 mm", "8 mm", "8 mm"]\nrounding = "4 mm"\n', {}),
+    "sheet": (TANK + '[[body]]\nsize = ["8 mm", "0 mm", "6 mm"]\n[[body]]\ntype = "cylinder"\ndiameter = "6 mm"\nheight = "0 mm"\n'
+              'joint = [{ translate = [0, "9 mm", 0] }]\n', {}),
+    "shifted": ('[mill]\ntype = "chain"\njoint = [{ translate = ["50 mm", 0, 0] }]\n[vessel]\ntype = "box"\nsize = ["4 cm", "4 cm", "4 cm"]\n', {}),
     "rounded": (TANK + ROTOR.format('rounding = "1 mm"'), {"lammps": "body 0, with rounded edges"}),
     "two axes": (TANK + ROTOR.format("").replace('translate = ["8 mm", 0, 0]', 'rotate = "x", angle = "30 deg"'),
                  {"lammps": "body 0, whose joints turn about several axes"}),
@@ -97,6 +100,11 @@ def exports():
                 done = run(*words)
                 check(done.returncode == 0 and done.stdout.count("wrote") >= 1, f"{name} {code}: {done.stderr}")
                 decks = list(pathlib.Path(f"{name}_{code}").iterdir())
+                if name == "shifted" and code == "lammps":
+                    check("move v_movex" in decks[0].read_text() and "variable movex equal 0.05" in decks[0].read_text(), "a vessel that is shifted")
+                if name == "sheet" and code != "lammps":
+                    triangles = [deck.read_text().count("outer loop") for deck in decks if "body" in deck.name]
+                    check(sorted(triangles) == [2, 46], f"sheets of {code}: {triangles} triangles")
                 check(all("nan" not in deck.read_text() and "inf " not in deck.read_text() for deck in decks), f"{name} {code}: nan")
     for law, text in {"constant": "walton-braun", "viscoelastic": "walton-braun"}.items():
         fails(f'found "{law}", expected "{text}"', "export", "box.toml", "--to", "lammps", "--set", f'contact.model="{law}"',

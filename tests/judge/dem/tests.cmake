@@ -10,4 +10,5 @@ edmill_script(dem_commands_test dem/dem_commands_test.py $<TARGET_FILE:small_dem
 add_test(NAME dem_cases_test COMMAND ${DEBIAN_PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/judge/dem/dem_cases_test.py)
 add_test(NAME vtk_frames_long COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/judge/dem/vtk_frames_test.py)
 set_tests_properties(vtk_frames_long PROPERTIES LABELS long TIMEOUT 300 SKIP_RETURN_CODE 77)
+edmill_script(stirred_decks_long dem/stirred_decks_test.py LONG 3600)
 edmill_script(large_dump_long dem/large_dump_test.py LONG 3600)

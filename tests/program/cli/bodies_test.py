@@ -184,6 +184,14 @@ def borders(t):
     t.check(edmill("check", stirred, "--set", "balls.0.count=420").returncode == 0, "a crowd around a shaft")
 
 
+def proof(t):
+    """A ball that falls onto the middle of a cylinder's end: the distance from the axis is zero."""
+    pathlib.Path("axis.toml").write_text(CASE.format(bodies='[[body]]\ntype = "cylinder"\ndiameter = "10 mm"\nheight = "6 mm"',
+                                                     **TANK | {"count": 0}) + '[[ball]]\ndiameter = "4 mm"\nposition = [0, "20 mm", 0]\n')
+    text = said("prove", "axis.toml", "--collisions", 3)
+    t.check("proven: 3 events" in text, f"on the axis: {text}")
+
+
 def scalars(t):
     text = said("certify", EXAMPLES / "stirred.toml", "--collisions", "200", "--out", "events.csv")
     t.check("certified: events.csv" in text and "float128 and mpfr50: 200 events in common" in text, f"200 events in three scalars: {text}")
@@ -195,6 +203,7 @@ with Trials() as t:
     judges(t)
     borders(t)
     scalars(t)
+    proof(t)
     for trial in range(mills):
         random_mill(t, trial)
 print(f"{mills} mills with bodies, {charges} charges each, seed {seed}, {t.checks} checks, ended by: {dict(reasons)}")

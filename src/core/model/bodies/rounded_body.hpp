@@ -132,7 +132,10 @@ class RoundedBody {
       if (beyond(i) > beyond(first)) first = i;
     }
     const std::size_t up = d[1] > 0 ? 1 : 0;
-    const bool on_edge = outside > 1 && rounding_ > 0;
+    // A part without area is a line or a point of the rounded edges.
+    const bool has_area =
+        is_round_ ? first != 0 || half_[1] > 0 : half_[(first + 1) % 3] * half_[(first + 2) % 3] > 0;
+    const bool on_edge = rounding_ > 0 && (outside > 1 || !has_area);
     if (is_round_) return on_edge ? up : first == 0 ? 2 : 3 + up;
     return on_edge ? 6 : static_cast<std::size_t>(2 * first + (d[first] > 0 ? 1 : 0));
   }
