@@ -281,10 +281,12 @@ template <class Real, class Wide>
 void compare(const BodyText& text, std::uint64_t seed, long count, Count& sum) {
   Draw draw(seed);
   std::optional<model::Mill<double>> mill;
+  model::Mill<Wide> wide_mill;
   std::optional<DecisionLadder<Real>> ladder;
   for (long k = 0; k < count; ++k) {
     if (k % 50 == 0) {
       mill = random_mill(draw, text);
+      wide_mill = model::mill_cast<Wide>(*mill);
       ladder.emplace(model::mill_cast<Real>(*mill), Real(0.01), Real(20));
     }
     const auto kind = static_cast<Start>(k % 4);
@@ -292,7 +294,6 @@ void compare(const BodyText& text, std::uint64_t seed, long count, Count& sum) {
     const auto query = random_query(draw, *mill, length, kind);
     const auto asked = widened<Real>(query);
     const auto answer = ask(*ladder, asked);
-    const auto wide_mill = model::mill_cast<Wide>(*mill);
     const Oracle<Wide> oracle(wide_mill, widened<Wide>(query));
     Wide closest(1), from(0);
     if (kind == Start::on_it) {  // from where it has left, which it may not do within the window
