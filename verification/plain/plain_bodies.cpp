@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "vectors.hpp"
+#include "states.hpp"
 
 namespace {
 
@@ -217,14 +217,9 @@ class PlainBodies {
   PlainBodies(std::istream& mill, std::istream& states) : mill_(read_mill<T>(mill)), near_(in_double(mill_)) {
     const T R = mill_.radius;
     mass_ = mill_.density * 4 / 3 * boost::math::constants::pi<T>() * R * R * R;
-    std::string line, cell;
-    std::getline(states, line);
-    while (std::getline(states, line)) {
-      std::vector<T> c;
-      for (std::istringstream row(line); std::getline(row, cell, ',');) c.push_back(T(cell));
-      if (c.size() < 11) throw std::runtime_error("short line in the states");
-      now_ = c[10];
-      balls_.push_back({{{c[1], c[2], c[3]}, {c[4], c[5], c[6]}, now_}, {c[7], c[8], c[9]}});
+    for (const State<T>& s : read_states<T>(states)) {
+      now_ = s.time;
+      balls_.push_back({{s.position, s.velocity, now_}, s.spin});
     }
     for (Ball& b : balls_) b.wall = first_wall(b);
   }

@@ -13,6 +13,7 @@
 
 #include "faults.hpp"
 #include "flights.hpp"
+#include "states.hpp"
 
 namespace {
 
@@ -36,15 +37,10 @@ class PlainMill {
     }
     fault_.meets({"ball"});
     mill_.pair_gap = fault_.of("contact_gap", T(0)), mill_.gamma_phase = fault_.of("gamma_phase", T(0));
-    std::string line, cell;
-    std::getline(states, line);
-    while (std::getline(states, line)) {
-      std::vector<T> c;
-      for (std::istringstream row(line); std::getline(row, cell, ',');) c.push_back(T(cell));
-      if (c.size() < 11) throw std::runtime_error("short line in the states");
-      now_ = c[10];
-      const Flight<T> flight{{c[1], c[2], c[3]}, {c[4], c[5], c[6]}, now_ * mill_.turns_per_second};
-      balls_.push_back({flight, {c[7], c[8], c[9]}, now_});
+    for (const State<T>& s : read_states<T>(states)) {
+      now_ = s.time;
+      const Flight<T> flight{s.position, s.velocity, now_ * mill_.turns_per_second};
+      balls_.push_back({flight, s.spin, now_});
       weigh(static_cast<unsigned>(balls_.size() - 1));
     }
     for (Ball& b : balls_) predict_walls(b);
