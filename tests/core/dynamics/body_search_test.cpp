@@ -160,16 +160,17 @@ class Oracle {
         .second;
   }
 
-  /// The parts of a window that double cannot exclude, in order.
+  /// The parts of a window that double cannot exclude, in order, up to where the ball is surely in the body.
   std::vector<std::pair<Real, Real>> near(const Real& from, const Real& to) const {
-    constexpr double rounding = 1e-9;  // of a gap, at most [m]
+    constexpr double rounding = 1e-11;  // of a gap, at most [m]
+    const Real finest = 4 * rounding / steepest_;
     std::vector<std::pair<Real, Real>> found;
     Real begin = from, before = gap(from);
     std::vector<std::pair<Real, Real>> ends{{to, gap(to)}};
     while (!ends.empty()) {
       const auto [end, behind] = ends.back();
       const bool clear = before > 0 && behind > 0 && before + behind > steepest_ * (end - begin) + rounding;
-      if (!clear && end - begin > (to - from) / 4096) {
+      if (!clear && end - begin > finest) {
         const Real middle = begin + (end - begin) / 2;
         ends.emplace_back(middle, gap(middle));
         continue;
@@ -178,6 +179,7 @@ class Oracle {
         found.back().second = end;
       else if (!clear)
         found.emplace_back(begin, end);
+      if (behind < -rounding) break;
       begin = end;
       before = behind;
       ends.pop_back();
