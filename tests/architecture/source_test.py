@@ -53,10 +53,10 @@ def find_long(name, lines):
 
 
 def find_ranges(name, text):
-    """The page of the browser has these rooms, and Emscripten's library of Debian 12 no algorithms of std::ranges."""
+    """The page of the browser and the npm package have these rooms, and Emscripten's library of Debian 12 no algorithms of std::ranges."""
     if name.split("/")[0] in {"base", "model", "dynamics", "engine", "casefile", "io", "run", "tangent", "output", "core_alone",
-                              "browser", "audit", "compare", "identify"} and "std::ranges::" in text:
-        problems.append(f"{name}: std::ranges, which the page cannot have")
+                              "browser", "node", "audit", "compare", "identify", "dem", "logs", "decks", "machines", "cli"} and "std::ranges::" in text:
+        problems.append(f"{name}: std::ranges, which the page and the npm package cannot have")
 
 
 # Pages that programs write.
@@ -100,8 +100,8 @@ def own_namespaces(room):
 def find_foreign_namespaces(name, text):
     own = own_namespaces(name.split("/")[0])
     for block in re.finditer(r"^namespace (edmill[\w:]*) \{\n(.*?)^\}  // namespace \1$", text, re.M | re.S):
-        # The registry defines what casefile declares, the types of outputs; the core alone and the page stand for what they leave out.
-        if block.group(1) in own or name == "output/registry.cpp" or name.startswith(("core_alone/", "browser/make_source")):
+        # The registry defines what casefile declares, the types of outputs; the core alone, the page and the npm package stand for what they leave out.
+        if block.group(1) in own or name == "output/registry.cpp" or name.startswith(("core_alone/", "browser/make_source", "node/")):
             continue
         declared = re.sub(r"//.*|extern template [^;]*;|template <[^>]*>|(class|struct) \w+;|namespace \w+ \{|\}", "", block.group(2))
         if declared.strip():

@@ -3,7 +3,7 @@
 
 usage: edmill_statistics.py EDMILL CASE FOUND.csv [--short] [--write]
 
-FOUND.csv gets name,value,uncertainty for compare_statistics.py. --short makes few and short runs with other seeds; their
+FOUND.csv gets name,value,uncertainty for check.py. --short makes few and short runs with other seeds; their
 uncertainties are those of statistics.csv, scaled by the root of the time that was simulated. Runs are made below ./CASE."""
 import argparse
 import csv

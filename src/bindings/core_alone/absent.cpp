@@ -11,8 +11,7 @@ namespace edmill {
 
 namespace {
 [[noreturn]] void refuse(const std::string& what, const std::string& library) {
-  throw InputError("found " + what + ", which needs " + library +
-                   ", expected none: this edmill has the core alone");
+  throw InputError(what + " needs " + library + ", which this build of edmill does not contain");
 }
 }  // namespace
 

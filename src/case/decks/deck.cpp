@@ -3,6 +3,7 @@
 #include <fmt/args.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -65,7 +66,10 @@ struct DeckCase {
         fmt::format("{:.14g}", balls[ball].mass / (4.0 / 3 * numerics::pi<double>() * r * r * r)));
   }
   /// No joint turns: the vessel translates, or is at rest.
-  bool translates() const { return std::ranges::none_of(joints.list, &model::Joint<double>::rotates); }
+  bool translates() const {
+    return std::none_of(joints.list.begin(), joints.list.end(),
+                        [](const auto& joint) { return joint.rotates; });
+  }
 };
 
 SoftLaw soft_law(const model::ContactLaw<double>& law, const std::string& file, const DeckOptions& options) {
@@ -219,7 +223,7 @@ std::string atoms_of(const DeckCase& c, const char* spin, bool also_at_rest) {
 void tell_facets(DeckCase& c, const std::vector<WallMesh>& meshes, Deck& deck) {
   const int facets = c.options.facets;
   const bool is_round =
-      std::ranges::any_of(meshes, [](const WallMesh& mesh) { return mesh.smooth_angle > 0; });
+      std::any_of(meshes.begin(), meshes.end(), [](const WallMesh& mesh) { return mesh.smooth_angle > 0; });
   c.add("facets", is_round ? fmt::format("# facets {}\n", facets) : "");
   if (is_round)
     deck.notes.push_back(
@@ -366,7 +370,8 @@ std::string fictitious_forces(DeckCase& c) {
 }
 
 Deck lammps_deck(DeckCase& c) {
-  const bool in_vessel = !c.translates(), at_rest = std::ranges::none_of(c.joints.list, moves);
+  const bool in_vessel = !c.translates(),
+             at_rest = std::none_of(c.joints.list.begin(), c.joints.list.end(), moves);
   for (std::size_t k = 0; k < c.mill.bodies.size(); ++k)
     if (in_vessel && !at_rest && !c.on_vessel[k])
       throw InputError(
@@ -631,7 +636,8 @@ Deck make_deck(const casefile::CaseSpec& spec, const DeckOptions& options) {
                           : spec.end_time      ? spec.end_time->to<double>() - begin
                                                : 0;
   const double interval = options.frame_interval > 0 ? options.frame_interval : options.contact_time / 5;
-  const auto& largest = *std::ranges::max_element(balls, {}, &model::BallProperties<double>::radius);
+  const auto& largest = *std::max_element(balls.begin(), balls.end(),
+                                          [](const auto& a, const auto& b) { return a.radius < b.radius; });
   DeckCase c{.file = spec.file,
              .options = options,
              .balls = balls,

@@ -17,7 +17,8 @@ MovingVessel::MovingVessel(const model::Mill<double>& mill,
   for (const auto& body : mill_.bodies) motions_.emplace_back(body.motion);
   std::vector<double> radii;
   for (const auto& ball : balls_) {
-    const auto k = static_cast<std::size_t>(std::ranges::find(radii, ball.radius) - radii.begin());
+    const auto k =
+        static_cast<std::size_t>(std::find(radii.begin(), radii.end(), ball.radius) - radii.begin());
     inset_of_.push_back(k);
     if (k < radii.size()) continue;
     radii.push_back(ball.radius);

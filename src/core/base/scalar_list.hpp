@@ -147,6 +147,9 @@ auto with_scalar(std::string_view name, const Function& function) {
     const mpfr::Digits digits(chosen);
     return function.template operator()<mpfr>();
   }
+#else
+  if (chosen_digits_of(name) > 0)
+    throw InputError(std::string(name) + " needs MPFR, which this build of edmill does not contain");
 #endif
   throw ContractError("no scalar named " + std::string(name));
 }

@@ -154,6 +154,14 @@ std::optional<int> descriptor_named(const fs::path& path) {
   return number;
 }
 
+int duplicate(int descriptor) {
+#ifdef __EMSCRIPTEN__
+  return ::dup(descriptor);
+#else
+  return ::fcntl(descriptor, F_DUPFD_CLOEXEC, 3);
+#endif
+}
+
 bool is_device(const fs::path& path) {
   std::error_code ignored;
   const auto status = fs::status(path, ignored);
@@ -193,7 +201,7 @@ int Destination::open_through() const {
   if (!number) return open_for_writing(named, 0);
   // Duplicates the descriptor: a file that is opened again would be written from its beginning.
   if (*number == STDOUT_FILENO) std::fflush(stdout);
-  return ::fcntl(*number, F_DUPFD_CLOEXEC, 3);
+  return duplicate(*number);
 }
 
 void Destination::commit() const {

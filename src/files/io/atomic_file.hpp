@@ -63,6 +63,8 @@ class FileBuffer : public std::streambuf {
 
 /// The number of this process's descriptor that a path names: /dev/stdout, /dev/fd/63, a link to one of them.
 std::optional<int> descriptor_named(const std::filesystem::path& path);
+/// Another descriptor of the same open file, above the standard ones. @return -1 with errno
+int duplicate(int descriptor);
 
 /// Whether a path names a device, a pipe or a socket, if only by a descriptor.
 bool is_device(const std::filesystem::path& path);

@@ -35,7 +35,8 @@ struct WaitInterrupted : InterruptedError {
 };
 
 /// Waits until there is input, or its end. Files never wait.
-void wait_for_input(int descriptor) {
+void wait_for_input([[maybe_unused]] int descriptor) {
+#ifndef __EMSCRIPTEN__  // whose poll() knows no files
   const auto* interrupted = waits_end.load();
   if (!interrupted) return;
   pollfd waiting{descriptor, POLLIN, 0};
@@ -44,6 +45,7 @@ void wait_for_input(int descriptor) {
     if (ready > 0 || (ready < 0 && errno != EINTR)) return;
     if (interrupted->load(std::memory_order_relaxed)) throw WaitInterrupted();
   }
+#endif
 }
 
 ssize_t read_some(int descriptor, char* bytes, std::size_t size, std::optional<std::uint64_t> from) {
@@ -59,7 +61,7 @@ ssize_t read_some(int descriptor, char* bytes, std::size_t size, std::optional<s
 int open_for_reading(const std::string& path) {
   // An open descriptor is duplicated: reading continues at its position, and sockets cannot be opened by
   // name.
-  if (const auto number = descriptor_of(path)) return ::fcntl(*number, F_DUPFD_CLOEXEC, 3);
+  if (const auto number = descriptor_of(path)) return duplicate(*number);
   struct stat file {};
   const bool fifo = ::stat(path.c_str(), &file) == 0 && S_ISFIFO(file.st_mode);
   // Does not wait for a writer here; the wait comes later, where it can be interrupted.

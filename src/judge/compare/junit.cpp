@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <pugixml.hpp>
+#include <boost/property_tree/xml_parser.hpp>
 #include <sstream>
 
 #include "base/clean_text.hpp"
@@ -12,29 +12,30 @@
 namespace edmill::compare {
 
 std::string junit_text(const std::string& suite, const std::vector<JunitCase>& cases) {
-  pugi::xml_document document;
-  auto declaration = document.append_child(pugi::node_declaration);
-  declaration.append_attribute("version") = "1.0";
-  declaration.append_attribute("encoding") = "UTF-8";
-  auto all = document.append_child("testsuite");
-  all.append_attribute("name") = clean_text(suite).c_str();
-  all.append_attribute("tests") = cases.size();
+  using Tree = boost::property_tree::ptree;
+  const auto set = [](Tree& element, const char* name, const std::string& value) {
+    element.put(std::string("<xmlattr>.") + name, value);
+  };
   const auto number_with = [&](std::string JunitCase::*text) {
     return std::count_if(cases.begin(), cases.end(), [=](const auto& one) { return !(one.*text).empty(); });
   };
-  all.append_attribute("failures") = number_with(&JunitCase::problem);
-  if (const auto skipped = number_with(&JunitCase::not_judged)) all.append_attribute("skipped") = skipped;
+  Tree all;
+  set(all, "name", clean_text(suite));
+  set(all, "tests", std::to_string(cases.size()));
+  set(all, "failures", std::to_string(number_with(&JunitCase::problem)));
+  if (const auto skipped = number_with(&JunitCase::not_judged)) set(all, "skipped", std::to_string(skipped));
   for (const auto& [name, problem, not_judged] : cases) {
-    auto one = all.append_child("testcase");
-    one.append_attribute("classname") = "edmill";
-    one.append_attribute("name") = clean_text(name).c_str();
-    if (!problem.empty())
-      one.append_child("failure").append_attribute("message") = clean_text(problem).c_str();
-    if (!not_judged.empty())
-      one.append_child("skipped").append_attribute("message") = clean_text(not_judged).c_str();
+    auto& one = all.add("testcase", "");
+    set(one, "classname", "edmill");
+    set(one, "name", clean_text(name));
+    if (!problem.empty()) set(one.add("failure", ""), "message", clean_text(problem));
+    if (!not_judged.empty()) set(one.add("skipped", ""), "message", clean_text(not_judged));
   }
+  Tree document;
+  document.add_child("testsuite", all);
   std::ostringstream text;
-  document.save(text, "  ");
+  boost::property_tree::write_xml(
+      text, document, boost::property_tree::xml_writer_make_settings<std::string>(' ', 2, "UTF-8"));
   return text.str();
 }
 

@@ -294,7 +294,7 @@ void judge_laws(const std::vector<Measured>& list, Judged::Of of, ContactAudit& 
     for (const auto& [part, members] : parts) add(*value, part, members, number);
   }
   auto slow = list;
-  std::ranges::sort(slow, {}, &Measured::approach);
+  std::sort(slow.begin(), slow.end(), [](const auto& a, const auto& b) { return a.approach < b.approach; });
   const auto fast = slow.end() - static_cast<std::ptrdiff_t>(3 * list.size() / 10);
   add(restitution, "of fast contacts " + where, {fast, slow.end()}, number);
   add(restitution, "of slow contacts " + where, {slow.begin(), fast}, number);
@@ -327,12 +327,14 @@ void judge_wall_velocity(const std::vector<Measured>& walls, ContactAudit& audit
   for (const auto& part : parts) {
     const bool all = &part == &parts[0];
     std::vector<Measured> list;
-    std::ranges::copy_if(walls, std::back_inserter(list),
-                         [&](const Measured& s) { return all || std::ranges::count(s.parts, part) > 0; });
+    std::copy_if(walls.begin(), walls.end(), std::back_inserter(list), [&](const Measured& s) {
+      return all || std::count(s.parts.begin(), s.parts.end(), part) > 0;
+    });
     const Clear is_clear(list);
     auto velocity = judged(wall_velocity, all ? "of the walls over the case's" : "over the case's " + part,
                            list, is_clear, static_cast<double>(parts.size()), audit.magnitude);
-    const auto e = std::ranges::find(audit.judged, "restitution " + part, &Judged::name);
+    const auto e = std::find_if(audit.judged.begin(), audit.judged.end(),
+                                [&](const auto& j) { return j.name == "restitution " + part; });
     if (!velocity.known() || e == audit.judged.end()) continue;
     std::vector<double> changes, approaches, wall_speeds;
     for (const auto& s : list) {
@@ -420,7 +422,8 @@ std::vector<SlipBin> slips_of(const std::vector<Measured>& walls, const std::vec
 /// Removes unexplained contacts that overlap in time: two balls that leave their flights together collided.
 void drop_pairs(std::vector<Contact>& contacts) {
   std::erase_if(contacts, [all = contacts](const Contact& c) {
-    return c.kind == ContactClass::unexplained && std::ranges::any_of(all, [&](const Contact& other) {
+    return c.kind == ContactClass::unexplained &&
+           std::any_of(all.begin(), all.end(), [&](const Contact& other) {
              return other.ball != c.ball && other.kind == c.kind && other.free_until < c.free_from &&
                     c.free_until < other.free_from;
            });
@@ -430,8 +433,8 @@ void drop_pairs(std::vector<Contact>& contacts) {
 }  // namespace
 
 bool ContactAudit::wall_velocity_differs() const {
-  return std::ranges::any_of(
-      judged, [](const Judged& j) { return j.equation == wall_velocity.equation && !j.agrees(); });
+  return std::any_of(judged.begin(), judged.end(),
+                     [](const Judged& j) { return j.equation == wall_velocity.equation && !j.agrees(); });
 }
 
 ContactAudit audit_contacts(const casefile::CaseSpec& spec, const std::string& file,
@@ -476,7 +479,7 @@ ContactAudit audit_contacts(const casefile::CaseSpec& spec, const std::string& f
   judge_laws(balls, Judged::Of::balls, audit);
   judge_wall_velocity(walls, audit);
   for (const auto of : {Judged::Of::walls, Judged::Of::balls})
-    if (std::ranges::any_of(audit.judged, [=](const Judged& j) {
+    if (std::any_of(audit.judged.begin(), audit.judged.end(), [=](const Judged& j) {
           return j.of == of && j.equation == spin_change.equation && !j.agrees();
         }))
       leave_out(audit, "the spins differ",
@@ -495,10 +498,11 @@ ContactAudit audit_contacts(const casefile::CaseSpec& spec, const std::string& f
   else if (!audit.walls_met())
     leave_out(audit, "the walls are elsewhere", [](const Judged& j) { return j.of == Judged::Of::walls; });
   const auto is_known = [](const Judged& j) { return j.equation == restitution.equation && j.known(); };
-  if (!std::ranges::all_of(audit.judged, &Judged::agrees) || !audit.walls_met())
+  if (!std::all_of(audit.judged.begin(), audit.judged.end(), [](const auto& j) { return j.agrees(); }) ||
+      !audit.walls_met())
     audit.verdict = compare::Verdict::differ;
-  else if (!audit.interrupted && std::ranges::any_of(audit.judged, is_known) &&
-           std::ranges::none_of(audit.judged, &Judged::is_open))
+  else if (!audit.interrupted && std::any_of(audit.judged.begin(), audit.judged.end(), is_known) &&
+           std::none_of(audit.judged.begin(), audit.judged.end(), [](const auto& j) { return j.is_open(); }))
     audit.verdict = compare::Verdict::agree;
   return audit;
 }

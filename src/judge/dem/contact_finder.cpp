@@ -188,7 +188,8 @@ void ContactFinder::watch_overlaps(const std::vector<bool>& flies) {
   // Sweep over the balls in the order of x, in which overlapping balls are near each other.
   std::vector<int> order(open_of_.size());
   std::iota(order.begin(), order.end(), 0);
-  std::ranges::sort(order, {}, [&](int ball) { return now.balls[ball].position[0]; });
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return now.balls[a].position[0] < now.balls[b].position[0]; });
   for (auto one = order.begin(); one != order.end(); ++one)
     for (auto two = std::next(one); two != order.end(); ++two) {
       const Vector apart = now.balls[*two].position - now.balls[*one].position;
@@ -275,8 +276,8 @@ void ContactFinder::settle() {
   for (std::size_t k = 0; k < stretches_.size();) {
     const auto in_group = [group = stretches_[k].group](const Stretch& s) { return s.group == group; };
     std::vector<Stretch> members;
-    std::ranges::copy_if(stretches_, std::back_inserter(members), in_group);
-    if (std::ranges::any_of(members, &Stretch::open)) {
+    std::copy_if(stretches_.begin(), stretches_.end(), std::back_inserter(members), in_group);
+    if (std::any_of(members.begin(), members.end(), [](const auto& one) { return one.open; })) {
       ++k;
       continue;
     }
@@ -342,11 +343,12 @@ double ContactFinder::dose_of(const std::vector<Stretch>& group) const {
   std::vector<std::size_t> touched;
   for (std::size_t k = 0; k < group.size() && vessel_.has_bodies(); ++k) {
     met[k] = walls_met(group[k]);
-    std::ranges::sort(met[k]);
+    std::sort(met[k].begin(), met[k].end());
     met[k].erase(std::unique(met[k].begin(), met[k].end()), met[k].end());
     for (const int wall : met[k]) touched.push_back(vessel_.frame_of(wall));
   }
-  const bool alike = std::ranges::count(touched, touched.empty() ? 0 : touched[0]) == std::ssize(touched);
+  const bool alike =
+      std::count(touched.begin(), touched.end(), touched.empty() ? 0 : touched[0]) == std::ssize(touched);
   double dose = 0;
   for (std::size_t k = 0; k < group.size(); ++k) {
     const auto& s = group[k];
@@ -453,7 +455,7 @@ void ContactFinder::report(std::vector<Stretch> group) {
     if (met.empty() && change < std::max(50 * frames_.kick, 1e-3)) return;
     if (met.empty())
       contact.kind = ContactClass::unexplained;
-    else if (std::ranges::count(met, met[0]) == std::ssize(met))
+    else if (std::count(met.begin(), met.end(), met[0]) == std::ssize(met))
       contact.partner = met[0];
     if (lasts && !met.empty())
       contact.kind = ContactClass::lasting;

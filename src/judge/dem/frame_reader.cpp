@@ -193,7 +193,8 @@ void FrameReader::set_columns(const std::vector<std::string>& columns) {
                                     {"mm", 1e-3, 1, 1},
                                     {"micro", 1e-6, 1e-6, 1e-15},
                                     {"nano", 1e-9, 1e-9, 1e-21}};
-  const auto* units = std::ranges::find(known, format_.units, &Units::name);
+  const auto* units = std::find_if(std::begin(known), std::end(known),
+                                   [&](const auto& one) { return one.name == format_.units; });
   if (units == std::end(known)) fail("units '" + format_.units + "'", "si, cgs, mm, micro or nano");
   units_ = *units;
   if (!columns.empty() && columns == names_) return;
@@ -227,7 +228,8 @@ FrameReader::FrameRow FrameReader::row() const {
   std::size_t column = 0;
   for (const auto& word : words(line_)) {
     if (column == values.size()) fail("more values than columns", fmt::format("{}", names_.size()));
-    if (std::ranges::count(places_, static_cast<int>(column)) > 0) values[column] = number(word);
+    if (std::count(places_.begin(), places_.end(), static_cast<int>(column)) > 0)
+      values[column] = number(word);
     ++column;
   }
   if (column < values.size())
@@ -259,8 +261,10 @@ FrameReader::FrameRow FrameReader::row_of(const std::vector<double>& values) con
 void FrameReader::finish(std::vector<FrameRow> rows, double time, Frame& frame) {
   if (rows.size() != count_)
     fail(fmt::format("{} balls in a frame", rows.size()), fmt::format("{}, as in the case", count_));
-  std::ranges::sort(rows, {}, &FrameRow::id);
-  if (const auto twice = std::ranges::adjacent_find(rows, {}, &FrameRow::id); twice != rows.end())
+  std::sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  if (const auto twice = std::adjacent_find(rows.begin(), rows.end(),
+                                            [](const auto& a, const auto& b) { return a.id == b.id; });
+      twice != rows.end())
     fail(fmt::format("ball {} twice in a frame", twice->id), "each once");
   std::vector<long> ids;
   frame.balls.clear();

@@ -223,7 +223,7 @@ void judge_places(const casefile::CaseSpec& spec, const std::vector<Contact>& co
   audit.wall_resolution = geometry.resolution;
   const bool met = audit.walls_met();
   const auto agrees = [](const Judged& j) { return j.of != Judged::Of::walls || j.agrees(); };
-  if (met && std::ranges::all_of(audit.judged, agrees)) return;
+  if (met && std::all_of(audit.judged.begin(), audit.judged.end(), agrees)) return;
   std::vector<Candidate> candidates;
   add_numbers(geometry.nominal(), candidates);
   add_phases(geometry.nominal(), candidates);

@@ -20,7 +20,8 @@ namespace {
 /// deviates by more than the rounding of printed numbers.
 double factor_of(const std::vector<double>& ratios) {
   if (ratios.empty()) return 0;
-  const double factor = std::ranges::max(ratios, {}, [](double ratio) { return std::abs(ratio - 1); });
+  const double factor = *std::max_element(
+      ratios.begin(), ratios.end(), [](double a, double b) { return std::abs(a - 1) < std::abs(b - 1); });
   return std::abs(factor - 1) < 1e-5 ? 1 : factor;
 }
 
@@ -118,7 +119,7 @@ identify::Axes axes_from(const std::string& text) {
     axes.from[k] = word.back() - 'x';
     if (word.size() == (word[0] == '-' ? 2 : 1)) seen += word.back();
   }
-  std::ranges::sort(seen);
+  std::sort(seen.begin(), seen.end());
   if (seen != "xyz" || in >> word)
     throw InputError(fmt::format(
         "--axes: found {}, expected x, y and z in some order, each with a - or without: \"x z -y\"",

@@ -25,6 +25,9 @@
 #include "cli/commands/texts.hpp"
 #include "cli/exit_codes.hpp"
 #include "io/input_file.hpp"
+#ifdef EDMILL_NODE
+#include "node/certificate.hpp"
+#endif
 
 namespace {
 
@@ -35,12 +38,22 @@ using namespace edmill;
 using Commands = std::tuple<cli::New, cli::Machines, cli::Run, cli::Demo, cli::Resume, cli::Report,
                             cli::Certify, cli::Prove, cli::Sensitivity, cli::Bifurcation, cli::Check,
                             cli::Variables, cli::Sweep, cli::Optimize, cli::Compare, cli::Audit, cli::Export,
-                            cli::Import, cli::Limit, cli::Manual, cli::Reference, cli::Completion>;
+                            cli::Import, cli::Limit, cli::Manual, cli::Reference, cli::Completion
+#ifdef EDMILL_NODE
+                            ,
+                            cli::Certificate
+#endif
+                            >;
 
 std::string version_text() {
   const auto parts = optional_parts();
-  return fmt::format("edmill {} ({})\ncompiler {}\nscalars {}, mpfr:DIGITS\noptional parts {}", version(),
-                     commit(), compiler(), fmt::join(casefile::precisions(), ", "),
+#ifdef EDMILL_WITHOUT_MPFR
+  const auto* wide = "";
+#else
+  const auto* wide = ", mpfr:DIGITS";
+#endif
+  return fmt::format("edmill {} ({})\ncompiler {}\nscalars {}{}\noptional parts {}", version(), commit(),
+                     compiler(), fmt::join(casefile::precisions(), ", "), wide,
                      parts.empty() ? "none" : parts);
 }
 
@@ -54,7 +67,8 @@ constexpr std::pair<const char*, const char*> synonyms[] = {
     {"version", "--version"}};
 
 std::string unknown_command(const std::string& word, const std::vector<std::string>& commands) {
-  const auto* synonym = std::ranges::find(synonyms, word, [](const auto& known) { return known.first; });
+  const auto* synonym = std::find_if(std::begin(synonyms), std::end(synonyms),
+                                     [&](const auto& known) { return known.first == word; });
   const auto expected = synonym == std::end(synonyms) ? casefile::nearest_of(word, commands)
                                                       : fmt::format("'{}'", synonym->second);
   return fmt::format("{}: found an unknown command, expected {} (see edmill --help)", word, expected);
@@ -75,7 +89,7 @@ std::string unknown_option(const std::vector<std::string>& words, const std::vec
     if (word == "--") break;
     const auto name = word.substr(0, word.find('='));
     const bool option = name.size() > 1 && name[0] == '-' && name.find_first_of("0123456789") != 1;
-    if (option && std::ranges::find(options, name) == options.end()) return name;
+    if (option && std::find(options.begin(), options.end(), name) == options.end()) return name;
   }
   return "";
 }
@@ -89,7 +103,8 @@ std::string problem_of(const CLI::App& app, const std::vector<std::string>& word
   const CLI::App* command = &app;
   std::string help = "edmill --help";
   if (!words.empty() && words[0][0] != '-') {
-    if (std::ranges::find(commands, words[0]) == commands.end()) return unknown_command(words[0], commands);
+    if (std::find(commands.begin(), commands.end(), words[0]) == commands.end())
+      return unknown_command(words[0], commands);
     command = app.get_subcommand(words[0]);
     help = "edmill " + words[0] + " --help";
   }

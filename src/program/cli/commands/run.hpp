@@ -255,8 +255,8 @@ struct Run : RunCommand {
   void run_until_precision(const casefile::CaseSpec& spec, std::vector<std::string>& settings) const {
     const double part = part_of_one("--until-precision", until_precision_);
     settings.push_back(fmt::format("run.dose_rate_precision={}", part));
-    const bool limited =
-        std::ranges::any_of(settings, [](const auto& s) { return s.starts_with("run.end_time="); });
+    const bool limited = std::any_of(settings.begin(), settings.end(),
+                                     [](const auto& s) { return s.starts_with("run.end_time="); });
     if (!limited && spec.end_time)
       settings.push_back(fmt::format("run.end_time=\"{} s\"", 100 * spec.end_time->to<double>()));
   }

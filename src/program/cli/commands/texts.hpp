@@ -132,7 +132,8 @@ inline std::string codes() {
 }
 
 inline std::string keys_of(const casefile::KeySection& section) {
-  const bool types = std::ranges::any_of(section.keys, [](const auto& key) { return !key.of.empty(); });
+  const bool types =
+      std::any_of(section.keys.begin(), section.keys.end(), [](const auto& key) { return !key.of.empty(); });
   std::string text = types ? "| key | of | value | default | meaning |\n|---|---|---|---|---|\n"
                            : "| key | value | default | meaning |\n|---|---|---|---|\n";
   for (const auto& key : section.keys) {
