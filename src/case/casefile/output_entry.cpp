@@ -28,11 +28,12 @@ void check_common(Section& s, const CaseSpec& spec, const OutputSpec& output) {
   const auto place = [](const OutputSpec& o) {
     return (std::filesystem::path("run") / o.folder / o.file).lexically_normal();
   };
-  for (const auto* taken : {"summary.json", "final_state.csv", "case.toml", "report.html", "checkpoint"})
+  for (const auto* taken : {"summary.json", "final_state.csv", "case.toml", "report.html", "checkpoint",
+                            "ro-crate-metadata.json"})
     s.require(
         place(output) != std::filesystem::path("run") / taken, "file",
-        "a plain file name other than the run's own summary.json, final_state.csv, case.toml, report.html "
-        "and checkpoint");
+        "a plain file name other than the run's own summary.json, final_state.csv, case.toml, report.html, "
+        "checkpoint and ro-crate-metadata.json");
   s.require(!output.append || !output.hdf5(), "append", "false for HDF5");
   for (const auto& other : spec.outputs)
     s.require(place(other) != place(output) || (other.append && output.append), "file",

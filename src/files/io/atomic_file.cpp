@@ -141,8 +141,9 @@ int FileBuffer::sync() {
   return 0;
 }
 
-std::optional<int> descriptor_named(const fs::path& path) {
+std::optional<int> descriptor_named([[maybe_unused]] const fs::path& path) {
   std::optional<int> number;
+#ifndef __EMSCRIPTEN__  // node opens such a path itself
   const auto own = "/proc/" + std::to_string(::getpid()) + "/fd";
   follow(path, [&](const fs::path& p) {
     const auto folder = p.parent_path(), name = p.filename();
@@ -151,12 +152,13 @@ std::optional<int> descriptor_named(const fs::path& path) {
       number = std::stoi(name.string());
     return number.has_value();
   });
+#endif
   return number;
 }
 
 int duplicate(int descriptor) {
 #ifdef __EMSCRIPTEN__
-  return ::dup(descriptor);
+  return descriptor;  // standard input, which is read once
 #else
   return ::fcntl(descriptor, F_DUPFD_CLOEXEC, 3);
 #endif

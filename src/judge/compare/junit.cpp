@@ -36,7 +36,7 @@ std::string junit_text(const std::string& suite, const std::vector<JunitCase>& c
   std::ostringstream text;
   boost::property_tree::write_xml(
       text, document, boost::property_tree::xml_writer_make_settings<std::string>(' ', 2, "UTF-8"));
-  return text.str();
+  return text.str() + "\n";
 }
 
 std::string to_junit(const Comparison& c) {

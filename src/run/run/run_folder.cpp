@@ -4,6 +4,7 @@
 
 #include "base/errors.hpp"
 #include "casefile/quantity.hpp"
+#include "io/crate.hpp"
 
 namespace edmill::run {
 
@@ -15,7 +16,7 @@ RunFolder::RunFolder(fs::path place, const casefile::CaseSpec& spec, std::option
   const bool begins = !checkpoint_ || (checkpoint_->state.empty() && checkpoint_->result.empty());
   if (begins) {
     io::require_no_checkpoint(place_);
-    io::require_own_files(place_, {"case.toml", "final_state.csv", "summary.json"});
+    io::require_own_files(place_, {"case.toml", "final_state.csv", "summary.json", io::crate_file});
     if (fs::exists(place_ / "runs") && fs::exists(place_ / "runs.csv"))
       throw InputError(place_.string() +
                        ": found the runs of a sweep, an optimisation or several seeds, expected a folder "

@@ -19,7 +19,7 @@ set(any_names_needs $<TARGET_FILE:small_dem_dump>)
 set(kill_steps_needs $<TARGET_FILE:dies_at>)
 set(host_arithmetic_needs $<TARGET_FILE:host_arithmetic>)
 foreach(name digits sensitivity charges one_writer kill kill_steps left_behind named_files any_names tampered standard_streams signals inputs
-             missing_memory host_arithmetic ordinary_charges bodies)
+             missing_memory host_arithmetic ordinary_charges bodies log_format)
   edmill_script(${name}_test cli/${name}_test.py ${${name}_needs} TIMEOUT 600)
 endforeach()
 edmill_script(results_test cli/results_test.py $<TARGET_FILE:small_dem_dump> TIMEOUT 300)

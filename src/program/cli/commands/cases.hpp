@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/check_case.hpp"
+#include "app/check_log.hpp"
 #include "cli/commands/case_argument.hpp"
 #include "cli/exit_codes.hpp"
 #include "io/input_file.hpp"
@@ -83,13 +84,17 @@ struct New {
 
 struct Check {
   static constexpr const char* name = "check";
-  static constexpr const char* what = "read and check a case; print it in SI with derived numbers";
+  static constexpr const char* what =
+      "read and check a case; print it in SI with derived numbers. Or check the format of a log";
 
   void add_options(CLI::App& command) {
     given_.add_to(command);
+    command.get_option("case")->description("case file (TOML), or a log (CSV)");
+    command.add_option("--json", json_, "of a log: file for its description in JSON");
     command.add_option("--draw", drawing_, "also draw how the vessel moves into this SVG file");
   }
   int run() {
+    if (app::is_log(given_.file)) return check_log();
     const auto spec = given_.read();
     io::print("{}", app::check(spec).text());
     if (!drawing_.empty()) app::draw_mill(spec, drawing_);
@@ -97,8 +102,16 @@ struct Check {
   }
 
  private:
+  int check_log() const {
+    io::NamedFile file(json_);
+    const auto log = app::describe_log(given_.file);
+    file.write(log.json());
+    io::print("{}", log.text());
+    return ok;
+  }
+
   CaseArgument given_;
-  std::string drawing_;
+  std::string drawing_, json_;
 };
 
 /// All variables that outputs can contain, as Markdown tables; docs/variables.md contains them.
