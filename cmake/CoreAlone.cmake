@@ -111,6 +111,13 @@ if(EMSCRIPTEN)
   target_compile_definitions(edmill_node PRIVATE EDMILL_NODE)
   target_include_directories(edmill_node BEFORE PRIVATE ${CMAKE_SOURCE_DIR}/src/bindings/node/without_mpfr)
   target_include_directories(edmill_node PRIVATE ${CMAKE_SOURCE_DIR}/verification/checker)
-  target_compile_options(edmill_node PRIVATE -Os)
-  target_link_options(edmill_node PRIVATE -sNODERAWFS=1 -sMAXIMUM_MEMORY=4GB -sENVIRONMENT=node -sMODULARIZE=1 -sEXPORT_NAME=Edmill)
+  target_link_options(edmill_node PRIVATE -sNODERAWFS=1 -sMAXIMUM_MEMORY=4GB -sENVIRONMENT=node -sMODULARIZE=1 -sEXPORT_NAME=Edmill
+                      -sEXPORTED_RUNTIME_METHODS=ENV,FS)
+  set(npm ${CMAKE_BINARY_DIR}/npm/edmill-${PROJECT_VERSION}.tgz)
+  file(GLOB parts CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/bindings/node/*.js ${CMAKE_SOURCE_DIR}/src/bindings/node/*.mjs
+       ${CMAKE_SOURCE_DIR}/src/bindings/node/*.json ${CMAKE_SOURCE_DIR}/src/bindings/node/*.md)
+  add_custom_command(OUTPUT ${npm} DEPENDS edmill_node ${parts} ${CMAKE_SOURCE_DIR}/cmake/assemble_package.py
+                     COMMAND ${PYTHON3} ${CMAKE_SOURCE_DIR}/cmake/assemble_package.py ${CMAKE_BINARY_DIR}/edmill_node ${CMAKE_BINARY_DIR}/npm
+                     VERBATIM)
+  add_custom_target(npm ALL DEPENDS ${npm})
 endif()

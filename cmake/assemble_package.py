@@ -76,7 +76,7 @@ def main(engine, target):
     folder.mkdir(parents=True)
     for ending in ("js", "wasm"):
         shutil.copyfile(f"{engine}.{ending}", folder / f"engine.{ending}")
-    for file in (PARTS / "edmill.js", PARTS / "index.mjs", PARTS / "README.md", SOURCE / "LICENSE", SOURCE / "action.yml"):
+    for file in (PARTS / "edmill.js", PARTS / "index.mjs", PARTS / "README.md", SOURCE / "LICENSE"):
         shutil.copyfile(file, folder / file.name)
     about = json.loads((PARTS / "package.json").read_text(encoding="utf-8"))
     (folder / "package.json").write_text(json.dumps({**about, "version": VERSION}, indent=2) + "\n", encoding="utf-8")

@@ -10,4 +10,12 @@ if (major < 18) {
 // `edmill identify CASE LOG` is `edmill audit CASE LOG --identify`.
 if (process.argv[2] === 'identify') process.argv.splice(2, 1, 'audit', '--identify');
 const engine = require('fs').readFileSync(require('path').join(__dirname, 'engine.wasm'));
-require('./engine.js')({arguments: process.argv.slice(2), thisProgram: 'edmill', wasmBinary: engine});
+const tty = require('tty');
+const settings = {
+  arguments: process.argv.slice(2),
+  thisProgram: 'edmill',
+  wasmBinary: engine,
+  preRun: [module => Object.assign(module.ENV, process.env)],
+  onRuntimeInitialized: () => [0, 1, 2].forEach(descriptor => { settings.FS.streams[descriptor].tty = tty.isatty(descriptor); }),
+};
+require('./engine.js')(settings);

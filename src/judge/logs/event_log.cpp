@@ -280,20 +280,22 @@ std::optional<LoggedEvent> EventLog::read() {
     latest_ = std::max(latest_, event.time);
     return event;
   }
-  csv_.throw_problems();
   return std::nullopt;
 }
 
 std::optional<LoggedEvent> EventLog::next() {
-  if (is_good_) return read();
-  while (!at_end_ && ahead_.size() < window) {
+  while (!is_good_ && !at_end_ && ahead_.size() < window) {
     auto event = read();
     at_end_ = !event;
     if (at_end_) break;
     const auto later = [](double time, const LoggedEvent& other) { return time < other.time; };
     ahead_.insert(std::upper_bound(ahead_.begin(), ahead_.end(), event->time, later), std::move(*event));
   }
-  if (ahead_.empty()) return std::nullopt;
+  if (ahead_.empty()) {
+    auto event = is_good_ ? read() : std::nullopt;
+    if (!event) csv_.throw_problems();
+    return event;
+  }
   LoggedEvent event = std::move(ahead_.front());
   ahead_.pop_front();
   return event;

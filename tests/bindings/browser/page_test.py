@@ -7,52 +7,38 @@ usage: PYTHONPATH=tests/support python3 page_test.py EDMILL FOLDER
 FOLDER keeps the build, the page edmill.html and screenshots
 """
 import base64
-import csv
 import gzip
 import hashlib
 import json
 import math
-import os
 import pathlib
 import re
 import shutil
-import subprocess
 import sys
 import time
 import unittest
 
+from emscripten import build, published
 from program import EXAMPLES, SOURCE, edmill, sets
 from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select
 
-TOOLCHAIN = "/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake"
 FOLDER = pathlib.Path(sys.argv[2]).resolve()
 
 
-def build():
-    folder = FOLDER / "build"
-    subprocess.run(["cmake", "-S", SOURCE, "-B", folder, "-G", "Ninja", "-DEDMILL_CORE_ALONE=ON", "-DCMAKE_BUILD_TYPE=None",
-                    "-DCMAKE_CXX_FLAGS=-DNDEBUG -O2", f"-DCMAKE_TOOLCHAIN_FILE={TOOLCHAIN}"], check=True, stdout=subprocess.DEVNULL)
-    subprocess.run(["cmake", "--build", folder, "--target", "page"], check=True, stdout=subprocess.DEVNULL,
-                   env=dict(os.environ, NODE_PATH="/usr/share/nodejs"))
-    shutil.copy(folder / "edmill.html", FOLDER)
+def page():
+    build(FOLDER / "build", "page")
+    shutil.copy(FOLDER / "build/edmill.html", FOLDER)
     return FOLDER / "edmill.html"
-
-
-def published(name):
-    for row in csv.reader((SOURCE / "regression/reference/bits.tsv").read_text().splitlines(), delimiter="\t", quoting=csv.QUOTE_NONE):
-        if row[0] == name and row[2] == "double":
-            return row[4]
-    raise KeyError(name)
 
 
 class Page(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         FOLDER.mkdir(parents=True, exist_ok=True)
-        cls.page = build()
+        cls.page = page()
         options = webdriver.ChromeOptions()
         options.binary_location = "/usr/bin/chromium"
         for flag in ("--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--no-first-run", "--disable-background-networking",
