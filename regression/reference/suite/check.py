@@ -4,7 +4,7 @@
 usage: check.py CASE FILE [--tolerance T] [--factor F] [--junit OUT.xml]    one case: a log or statistics
        check.py FOLDER [--tolerance T] [--factor F] [--junit OUT.xml]       all cases that FOLDER has files for
 
-CASE is a folder of the suite, or a DEM case (.yaml). FILE is a log, CSV with a line for each impact, or statistics:
+CASE is a case of the suite by its name or folder, or a DEM case (.yaml). FILE is a log, CSV with a line for each impact, or statistics:
 CSV with the header name,value[,uncertainty], or JSON, {"name": value} or {"name": [value, uncertainty]}. FOLDER has
 CASE.csv (log), CASE.statistics.csv or CASE.statistics.json, and for a DEM case CASE.csv (statistics).
 
@@ -21,7 +21,8 @@ import sys
 from xml.sax.saxutils import quoteattr
 
 HERE = pathlib.Path(__file__).resolve().parent
-DEM = HERE / "dem" if (HERE / "dem").is_dir() else HERE.parent / "dem"
+SUITE = HERE / "suite" if (HERE / "suite").is_dir() else HERE  # in the archive the script is above the cases
+DEM = SUITE.parent / "dem"
 
 
 def rows_of(file):
@@ -111,7 +112,7 @@ def is_log(file):
 
 def work_in(folder):
     """The cases of the suite for which a folder has a file."""
-    cases = {place.parent.name: place.parent for place in HERE.glob("*/suite.json")} | {place.stem: place for place in DEM.glob("*.yaml")}
+    cases = {place.parent.name: place.parent for place in SUITE.glob("*/suite.json")} | {place.stem: place for place in DEM.glob("*.yaml")}
     for name, case in sorted(cases.items()):
         for ending in (".csv", ".statistics.csv", ".statistics.json"):
             if (file := folder / (name + ending)).exists():
@@ -126,6 +127,8 @@ def main():
     parser.add_argument("--factor", type=float, default=3.0)
     parser.add_argument("--junit")
     a = parser.parse_args()
+    if a.file and not a.place.exists():
+        a.place = next((place for place in (SUITE / a.place, DEM / f"{a.place}.yaml") if place.exists()), a.place)
     work = [(a.place.stem, a.place, a.file)] if a.file else list(work_in(a.place))
     if not work:
         print(f"{a.place}: no file of a case, such as spex_28.csv", file=sys.stderr)
