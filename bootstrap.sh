@@ -7,6 +7,7 @@
 #   ./bootstrap.sh verify  the same set-up, LAMMPS, LIGGGHTS and YADE, then the long studies
 #   ./bootstrap.sh analyse the same set-up, then clang-tidy, and the tests with the checks of the standard library
 #   ./bootstrap.sh build   install what is missing, build the program: build/release/edmill
+#   ./bootstrap.sh install release  install what release/make.sh needs
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -27,7 +28,7 @@ test_packages=(
 )
 
 long_packages=(lammps python3-lammps liggghts "yade?" debootstrap python3-venv python3-pip patchelf
-  g++-aarch64-linux-gnu g++-riscv64-linux-gnu emscripten nodejs node-acorn)
+  g++-aarch64-linux-gnu g++-riscv64-linux-gnu emscripten nodejs npm node-acorn debhelper lintian)
 
 say() { printf '\n== %s\n' "$*"; }
 
@@ -111,6 +112,13 @@ case "${1:-}" in
     say "running the long studies"
     ctest --preset verify
     ;;
+  install)
+    [ "${2:-}" = release ] || {
+      echo "usage: ./bootstrap.sh install release" >&2
+      exit 2
+    }
+    install_missing "${program_packages[@]}" "${test_packages[@]}" "${long_packages[@]}"
+    ;;
   analyse)
     install_missing "${program_packages[@]}" "${test_packages[@]}" clang-tidy
     say "clang-tidy; .clang-tidy says what it looks for"
@@ -122,7 +130,7 @@ case "${1:-}" in
     ctest --preset debug
     ;;
   *)
-    sed -n '2,9s/^# \{0,1\}//p' "$0"
+    sed -n '2,10s/^# \{0,1\}//p' "$0"
     exit 2
     ;;
 esac

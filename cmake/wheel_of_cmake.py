@@ -32,9 +32,15 @@ def _project():
 
 
 def _metadata():
-    p = _project()
-    return (f"Metadata-Version: 2.1\nName: {p['name']}\nVersion: {p['version']}\nSummary: {p['description']}\n"
-            f"Requires-Python: {p['requires-python']}\nRequires-Dist: numpy\n")
+    p, text = _project(), (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    addresses = re.findall(r'^(\w+) = "(https:.*)"$', text, re.M)
+    keywords = re.search(r"^keywords = \[(.*)\]$", text, re.M).group(1).replace('"', "")
+    return "".join(f"{name}: {value}\n" for name, value in [
+        ("Metadata-Version", "2.1"), ("Name", p["name"]), ("Version", p["version"]), ("Summary", p["description"]), ("License", "MIT"),
+        ("Author", "The edmill authors"), ("Keywords", keywords), ("Requires-Python", p["requires-python"]), ("Requires-Dist", "numpy"),
+        *(("Classifier", line) for line in re.findall(r'^  "(.* :: .*)",$', text, re.M)),
+        *(("Project-URL", f"{name}, {address}") for name, address in addresses), ("Description-Content-Type", "text/markdown"),
+    ]) + "\n" + (ROOT / "README.md").read_text(encoding="utf-8")
 
 
 def _with_libraries(module):
@@ -87,7 +93,9 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     wheel = f"{p['name']}-{p['version']}-{tag}.whl"
     with zipfile.ZipFile(os.path.join(wheel_directory, wheel), "w", zipfile.ZIP_DEFLATED) as archive:
         for name, content in files.items():
-            archive.writestr(name, content)
+            entry = zipfile.ZipInfo(name, date_time=(1980, 1, 1, 0, 0, 0))  # the same bytes each time
+            entry.compress_type, entry.external_attr = zipfile.ZIP_DEFLATED, 0o644 << 16
+            archive.writestr(entry, content)
     return wheel
 
 

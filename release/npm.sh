@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# Makes the npm package and the page of the mill, by Emscripten.
+# usage: npm.sh FOLDER    makes FOLDER/edmill-VERSION.tgz and FOLDER/edmill.html
+set -euo pipefail
+source_folder=$(cd "$(dirname "$0")/.." && pwd)
+folder=$(mkdir -p "$1" && cd "$1" && pwd)
+toolchain=/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake
+export NODE_PATH=${NODE_PATH:-/usr/share/nodejs}
+cmake -S "$source_folder" -B "$folder/build" -G Ninja -DEDMILL_CORE_ALONE=ON -DCMAKE_BUILD_TYPE=None \
+  -DCMAKE_CXX_FLAGS="-DNDEBUG -O2" -DCMAKE_TOOLCHAIN_FILE=$toolchain >/dev/null
+cmake --build "$folder/build" --target npm page >/dev/null
+cp "$folder"/build/npm/edmill-*.tgz "$folder/build/edmill.html" "$folder"
+ls "$folder"/*.tgz "$folder/edmill.html"
