@@ -2,6 +2,7 @@
 set(architecture ${CMAKE_CURRENT_SOURCE_DIR}/architecture)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 add_test(NAME source_test COMMAND Python3::Interpreter ${architecture}/source_test.py ${CMAKE_SOURCE_DIR})
+add_test(NAME workflows_test COMMAND ${DEBIAN_PYTHON3} ${architecture}/workflows_test.py ${CMAKE_SOURCE_DIR})
 add_test(NAME oldest_python_test COMMAND Python3::Interpreter ${architecture}/oldest_python_test.py ${CMAKE_SOURCE_DIR})
 add_test(NAME headers_test COMMAND ${architecture}/headers_test.sh ${CMAKE_CXX_COMPILER})
 find_program(CLANG_FORMAT clang-format)

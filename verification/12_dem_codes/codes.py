@@ -28,7 +28,8 @@ rows = []
 
 
 def add(code, version, test, deck, verdict, value, begin):
-    rows.append(f"| {code} | {version} | {test} | {deck} | {verdict} | {value} | {(time.time() - begin) / 60:.1f} |")
+    minutes = (time.time() - begin) / 60
+    rows.append(f"| {code} | {version} | {test} | {deck} | {verdict} | {value} | {f'{minutes:.1f}' if minutes >= 0.1 else 'below 0.1'} |")
     print(rows[-1], flush=True)
 
 
@@ -96,10 +97,9 @@ def page():
         "# Codes by tests", "",
         "Which code passes which test, with the values found. This page is written by", "",
         "    python3 verification/12_dem_codes/codes.py build/ci/edmill build/ci/verification/plain/plain_mill docs/codes.md", "",
-        "The event sequences are those of [the suite](../regression/reference/suite/README.md); a code with time steps cannot follow",
-        "them. The vibrated box is `docs/examples/vibrated_box.toml`; its restitution is 0.6, its friction 0.4. An audit of a DEM code",
-        "measures these from contacts ([DEM codes](dem.md)). Contacts that last lower a dose rate by a few per cent, which",
-        "`edmill limit` removes. To add your code, write [a log](log-format.md) and run the same commands.", "",
+        "The event sequences are those of [the suite](../regression/reference/suite/README.md), which a code", "with time steps cannot follow. The vibrated box is",
+        "`docs/examples/vibrated_box.toml`; its restitution is 0.6, its friction 0.4. An audit of a DEM code", "measures these from contacts ([DEM codes](dem.md)). Contacts that last change a dose rate by a few",
+        "per cent, which `edmill limit` removes. To see your own code in such a table, write", "[a log](log-format.md) and run the same commands.", "",
         "| code | version | test | deck | verdict | value | minutes |", "|---|---|---|---|---|---|---|", *rows, ""])
 
 
