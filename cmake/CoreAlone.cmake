@@ -36,7 +36,7 @@ function(edmill_take_rooms target)
     get_filename_component(room ${folder} NAME)
     file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${folder}/*.cpp)
     # What needs other libraries, for which core_alone/absent.cpp stands, MPFR and programs.
-    list(FILTER sources EXCLUDE REGEX "(table_hdf5|decoder|event_file|scene|limit_drawing|mpfr|sensitivity|make_run|main)[.]cpp$")
+    list(FILTER sources EXCLUDE REGEX "(table_hdf5|decoder|event_file|scene|mpfr|sensitivity|make_run|main)[.]cpp$")
     target_sources(${target} PRIVATE ${sources})
     if(NOT room STREQUAL core_alone)
       edmill_group(${room} ${sources})

@@ -1,10 +1,10 @@
 // What the npm package does not contain, beside what the core alone lacks: wide scalars, ball arithmetic,
 // pages, and studies, which run on threads. Each is refused in one sentence.
 #include "app/certify.hpp"
+#include "app/judge.hpp"
 #include "app/study.hpp"
 #include "app/variations.hpp"
 #include "base/errors.hpp"
-#include "dem/contact_rates.hpp"
 #include "report/report_page.hpp"
 #include "run/sensitivity.hpp"
 
@@ -37,6 +37,7 @@ std::vector<std::string> check_certificate(const casefile::CaseSpec&, const std:
 std::optional<StudyResult> sweep(const StudyOptions&) { refuse("sweep", threads); }
 std::optional<StudyResult> optimize(const StudyOptions&) { refuse("optimize", threads); }
 std::optional<StudyResult> seeds(const SeedsOptions&) { refuse("--seeds", threads); }
+std::string limit_drawing(const dem::Limit&) { refuse("limit --draw", pages); }
 Bifurcation bifurcation(const casefile::CaseSpec&, const BifurcationOptions&) {
   refuse("bifurcation", pages);
 }
@@ -51,10 +52,6 @@ Sensitivities sensitivity(const casefile::CaseSpec&, const SensitivityOptions&) 
   refuse("sensitivity", mpfr);
 }
 }  // namespace run
-
-namespace dem {
-std::string to_svg(const Limit&) { refuse("limit --draw", pages); }
-}  // namespace dem
 
 namespace report {
 std::filesystem::path write_report(const std::filesystem::path&) { refuse("a report", pages); }

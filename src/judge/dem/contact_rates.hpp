@@ -78,7 +78,5 @@ Limit limit_of(const std::vector<std::string>& logs, const std::string& run, dou
 std::string table(const Limit& limit);
 std::string to_json(const Limit& limit);
 std::string limit_keys();
-/// A drawing of the points, the line and edmill's value.
-std::string to_svg(const Limit& limit);
 
 }  // namespace edmill::dem

@@ -12,6 +12,10 @@
 #include "compare/comparison.hpp"
 #include "identify/identify.hpp"
 
+namespace edmill::dem {
+struct Limit;
+}  // namespace edmill::dem
+
 namespace edmill::app {
 
 struct Judged {
@@ -43,5 +47,8 @@ Judged audit(const casefile::CaseSpec& spec, const AuditOptions& options);
 
 /// Tables of the keys of all documents of verdicts, for docs/reference.md.
 std::string document_keys();
+
+/// The points of a limit, the line through them and edmill's value, as SVG.
+std::string limit_drawing(const dem::Limit& limit);
 
 }  // namespace edmill::app

@@ -167,7 +167,7 @@ struct Limit {
     if (!within_.empty()) within = part_of_one("--within", within_);
     const auto limit = dem::limit_of(logs_, run_, from_, within);
     io::NamedFile(json_).write(dem::to_json(limit));
-    io::NamedFile(svg_).write(dem::to_svg(limit));
+    io::NamedFile(svg_).write(app::limit_drawing(limit));
     if (!quiet_) io::print("{}", dem::table(limit));
     return code_of(limit.to_edmill ? limit.to_edmill->verdict : compare::Verdict::not_compared);
   }

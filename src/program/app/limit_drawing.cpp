@@ -2,12 +2,13 @@
 #include <cmath>
 #include <sstream>
 
+#include "app/judge.hpp"
 #include "dem/contact_rates.hpp"
 #include "plot/chart.hpp"
 
-namespace edmill::dem {
+namespace edmill::app {
 
-std::string to_svg(const Limit& limit) {
+std::string limit_drawing(const dem::Limit& limit) {
   const double last = 1e6 * limit.points.front().contact_time, value = limit.at_zero.dose_rate;
   plot::Chart chart{"limit",
                     "dose rate over contact time",
@@ -15,7 +16,7 @@ std::string to_svg(const Limit& limit) {
                     {"contact time [us]", 0, 1.08 * last},
                     {"dose rate [W]", INFINITY, -INFINITY}};
   chart.curves.push_back({"line", "c0", {{0, value}, {last, value + 1e-6 * limit.slope * last}}});
-  const auto bar = [&](double x, const ContactRates& r, const char* colour, const char* name) {
+  const auto bar = [&](double x, const dem::ContactRates& r, const char* colour, const char* name) {
     const double low = r.dose_rate - r.half_width, high = r.dose_rate + r.half_width;
     chart.y.low = std::min(chart.y.low, low);
     chart.y.high = std::max(chart.y.high, high);
@@ -33,4 +34,4 @@ std::string to_svg(const Limit& limit) {
   return out.str();
 }
 
-}  // namespace edmill::dem
+}  // namespace edmill::app
