@@ -55,8 +55,34 @@ def linked(text, folder, docs):
     return link.sub(target, text)
 
 
+def page_of_paper(text, bib):
+    """The paper, in the form of the Journal of Open Source Software, as a page: its title is the heading, its citations lead to the
+    references of paper.bib."""
+    header, text = re.match(r"---\n(.*?)\n---\n(.*)", text, re.S).groups()
+    title = re.search(r"^title: '(.*)'$", header, re.M).group(1)
+    works = {key: dict(re.findall(r"^  (\w+) = \{(.*)\},?$", fields, re.M))
+             for key, fields in re.findall(r"^@\w+\{(\w+),\n(.*?)\n\}$", bib, re.M | re.S)}
+
+    def cited(match):
+        keys = re.findall(r"@(\w+)", match.group(0))
+        return "(" + ", ".join(f"[{re.match('[A-Za-z]+', key).group()} {works[key]['year']}](#references)" for key in keys) + ")"
+
+    def reference(work):
+        venue = next(work[key] for key in ("journal", "booktitle", "publisher", "howpublished") if key in work)
+        place = " ".join([venue, *(work[key] for key in ("volume",) if "journal" in work)])
+        pages = f", {work['pages']}" if "pages" in work else ""
+        doi = f", <https://doi.org/{work['doi']}>" if "doi" in work else ""
+        authors = work["author"].replace(" and ", "; ")
+        return re.sub(r"[{}]", "", f"- {authors}: *{work['title']}*. {place}{pages} ({work['year']}){doi}").replace("--", "-")
+
+    text = re.sub(r"\[@\w+(; @\w+)*\]", cited, re.sub("^#", "##", text, flags=re.M))
+    return f"# {title}\n\n{text}\n" + "\n".join(map(reference, works.values())) + "\n"
+
+
 def source_of(app, docname, source):
     docs = pathlib.Path(app.srcdir)
+    if docname == "paper":
+        source[0] = page_of_paper(source[0], (docs / "paper.bib").read_text(encoding="utf-8"))
     if docname != "verification":
         source[0] = linked(source[0], (docs / docname).parent, docs)
         return
