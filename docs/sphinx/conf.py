@@ -7,7 +7,7 @@ from mdit_py_plugins.anchors.index import slugify
 
 root = pathlib.Path(__file__).resolve().parents[2]
 project = "edmill"
-author = copyright = "the edmill developers"
+author = copyright = "the edmill authors"
 release = re.search(r"project\(edmill VERSION ([0-9.]+)", (root / "CMakeLists.txt").read_text()).group(1)
 
 extensions = ["myst_parser", "breathe"]
