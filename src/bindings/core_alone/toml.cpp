@@ -1,3 +1,3 @@
-// toml++ is compiled here alone; elsewhere its headers only declare.
+// Only this source compiles toml++; elsewhere its headers contain only declarations.
 #define TOML_IMPLEMENTATION
 #include <toml++/toml.h>

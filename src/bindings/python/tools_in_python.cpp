@@ -94,7 +94,7 @@ py::list bodies_of(const std::vector<run::Event>& events) {
   return rows;
 }
 
-/// @return what each pair of scalars agrees on, and the events, numbers as texts of all their digits
+/// @return the agreement of each pair of scalars, and the events, with numbers as texts of all digits
 /// @throws UndecidedError when no two scalars agree
 py::tuple certify(const Case& the_case, std::size_t collisions, int digits, const std::string& file) {
   const app::CertifyOptions options{file, collisions, digits};
@@ -122,8 +122,8 @@ py::dict shadow(const Case& the_case, const std::string& precision, const std::s
                   "diverged"_a = diverged, "text"_a = found.text());
 }
 
-/// @return the precision, the units, the events, and the derivatives by number, event after event: of their
-/// quantities, and of both balls' states, as texts
+/// @return the precision, the units, the events, and for each parameter of `by`, event after event and as
+/// texts, the derivatives of the event's quantities and of the states of its bodies
 py::tuple sensitivity(const Case& the_case, const std::vector<std::string>& by, std::size_t events,
                       unsigned digits) {
   run::SensitivityOptions options;
@@ -149,7 +149,8 @@ py::tuple sensitivity(const Case& the_case, const std::vector<std::string>& by, 
   return py::make_tuple(found.precision, found.units, bodies_of(found.events), of_numbers);
 }
 
-/// @return the precision in which the case has the digits that it asks for, and the case with those found
+/// @return the precision in which a run has the digits that the case requires, and the case with the number
+/// of correct digits
 /// @throws UndecidedError when no number of digits suffices
 py::tuple find_digits(const Case& the_case) {
   const auto found = with_interrupt(app::DigitsOptions(), app::find_digits, CaseAccess::spec(the_case));
@@ -169,7 +170,7 @@ py::dict estimate(const Case& the_case, const std::string& precision) {
                   "bytes"_a = found.bytes);
 }
 
-/// @return the events as CSV, the bits of the proof and those that are left
+/// @return the events as CSV, the bits of the proof, and the bits that remain at its end
 /// @throws UndecidedError when the events cannot be proven
 py::tuple prove(const Case& the_case, std::size_t collisions, long most_bits,
                 const std::string& certificate) {
@@ -252,7 +253,7 @@ std::string new_case(const std::string& machine, const std::vector<std::string>&
       {machine, balls, powder, speed, restitution, friction, target_dose, time, jar, fill, ratio});
 }
 
-/// @return whether a run failed, and what the seeds say together
+/// @return whether a run failed, and the common result of the seeds
 std::pair<bool, std::string> seeds(const std::string& file, const std::vector<std::string>& settings,
                                    const std::string& precision, std::uint64_t count,
                                    const std::string& folder, int jobs) {
@@ -268,8 +269,8 @@ std::pair<bool, std::string> seeds(const std::string& file, const std::vector<st
   return {result && result->counts.failed > 0, result ? result->optimum : ""};
 }
 
-/// @return of the case as it is, and of each variation: what it is, dose rate and half-width, whether it
-/// differs; and the table
+/// @return for the case as it is and for each variation: its description, its dose rate with half-width, and
+/// whether it differs; and the table
 py::tuple vary(const Case& the_case, double uncertainty) {
   struct Options {
     const std::atomic<bool>* interrupt = nullptr;

@@ -64,8 +64,8 @@ inline constexpr int largest_count = 100000000;  ///< of balls
 
 /// A batch of balls placed at random. (thesis D.2.4)
 struct BallBatch : BallSpec {
-  std::optional<Quantity> mass;          ///< of the batch, from which the count follows
-  std::optional<Quantity> random_speed;  ///< largest; direction and size at random
+  std::optional<Quantity> mass;          ///< of the batch; determines the count
+  std::optional<Quantity> random_speed;  ///< largest; magnitude and direction are random
   Quantity gap_ball{1, 1000};
   Quantity gap_wall{1, 1000};
   std::uint64_t max_relocations = 100000;
@@ -221,11 +221,11 @@ struct CaseSpec {
   VesselSpec vessel;
   std::vector<model::Piston<Quantity>> pistons;
   Colour vessel_colour{1, 1, 0};  ///< in pictures
-  std::vector<Solid> bodies;      ///< inside the vessel; the next walls after its own
+  std::vector<Solid> bodies;      ///< inside the vessel; numbered as walls, after the vessel's own
   std::vector<MaterialSpec> materials;
   std::vector<int> wall_materials;  ///< by wall and body, from 1; 0 for none
   ContactSpec ball_ball, ball_wall;
-  std::vector<PairSpec> pairs;  ///< in place of both where two materials are named
+  std::vector<PairSpec> pairs;  ///< replace both for the named pairs of materials
   bool pairs_only = false;      ///< every possible contact has a law among them
   std::optional<Quantity> powder_mass;
   TargetSpec target;
@@ -299,7 +299,7 @@ std::string describe(const Solid& body);
 /// "(0, -9.8, 0) m/s^2" or "none", for readers.
 std::string describe_gravity(const CaseSpec& spec);
 
-/// What the balls of a case can collide with.
+/// The walls and bodies that the balls of a case can collide with, and the balls themselves.
 model::Partners partners_of(const CaseSpec& spec);
 
 /// Reads and checks a case file.
@@ -323,7 +323,7 @@ struct WrittenNumber {
 /// @param key  "contact.restitution", "balls.0.diameter"
 /// @throws InputError when the case gives no such number
 WrittenNumber value_of_key(const CaseSpec& spec, const std::string& key);
-/// The same number with its unit as text, "12.7 mm"; nothing if the case gives no such number.
+/// The number of a key with its unit as text, "12.7 mm"; nothing if the case gives no such number.
 std::optional<std::string> text_of_key(const CaseSpec& spec, const std::string& key);
 
 /// The case with another value of a key, read anew.

@@ -58,13 +58,13 @@ struct Named : std::vector<T> {
   static void keys(auto& names, auto&& row) { row(T::entry, static_cast<std::vector<T>&>(names)); }
 };
 
-/// A value as `--set` would take it.
+/// A value as text, in the form that `--set` accepts.
 struct AnyValue {
   std::optional<std::string> text;
   void read_from(Section& section, const char* key);
 };
 
-/// Only impacts for which a flag or a count has this value.
+/// Restricts an output to impacts for which a flag or a count has this value.
 struct Restriction {
   int variable;  ///< place in model::impact_variables
   std::uint64_t value;
@@ -89,7 +89,7 @@ struct ColumnSpec {
   std::vector<Statistic> statistics;
   std::string label;                  ///< in place of the variable's name
   std::string true_text, false_text;  ///< for flags
-  bool with_ball = false;             ///< trends_balls: which ball has the minimum or maximum
+  bool with_ball = false;             ///< trends_balls: also show which ball has the minimum or maximum
 };
 
 struct FrequencySpec {
@@ -113,7 +113,7 @@ struct ContactPointSpec {
   }
 };
 
-/// How an animation is played. (thesis D.4.2)
+/// The settings of an animation. (thesis D.4.2)
 struct AnimationSpec {
   Quantity speed{1, 1000};               ///< of playback; 1 is real time
   std::uint64_t frames_per_minute = 60;  ///< of playback

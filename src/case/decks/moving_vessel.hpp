@@ -1,4 +1,4 @@
-// The moving vessel of a case with the bodies in it, with the walls of a deck, and balls relative to them.
+// The moving vessel of a case and the bodies inside it, with the walls of a deck; balls relative to them.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@ using BallState = model::BallState<double>;
 /// Frame 0 is the vessel's; each body has one of its own.
 class MovingVessel {
  public:
-  /// @param facets  of the prism that represents a round wall, as `meshes_of` makes it; 0 for a wall that is
-  /// round
+  /// @param facets  of the prism that represents a round wall, as `meshes_of` makes it; 0 if round walls are
+  /// not replaced
   MovingVessel(const model::Mill<double>& mill, const std::vector<model::BallProperties<double>>& balls,
                int facets = 0);
 

@@ -8,24 +8,24 @@ namespace edmill::decks {
 enum class Separation { free, attracts };
 
 /// Restitution of a contact m x'' = -K x^(3/2) - damping sqrt(m K) x^(1/4) x' as leapfrog integrates it: the
-/// force of a step has the velocity of half a step before, in LAMMPS, LIGGGHTS and YADE alike. Mean over the
-/// places of the touch between two steps.
+/// force of a step has the velocity of half a step before, in LAMMPS, LIGGGHTS and YADE alike. The result is
+/// the mean over the moments between two steps at which the bodies can begin to touch.
 /// @param steps  in a contact without damping
 /// @pre damping >= 0
 double restitution_of(double damping, int steps, Separation separation = Separation::free);
 
-/// The inverse, to 1e-6.
+/// The damping that gives a restitution: the inverse of `restitution_of`, to 1e-6.
 /// @pre 0.05 <= restitution <= 1
 double damping_for(double restitution, int steps, Separation separation = Separation::free);
 
-/// The argument of `damping tsuji` in LAMMPS of 2022, whose polynomial of it is the damping. The nearest one
-/// if no argument gives this damping.
+/// The argument of `damping tsuji` in LAMMPS of 2022, which computes the damping from it by a polynomial; the
+/// nearest argument if none gives this damping.
 /// @pre damping >= 0
 double lammps_restitution(double damping);
 
-/// Reduction of the restitution by a force that presses the bodies together, per speed that it would give
-/// them during the contact, relative to the approach speed. 0.42 for a restitution of 0.3, 0.21 for 0.6 (0.18
-/// with a linear spring), 0.05 for 0.9; to first order in that speed.
+/// The reduction of the restitution by a force that presses the bodies together, divided by the ratio of the
+/// speed that this force would give them during the contact to the approach speed; to first order in this
+/// ratio. 0.42 for a restitution of 0.3, 0.21 for 0.6 (0.18 with a linear spring), 0.05 for 0.9.
 double press_effect(double restitution);
 
 /// The parameter coefficientRestitution of LIGGGHTS, en of YADE: their damping is -sqrt(5) ln e / sqrt(ln^2 e
@@ -33,7 +33,7 @@ double press_effect(double restitution);
 double formula_restitution(double damping);
 
 /// Young's modulus for which a ball on a flat wall of the same material has this contact time [Pa].
-/// @param poisson  of both
+/// @param poisson  Poisson's ratio of both
 double young_for(double contact_time, double speed, double radius, double mass, double poisson);
 
 }  // namespace edmill::decks

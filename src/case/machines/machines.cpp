@@ -107,9 +107,9 @@ auto named(const auto& list, const std::string& name) {
   });
 }
 
-/// One batch: "10x12.7mm:zirconia", or "12.7mm" where the number is to be found.
+/// One batch: "10x12.7mm:zirconia", or "12.7mm" where the number of balls is to be computed.
 struct Batch {
-  std::uint64_t count;   ///< 0: to be found
+  std::uint64_t count;   ///< 0: to be computed
   std::string diameter;  ///< with its unit
   double size;           ///< [m]
   const Material* material;
@@ -170,7 +170,7 @@ Batch batch_of(const std::string& text) {
 struct Inside {
   bool round_ends = false;
   double diameter = 0, height = 0;  ///< [m]; over all
-  std::string note = {};            ///< of a jar that was asked for
+  std::string note = {};            ///< about a jar that the user named
 
   double volume() const {
     const double r = diameter / 2;
@@ -323,7 +323,7 @@ class Writer {
   std::string text_;
 };
 
-/// The first word or words of a source, "Barahona"; `edmill machines` prints the whole.
+/// The first word or words of a source, "Barahona"; `edmill machines` prints the whole source.
 std::string brief(const std::string& source) { return source.substr(0, source.find_first_of(",:")); }
 
 std::string quoted(const std::string& text) { return "\"" + text + "\""; }

@@ -146,8 +146,8 @@ class Motion {
   std::vector<std::size_t> frames_;  ///< by wall
 };
 
-/// Position and velocity at the exact time `reference`, and the constant spin. A flight is a parabola for all
-/// times; it is flown between two impacts.
+/// Position and velocity at the exact time `reference`, and the constant spin. The parabola is defined for
+/// all times; the ball follows it between two impacts.
 struct Flight {
   Enclosure reference;  ///< [s] after the start, exact
   Vector position, velocity, spin;
@@ -174,7 +174,8 @@ struct Gap {
   Enclosure value, rate, second;
 };
 
-/// How far a coordinate is beyond the interval from -half to half, and whether it is: 0, 1 or all between.
+/// The signed distance of a coordinate from the interval between -half and half, and whether it is outside: 1
+/// (yes), 0 (no), or [0, 1] if undecided.
 struct Excess {
   Enclosure by, outside;
 
@@ -194,7 +195,7 @@ struct Excess {
 
 /// The squared distance of a point from the core of a solid. It is differentiable everywhere, and its second
 /// derivative, which jumps where the nearest point of the core passes from a face to an edge, is enclosed
-/// with both of its values there: Taylor's formula holds for such functions.
+/// with both of its values there: Taylor's formula is valid for such functions.
 /// @param square  of the distance at which the ball touches the solid
 inline Gap gap_of_solid(bool is_round, const Vector& half, const Enclosure& square, const InFrame& ball) {
   const Vector &p = ball.place, &v = ball.velocity, &a = ball.acceleration;
@@ -223,7 +224,7 @@ inline Gap gap_of_solid(bool is_round, const Vector& half, const Enclosure& squa
   return {2 * half_gap.value, 2 * half_gap.rate, 2 * half_gap.second};
 }
 
-/// From the nearest point of a solid's core to p.
+/// The vector from the nearest point of a solid's core to p.
 inline Vector from_core(bool is_round, const Vector& half, const Vector& p) {
   const Enclosure up = Excess(p[1], half[1]).by;
   if (!is_round) return {Excess(p[0], half[0]).by, up, Excess(p[2], half[2]).by};
@@ -233,7 +234,7 @@ inline Vector from_core(bool is_round, const Vector& half, const Vector& p) {
   return {p[0] * share, up, p[2] * share};
 }
 
-/// The walls of a case for one ball, whose radius is subtracted.
+/// The walls of a case for one ball, whose radius is subtracted from the gaps.
 class Walls {
  public:
   /// Computes in the current precision.
@@ -301,7 +302,7 @@ struct Span {
 /// Proves that one flight meets no wall between its ends.
 class WallExclusion {
  public:
-  /// @param motion, walls  for the ball; arithmetic is that of the precision in force
+  /// @param motion, walls  for the ball; the proof computes in the current precision
   WallExclusion(const Motion& motion, const Walls& walls, const Vector& gravity, Span span)
       : motion_(motion), walls_(walls), gravity_(gravity), span_(std::move(span)) {}
 

@@ -34,7 +34,7 @@ struct SceneVessel {
 
 struct Scene {
   SceneVessel vessel;
-  std::vector<SceneVessel> bodies{};                                       ///< in it, each with one mesh
+  std::vector<SceneVessel> bodies{};  ///< inside the vessel, each with one mesh
   Vec3<double> eye = Vec3<double>::Zero(), target = Vec3<double>::Zero();  ///< viewer and viewed point [m]
   std::vector<SceneBall> balls{};
   std::optional<SceneBall> contact{};  ///< marks the contact point
@@ -69,7 +69,7 @@ struct SceneMotion {
 /// @param walls  in the vessel frame; a wall that moves is in its outermost position
 void look_at(const std::vector<model::Mesh>& walls, const std::vector<Frame<double>>& frames, Scene& scene);
 
-/// A page of X3D 3.3, still or, with `motion`, moving and repeated for ever.
+/// An X3D 3.3 page: a still picture or, with `motion`, an animation that is repeated forever.
 std::string x3d_text(const Scene& scene, const SceneMotion* motion = nullptr);
 
 /// The balls as VTK PolyData: points with diameter, velocity, spin and milling dose.

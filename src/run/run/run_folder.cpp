@@ -86,7 +86,7 @@ void RunFolder::remove_checkpoint(const std::string& result) {
     checkpoint_->result = result;
     io::write_checkpoint(place_, *checkpoint_);
   }
-  // First: without the checkpoint, files left by killed processes of this run are no longer found.
+  // Leftovers are removed before the checkpoint, without which the files of killed processes are not found.
   remove_leftovers();
   fs::remove(io::checkpoint_place(place_));
 }

@@ -1,4 +1,4 @@
-// What the command needs of run/sensitivity.hpp where there is no MPFR.
+// The declarations of run/sensitivity.hpp that the command needs, for builds without MPFR.
 #pragma once
 
 #include <atomic>
