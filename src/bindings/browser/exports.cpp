@@ -1,4 +1,4 @@
-// What the page calls, as C functions: texts in, JSON out. A text is valid until the next call.
+// The C functions that the page calls: texts in, JSON out. A text is valid until the next call.
 #include <emscripten.h>
 #include <fmt/ranges.h>
 
@@ -105,7 +105,7 @@ class Session : private Observer<double> {
     run_.attach(*this);
   }
 
-  /// What does not change during the run, as JSON: radii, walls as meshes, names of partners, the period.
+  /// Writes what is constant during the run as JSON: radii, walls as meshes, names of partners, the period.
   void scene(JsonText& json) const {
     json.add("version", version(), "period", mill_.motion.period(), "start",
              spec_.statistics_start.to<double>());
@@ -373,7 +373,7 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_first_impacts(int most) {
 }
 
 /// The log is the file /log.
-/// @param identify  whether the mistake behind violations is looked for
+/// @param identify  true to search for the mistake behind violations
 EMSCRIPTEN_KEEPALIVE const char* edmill_audit(int identify) {
   return answer([&](JsonText& json) {
     const auto spec = casefile::parse_case(case_text(), "case.toml", settings());

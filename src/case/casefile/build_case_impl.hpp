@@ -68,7 +68,7 @@ Real Quantity::to() const {
 template <class Real>
 Instant<Real> instant_at(const Quantity& time, const Quantity& period) {
   if (time.zero()) return {};
-  const int bits = detail::bits_for<Real>() + 64;  // for as many periods as an integer holds
+  const int bits = detail::bits_for<Real>() + 64;  // enough for the largest number of periods
   const Rational seconds = value_of(time, bits), length = value_of(period, bits), count = seconds / length;
   const auto periods =
       static_cast<std::int64_t>(boost::multiprecision::cpp_int(numerator(count) / denominator(count)));

@@ -183,7 +183,7 @@ struct KeyChecker {
   void operator()(const Parameter&, const auto&) const {}
 };
 
-/// What a member takes, for readers: "count", "three lengths", "true or false".
+/// The kind of values that a member accepts, for readers: "count", "three lengths", "true or false".
 template <class Value>
 std::string kind_of(const Parameter& p) {
   if (p.kind) return p.kind;

@@ -69,7 +69,7 @@ class Quantity {
   std::shared_ptr<const Exact> value_;  ///< shared by copies
 };
 
-/// What is wrong with a text that is not a quantity.
+/// The reason why a text is not a quantity.
 struct QuantityProblem {
   std::string found;  ///< "\"4.76 mn\": unknown unit 'mn'"
 };

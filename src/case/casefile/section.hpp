@@ -86,7 +86,7 @@ class Section {
   std::optional<std::string> text(const std::string& key);
   /// A name, or red, green and blue: integers up to 255 or decimals up to 1.
   Colour colour(const std::string& key, const Colour& fallback);
-  /// One of `choices`, or the first when absent.
+  /// The value of a key, which must be one of `choices`; the first of them when the key is absent.
   std::string choice(const std::string& key, const std::vector<std::string>& choices);
   /// A choice that determines which other keys exist; if it is unknown, no key is rejected.
   std::string kind(const std::string& key, const std::vector<std::string>& kinds);

@@ -259,7 +259,7 @@ std::string region_of(const DeckCase& c, const std::string& moves) {
                   c.file));
 }
 
-/// What a region of LAMMPS does: it turns about an axis through the origin, then it is shifted.
+/// The motion of a region in LAMMPS: it turns about an axis through the origin, then it is shifted.
 struct RegionMotion {
   std::vector<model::Joint<double>> shifts;
   std::array<double, 3> axis{}, place{};  ///< place: of the body, before it turns [m]

@@ -18,7 +18,7 @@ using Triangle = std::array<Vec3<double>, 3>;
 struct WallMesh {
   std::string name;
   std::vector<Triangle> triangles;
-  double smooth_angle = 0;  ///< [deg] of facets that stand for a round wall; 0 for flat walls
+  double smooth_angle = 0;  ///< [deg] of facets that represent a round wall; 0 for flat walls
 };
 
 /// A round wall becomes a prism around it, whose facets touch it along their middles, one of them on the

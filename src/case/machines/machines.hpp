@@ -26,7 +26,7 @@ struct Machine {
   std::vector<Setting> settings;
 };
 
-/// What balls are made of.
+/// A material of balls.
 struct Material {
   std::string key, density, source;
   std::string dry;  ///< restitution and friction without powder in the literature; may be empty

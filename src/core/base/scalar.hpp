@@ -1,4 +1,4 @@
-// What the core requires of a scalar type. The scalars themselves are listed in base/scalar_list.hpp.
+// The requirements of the core on a scalar type. The scalars themselves are listed in base/scalar_list.hpp.
 #pragma once
 
 #include <cmath>

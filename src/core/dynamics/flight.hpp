@@ -108,8 +108,8 @@ struct WallQuery {
   Real length;          ///< [s], at most WallSearch::longest_window()
 };
 
-/// What a search in double proves about a wider flight and mill after rounding them to double. Times are
-/// offsets [s] in the drive period in which the window begins.
+/// The result that a search in double proves for a wider flight and mill after rounding them to double. Times
+/// are offsets [s] in the drive period in which the window begins.
 struct RoughAnswer {
   Verdict verdict = Verdict::undecided;
   double until = 0;            ///< of none: no contact up to here

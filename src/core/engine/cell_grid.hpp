@@ -199,7 +199,7 @@ class CellGrid {
   /// The two other axes.
   static std::array<int, 2> across(int axis) { return {axis == 0 ? 1 : 0, axis == 2 ? 1 : 2}; }
 
-  // The selections below are unpredictable and therefore table look-ups: a branch would be mispredicted.
+  // The selections below are unpredictable; they read tables, since branches would be mispredicted.
 
   /// Passage through one of the two faces across an axis.
   struct Passage {

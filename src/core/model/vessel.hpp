@@ -102,7 +102,7 @@ int function_count(const V& vessel) {
   else
     return vessel.wall_count();
 }
-/// The same value for each function.
+/// A list that has the same value for each function.
 template <class V, class Value>
 typename V::template PerWall<Value> per_wall(const V& vessel, const Value& value) {
   using All = typename V::template PerWall<Value>;

@@ -228,9 +228,9 @@ void Spectrum::of_pair(const ImpactAt& impact, const Struck& one, const Struck& 
   count_impact(impact.time, one.ball, two.ball);
 }
 
-/// Counts an impact and orthonormalises the directions before they lose their digits. They turn into the
-/// first one by a factor of about e per collision of a ball, and those that impacts damp shrink by the
-/// restitution: sixteen digits suffice for many collisions, but not for a ball that hops.
+/// Counts an impact and orthonormalises the directions before they lose their digits. All directions approach
+/// the first one, by a factor of about e per collision of a ball, and those that impacts damp shrink by the
+/// restitution. Sixteen digits suffice for many such collisions, but not for a ball that hops.
 void Spectrum::count_impact(const Instant<double>& now, int ball, int partner) {
   constexpr std::int64_t most_of_ball = 8;
   auto& of_one = ++state_.of_ball[static_cast<std::size_t>(ball)];

@@ -145,8 +145,9 @@ class AtomicFile : public WholeFile {
   /// Flushes the file to disk. @throws std::runtime_error when anything was not written
   void sync();
 
-  /// What was written, for a checkpoint; the temporary file is then kept even without `commit`. Loading
-  /// continues from there, with that file, or a copy of the committed one when it is gone.
+  /// Saves or loads a record of what was written, for a checkpoint; the temporary file is then kept even
+  /// without `commit`. Loading continues from there, with that file, or a copy of the committed one when it
+  /// is gone.
   /// @throws InputError when neither begins with exactly the bytes that were written
   void archive(Archive& a);
 

@@ -78,7 +78,7 @@ void require_own_files(const std::filesystem::path& folder, const std::vector<st
 /// @throws std::runtime_error when the record was not written
 void remove_other_files(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files);
 
-/// Folders below this one that hold recorded files.
+/// Folders below this one that contain recorded files.
 std::vector<std::filesystem::path> recorded_folders(const std::filesystem::path& folder);
 
 }  // namespace edmill::io

@@ -14,7 +14,7 @@ struct StoredColumn {
   Table<double>::Cells cells;
 };
 
-/// A column of texts that are all numbers, such as flags shown as 1 and 0, holds numbers.
+/// The cells of a column as stored: numbers if all texts are numbers, such as flags shown as 1 and 0.
 Table<double>::Cells stored(const std::vector<std::string>& texts);
 inline Table<double>::Cells stored(const std::vector<std::int64_t>& integers) { return integers; }
 /// Numbers in double, or as integers when all of them are whole.

@@ -89,7 +89,7 @@ class EventLog {
   static constexpr std::size_t window = 256;
 
   /// Opens a log for an audit, which requires few columns; problems of single events are in the events.
-  /// @param place  a CSV file, or a folder that holds collisions.csv
+  /// @param place  a CSV file, or a folder that contains collisions.csv
   /// @param balls, walls  their numbers in the case
   /// @param beyond        a time of this magnitude or more is invalid [s]
   /// @throws InputError with every problem of the mapping and the header

@@ -24,7 +24,7 @@ void add_report_outputs(casefile::CaseSpec& spec);
 
 /// Writes report.html into the folder of a run.
 /// @return its place
-/// @throws InputError when the folder holds no complete run, a table is wrong, or another process writes
+/// @throws InputError when the folder contains no complete run, a table is wrong, or another process writes
 /// there
 std::filesystem::path write_report(const std::filesystem::path& folder);
 /// Writes the page as `write_report` does. @pre the caller holds the folder's lock

@@ -127,7 +127,7 @@ void add_maps(pugi::xml_node section, const RunFolder& run) {
   const std::string shared = share_scales(walls);
   std::ranges::stable_partition(walls, [](const WallMap& wall) { return !wall.map.disc; });
   const auto discs = std::ranges::count_if(walls, [](const WallMap& wall) { return wall.map.disc; });
-  const bool can = discs == 2 && walls.size() == 3;  // a cylinder's two caps stand beside it
+  const bool can = discs == 2 && walls.size() == 3;  // a cylinder's two caps are drawn beside it
   auto grid = add(section, "div", {{"class", can ? "charts maps" : "charts"}});
   bool angles = false;
   for (auto& [id, surface, info, map] : walls) {

@@ -1,4 +1,4 @@
-// Whether a file is a log as docs/log-format.md describes it, and what it contains.
+// Checks whether a file is a log as docs/log-format.md describes it, and describes its contents.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace edmill::app {
 
-/// What a log says about itself; its JSON is the header of docs/log-format.schema.json.
+/// The description of a log; its JSON is the header of docs/log-format.schema.json.
 struct LogDescription {
   struct Column {
     std::string name, unit;
@@ -24,7 +24,7 @@ struct LogDescription {
   std::string json() const;
 };
 
-/// Whether a file is a table and not a case: its first line that is not a comment is the header of a CSV
+/// True if a file is a table and not a case: its first line that is not a comment is the header of a CSV
 /// file.
 bool is_log(const std::string& file);
 

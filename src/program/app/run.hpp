@@ -25,7 +25,8 @@ struct RunOptions : run::RunSetup {
   std::function<void()> begun = [] {};
   /// Called where the file system has no locks, so that nothing keeps a second run out of the folder.
   std::function<void(const std::filesystem::path&)> without_locks = [](const auto&) {};
-  /// What checkpoints hold besides the state, if the run makes any; with a state, it continues from there.
+  /// The contents of checkpoints besides the state, if the run makes any; if it has a state, the run
+  /// continues from there.
   std::optional<io::Checkpoint> checkpoint;
 };
 

@@ -54,7 +54,7 @@ struct BifurcationOptions {
   std::size_t skip = 1000;  ///< impacts of ball 0 with walls before the first phase, while the motion settles
   std::size_t keep = 100;   ///< of which phases are kept
   double least_approach = 0;  ///< slower impacts do not count [m/s]
-  std::string file;           ///< SVG; the points stand beside it as CSV
+  std::string file;           ///< SVG; the points are written beside it as CSV
   const std::atomic<bool>* interrupt = nullptr;
   std::function<void(std::size_t step)> progress = [](auto) {};
 };

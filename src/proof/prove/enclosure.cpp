@@ -33,7 +33,7 @@ Enclosure rounded_out(const Enclosure& value, slong bits) {
   arb_add(more.arb(), more.arb(), radius.arb(), ARF_PREC_EXACT);
   const auto size = arb_midref(more.arb());
   arf_set_round(size, size, 10, ARF_RND_UP);
-  arf_get_mag_lower(arb_radref(result.arb()), size);  // exact: a radius holds 30 bits
+  arf_get_mag_lower(arb_radref(result.arb()), size);  // exact: a radius has 30 bits
   return result;
 }
 

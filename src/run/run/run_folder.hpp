@@ -37,7 +37,7 @@ class RunFolder {
  public:
   /// @param checkpoint  given if the run makes checkpoints; if it contains a state, the run continues from
   /// there
-  /// @throws InputError when the folder cannot be used, another process writes there, or it holds the
+  /// @throws InputError when the folder cannot be used, another process writes there, or it contains the
   /// checkpoint of another run
   RunFolder(std::filesystem::path place, const casefile::CaseSpec& spec,
             std::optional<io::Checkpoint> checkpoint = std::nullopt);

@@ -82,7 +82,7 @@ class RunStatistics : public engine::Observer<Real> {
   /// Totals by partner.
   const std::vector<Totals>& by_partner() const { return totals_; }
 
-  /// One of the totals, summed over all partners.
+  /// The sum of one of the totals over all partners.
   std::uint64_t count(std::uint64_t Totals::*part) const {
     std::uint64_t total = 0;
     for (const auto& t : totals_) total += t.*part;

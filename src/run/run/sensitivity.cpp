@@ -30,7 +30,7 @@ struct Perturbation {
 /// States of a ball and, if it is one, its partner.
 using States = std::array<model::BallState<mpfr>, 2>;
 
-/// The same time on the clock of a mill with another drive period.
+/// Converts a time to the clock of a mill with another drive period.
 Instant<mpfr> on_clock_of(const model::Mill<mpfr>& mill, const mpfr& period, const Instant<mpfr>& t,
                           const mpfr& later) {
   return {t.period, t.offset + mpfr(t.period) * (period - mill.motion.period()) + later};

@@ -61,12 +61,12 @@ class RoundedBody {
   bool is_round() const { return is_round_; }
   const Vec3<Real>& half() const { return half_; }
   const Real& rounding() const { return rounding_; }
-  /// Of the farthest point from the body's origin [m].
+  /// An upper bound on the distance of the body's points from its origin [m].
   Real size() const {
     const Real across = is_round_ ? half_[0] : Real(half_[0] + half_[2]);
     return across + half_[1] + rounding_;
   }
-  /// By Steiner's formula.
+  /// The volume, by Steiner's formula [m3].
   Real solid_volume() const {
     const Real pi = numerics::pi<Real>(), r = rounding_;
     const Real &a = half_[0], &b = half_[1], &c = half_[2], ball = 4 * pi * r * r * r / 3;
@@ -74,7 +74,7 @@ class RoundedBody {
     return 8 * (a * b * c + r * (a * b + b * c + c * a)) + 2 * pi * r * r * (a + b + c) + ball;
   }
 
-  /// Of the surface, the derivative of the volume [m2].
+  /// The area of the surface: the derivative of the volume with respect to the rounding [m2].
   Real area() const {
     const Real pi = numerics::pi<Real>(), r = rounding_;
     const Real &a = half_[0], &b = half_[1], &c = half_[2], ball = 4 * pi * r * r;
@@ -305,7 +305,7 @@ class RoundedBody {
     return sqrt(squared_across(p));
   }
   bool is_side() const { return is_round_ && outside_[0] != 0 && outside_[1] == 0; }
-  /// Whether an excess is part of the gap. That of a cylinder across its axis takes the place of x.
+  /// True if an excess is part of the gap. The excess of a cylinder across its axis takes the place of x.
   bool counts(int i) const { return outside_[static_cast<std::size_t>(i)] != 0; }
   Real excess(int i, const Vec3<Real>& p) const {
     if (is_round_ && i == 0) return across(p) - half_[0];
@@ -324,7 +324,7 @@ class RoundedBody {
     if (!(half_[i] > 0) || (is_round_ && (i == 2 || f == 2))) return false;
     return !counts(i) || f % 2 == 1;
   }
-  /// Of the derivative along the axis, or across that of a cylinder.
+  /// The sign of the derivative along the axis or, for a cylinder, across its axis.
   int sign(int f) const {
     const int own = outside_[static_cast<std::size_t>(axis(f))];
     if (is_round_ && f < 3) return own != 0 ? 1 : -1;

@@ -246,7 +246,7 @@ struct Rectangle {
   }
 };
 
-/// What has an area and no coordinates, such as the rounded edges of a box.
+/// A surface with an area but no coordinates, such as the rounded edges of a box.
 template <class Real>
 struct Patch {
   static constexpr const char* name = "patches";

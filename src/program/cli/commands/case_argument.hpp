@@ -1,4 +1,4 @@
-// What commands that take a case share.
+// The common part of commands that take a case.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -48,7 +48,7 @@ inline std::string name_of(const std::string& case_file) {
   return io::is_stream(case_file) ? "stdin" : std::filesystem::path(case_file).stem().string();
 }
 
-/// A command on a case, and what its options hold.
+/// A command on a case, with the values of its options.
 template <class Options>
 class CaseCommand {
  protected:

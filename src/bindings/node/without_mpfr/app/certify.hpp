@@ -1,5 +1,5 @@
-// What the commands need of app/certify.hpp where there is no MPFR and no Arb: the same names, whose
-// functions say what is missing.
+// The declarations of app/certify.hpp that the commands need, for builds without MPFR and Arb. The functions
+// report what is missing.
 #pragma once
 
 #include <atomic>
