@@ -51,7 +51,7 @@ class Engine {
     }
     return this.ready === ready ? this.question(message) : none('stopped');
   }
-  /// Ends what it does; the next question begins with a new one.
+  /// Ends the current task; the next question starts a new worker.
   stop() {
     this.worker?.terminate();
     this.ready = null;

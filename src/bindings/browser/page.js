@@ -25,7 +25,7 @@ function written(field) {
   return value === '' || !units[field] || /[a-df-z]/i.test(value) ? value : value + units[field];
 }
 
-/// What is not chosen stays as the case has it.
+/// The settings that the reader has chosen; all other keys keep the values of the case.
 function settings() {
   const list = $('vessel-kind').value ? [`vessel=${$('vessel-kind').value}`] : [];
   for (const [field, key] of Object.entries(fields)) {
@@ -47,7 +47,7 @@ function choose(name) {
   show_values(by_materials ? {'contact.restitution': 'by material', 'contact.friction': 'by material'} : {});
 }
 
-/// What the run has where nothing is chosen.
+/// Shows the values of the run in fields without a choice.
 function show_values(values) {
   for (const [field, key] of Object.entries(fields))
     if (!$(field).disabled || key in values) $(field).placeholder = values[key] ?? '';
@@ -78,7 +78,7 @@ function say(what) {
   enable();
 }
 
-/// Ends what goes on, without a result.
+/// Ends the current task without a result.
 function give_up(what, list = []) {
   ++run_number;
   going = false;

@@ -9,7 +9,7 @@ function draw() {
   const walls = scene.meshes.map(wall => ({points: wall.points.map(in_frame(frame.vessel)), flat: wall.faces.length === 1}));
   const solids = Object.values(scene.bodies).map(({points, colour}, k) =>
     ({points: points.map(in_frame(frame.bodies[k])), colour: `rgb(${colour.map(part => Math.round(255 * part))})`}));
-  // What the vessel has swept so far is in the picture.
+  // The picture includes all of the space that the vessel has swept so far.
   const reach = Math.max(...walls.flatMap(({points}) => points.map(p => Math.hypot(...p.map((c, k) => c - scene.middle[k])))));
   if (reach > scene.size) {
     view.distance = scene.size > 0 ? view.distance * reach / scene.size : 3.6 * reach;

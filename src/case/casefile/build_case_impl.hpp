@@ -706,8 +706,8 @@ void fill_from_file(const CaseSpec& spec, InitialCase<Real>& result) {
   filling.require_good();
 }
 
-/// Refuses what the scalar cannot resolve: balls about as small as the rounding of a position, and a least
-/// separation speed whose hops are lower than that.
+/// Rejects sizes and speeds that the scalar cannot resolve: balls about as small as the rounding of a
+/// position, and a least separation speed whose hops are lower than that.
 template <class Real>
 void require_resolution(const CaseSpec& spec, const InitialCase<Real>& built) {
   using std::sqrt;

@@ -26,7 +26,7 @@ std::string noun(Dimension dimension);
 /// " m/s"; empty for plain numbers.
 std::string si_unit(Dimension dimension);
 
-/// A unit for readers: what it is of, "length", and its spellings.
+/// A unit for readers: its dimension, such as "length", and its spellings.
 struct UnitText {
   std::string dimension;
   std::vector<std::string> spellings;
@@ -93,7 +93,7 @@ bool has_comma(std::string_view text);
 /// Exact value of a decimal number; nothing for anything else, nan and inf included.
 std::optional<Quantity> parse_decimal(std::string_view text);
 
-/// "4.76 mm" is 4.76 and " mm"; nothing for what does not begin with a number.
+/// "4.76 mm" is 4.76 and " mm"; nothing for a text that does not begin with a number.
 std::optional<std::pair<double, std::string>> split_number(const std::string& text);
 
 /// A number with a unit in SI, and the SI unit: "200 rpm" is 20.94... and "rad/s". Nothing for other texts,

@@ -155,7 +155,8 @@ using FormulaVector = Vec3<Formula>;
 
 FormulaVector numbers(const std::array<double, 3>& x) { return {x[0], x[1], x[2]}; }
 
-/// [0.003 * sin(62.8 * t + 0.5)]: what speed and swings of a joint add up to at the time `t`, times a factor.
+/// [0.003 * sin(62.8 * t + 0.5)]: the sum of the speed and the swings of a joint at the time `t`, times a
+/// factor.
 Formula moved_formula(const model::Joint<double>& joint, double factor, const std::string& time) {
   Formula sum;
   if (joint.speed != 0) sum += fmt::format("{}*{}", factor * joint.speed, time);
@@ -273,7 +274,7 @@ InputError no_region(const DeckCase& c, std::size_t body, const char* found, con
                   c.file, c.mill.bodies[body].name.label, found, expected));
 }
 
-/// @throws InputError for a body that turns about several axes, or slides on what turns
+/// @throws InputError for a body that turns about several axes, or that slides on a part that turns
 RegionMotion motion_of_region(const DeckCase& c, std::size_t k) {
   auto joints = c.of_bodies[k].list;
   if (!c.translates()) {  // in the vessel's frame

@@ -1,5 +1,5 @@
 // Bodies that move together, and how long a ball cannot reach each of them. A broad phase in double, whose
-// margins are far above its rounding: what it excludes needs no search in any scalar.
+// margins are far above its rounding: contacts that it excludes need no search in any scalar.
 #pragma once
 
 #include <array>

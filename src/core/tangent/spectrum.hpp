@@ -73,7 +73,7 @@ class Spectrum {
   void with_wall(const ImpactAt& impact, int wall, const Struck& struck);
   void of_pair(const ImpactAt& impact, const Struck& one, const Struck& two);
 
-  /// Makes the directions orthonormal as they are at this instant, and adds to the sums what they grew by.
+  /// Makes the directions orthonormal at this instant, and adds the logarithms of their growth to the sums.
   void orthonormalise(const Instant<double>& now);
   /// Natural logarithms of the growth, direction by direction, up to the last call of `orthonormalise`; minus
   /// infinity for a direction that impacts at the least separation speed have annihilated.

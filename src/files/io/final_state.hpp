@@ -41,7 +41,7 @@ void write_final_state(std::ostream& out, const SavedState<Real>& saved, const D
   }
 }
 
-/// @throws InputError naming file and line of what deviates from this format
+/// @throws InputError naming file and line of each deviation from this format
 template <class Real>
 SavedState<Real> read_final_state(const std::string& path) {
   CsvReader csv(path, "a final_state.csv");

@@ -64,7 +64,7 @@ struct Warning {
 template <class Real>
 struct TargetDose {
   Real dose;               ///< wanted [J/kg]
-  std::string counts;      ///< what of the dose counts, for readers
+  std::string counts;      ///< the part of the dose that counts, for readers
   Real counted_dose_rate;  ///< [W]
 };
 

@@ -31,10 +31,10 @@ struct Column {
   enum class Type { text, integer, number };
   std::string name;
   Type type;
-  std::string unit{};         ///< "1" without a dimension; empty for what has no unit, such as names
+  std::string unit{};  ///< "1" for numbers without a dimension; empty for cells without a unit, such as names
   std::string description{};  ///< empty when the name says it all
 
-  /// "milling_dose [J]", or the name alone for what has no unit.
+  /// "milling_dose [J]", or only the name for a column without a unit.
   std::string title() const { return unit.empty() ? name : name + " [" + unit + "]"; }
 };
 

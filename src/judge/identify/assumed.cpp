@@ -181,7 +181,7 @@ std::vector<SharedSubset> subsets_of(const casefile::CaseSpec& spec, const model
   of_impacts("between balls that are not alike", [&balls](const LoggedEvent& e, std::size_t) {
     return !e.with_wall && !(balls[e.ball] == balls[e.partner]);
   });
-  // Rows of both bodies, those of the energy, follow from what happens to either.
+  // Rows of both bodies, those of the energy, are affected by a change of either body.
   add("on the partner", false,
       [&events](const RowPlace& at) { return !at.of_flight && at.body != 0 && !events[at.event].with_wall; });
   add("on the ball, not its partner", false,

@@ -186,7 +186,7 @@ LogResiduals::LogResiduals(const audit::EventsAtHand& log, const audit::Toleranc
   audit::StallHistory stalls(nominal.mill, nominal.balls.size());
   for (std::size_t k = 0; k < log.events.size(); ++k) {
     const auto& event = log.events[k];
-    if (!event.problem.empty()) {  // what follows has no known beginning
+    if (!event.problem.empty()) {  // the next flights have no known beginning
       std::fill(last.begin(), last.end(), Before{});
       for (std::size_t ball = 0; ball < last.size(); ++ball) stalls.forget(static_cast<int>(ball));
       continue;

@@ -25,7 +25,7 @@ using Flat = plot::Points::value_type;
 struct View {
   const char* title;
   int right, up;
-  double sign;  ///< of what points up
+  double sign;  ///< of the direction that points up
 
   Flat of(const Vec3<double>& p) const { return {p[right], sign * p[up]}; }
 };

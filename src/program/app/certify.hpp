@@ -108,7 +108,7 @@ struct CertifyOptions {
 
 struct Certification {
   std::vector<Evidence> evidence{};  ///< the narrowest first
-  std::vector<run::Event> events{};  ///< what is certain; empty where it is not
+  std::vector<run::Event> events{};  ///< the certain events; empty if there are none
   std::string undecided{};           ///< why nothing is certain; empty otherwise
   bool interrupted = false;
 };

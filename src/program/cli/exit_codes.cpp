@@ -123,7 +123,7 @@ int after_output(int code) {
   return internal_error;
 }
 
-/// Does a command, and prints what it throws. @return the exit code
+/// Runs a command, and prints the errors that it throws. @return the exit code
 int exit_code_of(const std::function<int()>& command) {
   const std::string no_memory = "found too little memory, expected more";
   try {

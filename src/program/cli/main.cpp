@@ -119,7 +119,7 @@ std::string problem_of(const CLI::App& app, const std::vector<std::string>& word
   return fmt::format("{} (see {})", text, help);
 }
 
-/// Does what the command line says. @return the exit code
+/// Runs the command that the command line names. @return the exit code
 int run_command_line(int argc, char** argv) {
   CLI::App app{"edmill: event-driven simulation of ball mills, a validated reference solver"};
   app.set_version_flag("--version", version_text());

@@ -39,7 +39,7 @@ struct ProofOptions {
 struct Attempt {
   slong bits;
   std::size_t events;     ///< that it proved
-  std::string undecided;  ///< what stopped it, or empty
+  std::string undecided;  ///< the decision that stopped it, or empty
 };
 
 struct Proof {

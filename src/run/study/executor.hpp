@@ -46,7 +46,7 @@ struct Job {
   /// Processor time after which the run ends without a result [s].
   double max_cpu_time = std::numeric_limits<double>::infinity();
 
-  /// Saves or loads what another rank needs to know.
+  /// Saves or loads the data that another rank needs.
   void archive(Archive& a) { a(case_file, overrides, digest, max_cpu_time); }
 };
 

@@ -163,7 +163,7 @@ Real bound_across(const Vec3<Real>& axis, const Vec3<Real>& middle, const Vec3<R
 }
 
 /// The box that a vessel of these half sizes sweeps: from the vessel to the ground, each joint turns or
-/// shifts the box of what is behind it.
+/// shifts the bounding box of the later joints.
 template <class Real>
 SweptBox<Real> swept_box(const Joints<Real>& joints, const Vec3<Real>& sizes) {
   using std::sqrt;

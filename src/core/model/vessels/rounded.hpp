@@ -84,7 +84,8 @@ class RoundedVessel {
   }
   Real extent() const { return a_ + b_ + rounding_; }
   Vec3<Real> half_sizes() const { return {a_ + rounding_, b_ + rounding_, a_ + rounding_}; }
-  /// The core, what is above its caps and around it, and the quarter of a torus on each edge. (Steiner)
+  /// The volumes of the core, of the layers on its caps and around it, and of the quarter of a torus on each
+  /// edge. (Steiner)
   Real volume() const {
     const Real pi = numerics::pi<Real>(), r = rounding_;
     return 2 * pi * (a_ + r) * (a_ + r) * b_ + 2 * pi * a_ * a_ * r + pi * pi * a_ * r * r +

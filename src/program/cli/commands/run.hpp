@@ -49,7 +49,7 @@ class ReservedFolder {
   std::optional<run::RunFolder> folder_;
 };
 
-/// A run, and what the command line asks of it. Its functions return exit codes.
+/// A run with the options of the command line. Its functions return exit codes.
 class RunCommand {
  protected:
   int run_case(casefile::CaseSpec spec) {
@@ -138,7 +138,7 @@ class RunCommand {
     return casefile::with_memory_for(spec, [&] { return work(options); });
   }
 
-  /// Prints what the run will take. @param scalar  empty where the case asks for digits
+  /// Prints the time and memory that the run will need. @param scalar  empty where the case asks for digits
   int print_estimate(const casefile::CaseSpec& spec, const std::string& scalar) const {
     const auto found =
         after_trials(spec, [&](const auto& options) { return app::estimate_run(spec, scalar, options); });
