@@ -38,12 +38,10 @@ using namespace edmill;
 using Commands = std::tuple<cli::New, cli::Machines, cli::Run, cli::Demo, cli::Resume, cli::Report,
                             cli::Certify, cli::Prove, cli::Sensitivity, cli::Bifurcation, cli::Check,
                             cli::Variables, cli::Sweep, cli::Optimize, cli::Compare, cli::Audit, cli::Export,
-                            cli::Import, cli::Limit, cli::Manual, cli::Reference, cli::Completion
 #ifdef EDMILL_NODE
-                            ,
-                            cli::Certificate
+                            cli::Certificate,
 #endif
-                            >;
+                            cli::Import, cli::Limit, cli::Manual, cli::Reference, cli::Completion>;
 
 std::string version_text() {
   const auto parts = optional_parts();
