@@ -28,8 +28,10 @@ struct MaterialSpec {
 
   static constexpr const char* what = "Materials of balls and walls.";
   static void keys(auto& m, auto&& row) {
-    row({"name", "by which balls, walls and pairs name it"}, m.name);
-    row({"density", Dimension::density, "required for a material of balls", Range::positive}, m.density);
+    row({"name", "name by which balls, walls and pairs refer to the material"}, m.name);
+    row({"density", Dimension::density,
+         "density of balls of this material; required if they give none themselves", Range::positive},
+        m.density);
   }
 };
 
@@ -45,16 +47,18 @@ struct BallSpec {
   Colour colour{0, 0, 1};
   std::string where;  ///< "case.toml:12: [[balls]] 1", for messages
 
-  static constexpr Parameter diameter_key{"diameter", Dimension::length, "of each ball", Range::positive};
-  static constexpr Parameter density_key{"density", Dimension::density, "this or a material that has one",
+  static constexpr Parameter diameter_key{"diameter", Dimension::length, "diameter of each ball",
+                                          Range::positive};
+  static constexpr Parameter density_key{"density", Dimension::density,
+                                         "density of the balls; omit it if their material has one",
                                          Range::positive, "8 g/cm3"};
   static constexpr Parameter inertia_key{"reduced_inertia", Dimension::none,
-                                         "moment of inertia over m R^2; 0.4 of a solid sphere", Range::share,
-                                         "0.4"};
-  static constexpr Parameter colour_key{"colour", Dimension::none, "in pictures",          Range::any,
+                                         "moment of inertia divided by m R^2; 0.4 for a solid sphere",
+                                         Range::share, "0.4"};
+  static constexpr Parameter colour_key{"colour", Dimension::none, "colour in pictures",   Range::any,
                                         nullptr,  "blue",          Parameter::Digest::none};
   static constexpr Parameter material_key =
-      Parameter{"material", "of a `[[material]]`"}.as("name").usually("none").undigested();
+      Parameter{"material", "name of a `[[material]]`"}.as("name").usually("none").undigested();
   static constexpr Parameter velocity_of(const char* meaning) {
     return {"velocity", Dimension::speed, meaning, Range::any, nullptr, "at rest"};
   }
@@ -72,26 +76,29 @@ struct BallBatch : BallSpec {
 
   static constexpr const char* what = "Batches of balls, placed at random after the single balls.";
   static void keys(auto& b, auto&& row) {
-    row({"count", "of balls that are placed at random", {0, largest_count}, "1"}, b.count);
+    row({"count", "number of balls, placed at random", {0, largest_count}, "1"}, b.count);
     row({"mass", Dimension::mass,
-         "of all balls of the batch, in place of `count`: the nearest number of balls", Range::not_negative,
-         nullptr, "none", Parameter::Digest::none},
+         "mass of the whole batch, in place of `count`; gives the nearest number of balls",
+         Range::not_negative, nullptr, "none", Parameter::Digest::none},
         b.mass);
     row(diameter_key, b.diameter);
     row({"diameter_spread", Dimension::length,
-         "diameters are uniform within this much of `diameter`, on either side", Range::not_negative, "0 m"},
+         "half-width of the uniform distribution of diameters about `diameter`", Range::not_negative, "0 m"},
         b.diameter_spread);
     row(density_key, b.density);
     row(inertia_key, b.reduced_inertia);
-    row(velocity_of("of each ball of the batch"), b.velocity);
+    row(velocity_of("initial velocity of each ball of the batch"), b.velocity);
     row({"random_speed", Dimension::speed,
          "each ball gets a random direction and a random speed up to this one, in place of `velocity`",
          Range::not_negative},
         b.random_speed);
-    row({"gap_ball", Dimension::length, "least distance to other balls", Range::not_negative, "1 mm"},
+    row({"gap_ball", Dimension::length, "smallest initial distance to other balls", Range::not_negative,
+         "1 mm"},
         b.gap_ball);
-    row({"gap_wall", Dimension::length, "least distance to walls", Range::not_negative, "1 mm"}, b.gap_wall);
-    row({"max_relocations", "attempts to place a ball", Range::any, "100000"}, b.max_relocations);
+    row({"gap_wall", Dimension::length, "smallest initial distance to walls", Range::not_negative, "1 mm"},
+        b.gap_wall);
+    row({"max_relocations", "largest number of attempts to place a ball", Range::any, "100000"},
+        b.max_relocations);
     row(colour_key, b.colour);
     row(material_key, b.material_name);
   }
@@ -107,11 +114,13 @@ struct ExplicitBall : BallSpec {
     row(diameter_key, b.diameter);
     row(density_key, b.density);
     row(inertia_key, b.reduced_inertia);
-    row({"position", Dimension::length, "of the centre, in the inertial frame", Range::any, nullptr,
-         "required without `run.initial_state`"},
+    row({"position", Dimension::length, "initial position of the centre, in the inertial frame", Range::any,
+         nullptr, "required without `run.initial_state`"},
         b.position);
-    row(velocity_of("in the inertial frame"), b.velocity);
-    row({"spin", Dimension::angular_speed, "in the inertial frame", Range::any, nullptr, "none"}, b.spin);
+    row(velocity_of("initial velocity, in the inertial frame"), b.velocity);
+    row({"spin", Dimension::angular_speed, "initial angular velocity, in the inertial frame", Range::any,
+         nullptr, "none"},
+        b.spin);
     row(colour_key, b.colour);
     row(material_key, b.material_name);
   }
@@ -149,7 +158,8 @@ struct ColumnName : std::pair<std::string, std::string> {
   using pair::pair;
   static constexpr const char* what = "Names of columns.";
   static constexpr Parameter entry =
-      Parameter{"*", "ours = theirs, with a unit in brackets: `approach_speed = \"vn [mm/s]\"`"}
+      Parameter{"*",
+                "edmill's name = the log's name, with a unit in brackets: `approach_speed = \"vn [mm/s]\"`"}
           .as("text")
           .usually("the same name");
   static std::optional<ColumnName> read(Section& section, const std::string& ours);
@@ -165,13 +175,14 @@ struct AuditSpec {
 
   static constexpr const char* what = "How `edmill audit` reads another code's log.";
   static void keys(auto& a, auto&& row) {
-    row({"tolerance", "relative", Range::share, nullptr, "1e-9"}, a.tolerance);
+    row({"tolerance", "relative tolerance", Range::share, nullptr, "1e-9"}, a.tolerance);
     row({"gap_tolerance", Dimension::length, "largest gap or overlap of bodies in contact", Range::positive,
          nullptr, "by rounding"},
         a.gap_tolerance);
     row({"first_ball", "number of the log's first ball", Range(0, largest_count), nullptr, "0"},
         a.first_ball);
-    row({"walls", "numbers of the walls by id: `\"1, 2, 3\"`", Range::any, nullptr, "those of edmill"},
+    row({"walls", "the log's numbers of the walls, in the order of edmill's ids: `\"1, 2, 3\"`", Range::any,
+         nullptr, "those of edmill"},
         a.walls);
     row({"from_start", "the log begins at the initial state of the case", Range::any, "false"}, a.from_start);
     row({"columns", "names of columns in the other code's log, `[audit.columns]`"}, a.columns);
@@ -185,11 +196,11 @@ struct TargetSpec {
 
   static void keys(auto& t, auto&& row) {
     row({"target_dose", Dimension::specific_energy,
-         "target milling dose per mass of powder, \"10 kJ/g\": the milling time follows", Range::positive,
-         nullptr, "none"},
+         "target milling dose per mass of powder, \"10 kJ/g\", from which the milling time follows",
+         Range::positive, nullptr, "none"},
         t.dose);
     row({"counts_above", Dimension::energy,
-         "an impact counts toward the target when what it has of `counts` is at least this",
+         "smallest dose of an impact, of the kind `counts`, that counts toward the target",
          Range::not_negative, "0 J"},
         t.counted.least);
   }
@@ -234,28 +245,28 @@ struct CaseSpec {
   std::vector<OutputSpec> outputs;
   AuditSpec audit;  ///< affects neither the simulation nor the digest
 
-  static constexpr const char* what = "Begin and end of the run, its scalar, gravity.";
+  static constexpr const char* what = "Start and end of the run, its scalar, and gravity.";
   static void keys(auto& c, auto&& row) {
-    row({"seed", "of the random placement", Range::any, "1"}, c.seed);
+    row({"seed", "seed of the random placement of balls", Range::any, "1"}, c.seed);
     row({"digits",
-         "every event in its true order and every number of the logs correct to this many digits: the "
-         "precision is chosen for it",
+         "number of correct digits in every number of the logs, with all events in their true order; edmill "
+         "chooses the precision",
          {1, 100000},
          nullptr,
          nullptr,
          Parameter::Digest::none},
         c.digits);
-    row({"initial_time", Dimension::time, "instant of the initial state", Range::not_negative, "0 s"},
+    row({"initial_time", Dimension::time, "time of the initial state", Range::not_negative, "0 s"},
         c.initial_time);
-    row({"start_time", Dimension::time, "statistics begin here", Range::any, nullptr, "`initial_time`"},
+    row({"start_time", Dimension::time, "start of the statistics", Range::any, nullptr, "`initial_time`"},
         c.statistics_start);
     row({"end_time", Dimension::time,
-         "the run ends here; this or another stop rule, a key `max_...`, is required, and the first that is "
-         "met ends the run"},
+         "end of the run; this or another stop rule, such as `max_collisions`, is required, and the first "
+         "one met ends the run"},
         c.end_time);
     row({"initial_state",
-         "a `final_state.csv` to start from, relative to the case file; the properties of the balls stay "
-         "those of the case",
+         "`final_state.csv` to start from, relative to the case file; the properties of the balls are those "
+         "of the case",
          Range::any, nullptr, "none", Parameter::Digest::none},
         c.initial_state);
     model::for_each_stop_rule([&](auto rule, std::size_t place) { row(rule.key, c.stop_limits[place]); });
@@ -265,7 +276,7 @@ struct CaseSpec {
             .as("name of a scalar")
             .usually("`\"double\"`"),
         c.precision);
-    row(Parameter{"gravity", Dimension::acceleration, "along -Y when it is one number"}
+    row(Parameter{"gravity", Dimension::acceleration, "acceleration of gravity; one number acts along -Y"}
             .as("acceleration, or a vector")
             .usually("none"),
         c.gravity);

@@ -24,27 +24,28 @@ struct ColumnTable : ColumnSpec {
   static constexpr const char* what = "A list of tables, one for each column.";
   static void keys(auto& c, auto&& row) {
     const bool single = c.rules.of_numbers.empty();
-    row(Parameter{"variable", "a variable; of `trends_balls` a quantity of a ball"}.as("name").usually(
+    row(Parameter{"variable", "a variable; for `trends_balls` a quantity of a ball"}.as("name").usually(
             "required"),
         c.name);
     if (!single)
       row(Parameter{"statistics",
                     "`sum`, `average`, `minimum`, `maximum`, `rate` (per second), `percentage` (of the "
-                    "total's sum); of flags `sum`, `rate` and `percentage`. Not of `trends_instant`"}
+                    "total's sum); for flags only `sum`, `rate` and `percentage`; not for `trends_instant`"}
               .as("list of names")
               .usually("required"),
           c.wanted);
-    row(Parameter{"label", "in the table's header"}.usually("the variable's name"), c.label);
+    row(Parameter{"label", "name of the column in the header"}.usually("the variable's name"), c.label);
     if (single && (c.name.empty() || is_flag(c.name))) {
-      row(Parameter{"true_text", "for a flag that is true", Range::any, "1"}.usually("`\"1\"`").only_of(
+      row(Parameter{"true_text", "text for a flag that is true", Range::any, "1"}.usually("`\"1\"`").only_of(
               "trends_instant"),
           c.true_text);
-      row(Parameter{"false_text", "for a flag that is false", Range::any, "0"}.usually("`\"0\"`").only_of(
-              "trends_instant"),
+      row(Parameter{"false_text", "text for a flag that is false", Range::any, "0"}
+              .usually("`\"0\"`")
+              .only_of("trends_instant"),
           c.false_text);
     }
     if (c.rules.of_balls)
-      row(Parameter{"with_ball", "also which ball has the minimum or maximum", Range::any, "false"}.only_of(
+      row(Parameter{"with_ball", "add which ball has the minimum or maximum", Range::any, "false"}.only_of(
               "trends_balls"),
           c.with_ball);
   }
@@ -61,7 +62,7 @@ struct ColumnReader {
 };
 
 inline constexpr Parameter columns_key =
-    Parameter{"columns", "what the table contains"}.as("list of tables").usually("required");
+    Parameter{"columns", "columns of the table"}.as("list of tables").usually("required");
 constexpr Parameter interval_key(const char* fallback) {
   return {"interval", Dimension::time, "length of an interval", Range::positive, fallback};
 }
@@ -69,7 +70,7 @@ constexpr Parameter max_rows_key(const char* fallback = nullptr) {
   return {"max_rows", Dimension::none, "the record ends after this many rows", Range::count, fallback};
 }
 inline constexpr Parameter contact_point_key{"contact_point", Dimension::none,
-                                             "a sphere where the bodies touch"};
+                                             "mark the point where the bodies touch by a sphere"};
 
 /// Index in impact_variables of the variable that a key names; nothing for a name that is unknown or that the
 /// rules exclude, which is reported.

@@ -36,13 +36,15 @@ struct TimerSpec {
     row({"start_time", time, "the record begins at this time or at `start_collision`, whichever is earlier",
          Range::not_negative, nullptr, "the start of the run"},
         t.start_time);
-    row({"start_collision", "index of an impact, from 0", Range::any, nullptr, "none"}, t.start_collision);
+    row({"start_collision", "index of the impact, from 0, at which the record begins", Range::any, nullptr,
+         "none"},
+        t.start_collision);
     row({"end_time", time,
          "the record ends at this time, after `duration` or after `collisions`, whichever is earliest",
          Range::not_negative, nullptr, "the end of the run"},
         t.end_time);
-    row({"duration", time, "of the record", Range::positive}, t.duration);
-    row({"collisions", "number of impacts in the record, with those that `only` excludes", Range::count,
+    row({"duration", time, "duration of the record", Range::positive}, t.duration);
+    row({"collisions", "number of impacts in the record, including those that `only` excludes", Range::count,
          nullptr, "none"},
         t.collisions);
   }
@@ -108,8 +110,9 @@ struct ContactPointSpec {
 
   static constexpr const char* what = "A table.";
   static void keys(auto& c, auto&& row) {
-    row({"radius", Dimension::length, "of the sphere that marks it", Range::positive, "1 mm"}, c.radius);
-    row({"colour", "of the sphere that marks it", Range::any, nullptr, "yellow"}, c.colour);
+    row({"radius", Dimension::length, "radius of the sphere that marks the point", Range::positive, "1 mm"},
+        c.radius);
+    row({"colour", "colour of the sphere that marks the point", Range::any, nullptr, "yellow"}, c.colour);
   }
 };
 
@@ -120,9 +123,9 @@ struct AnimationSpec {
   std::uint64_t min_frames = 8;
 
   static void keys(auto& a, auto&& row) {
-    row({"speed", "of playback; 1 is real time", Range::positive, "0.001"}, a.speed);
-    row({"frames_per_minute", "of playback", Range::count, "60"}, a.frames_per_minute);
-    row({"min_frames", "of the whole animation, at least", Range::count, "8"}, a.min_frames);
+    row({"speed", "speed of playback; 1 is real time", Range::positive, "0.001"}, a.speed);
+    row({"frames_per_minute", "frames per minute of playback", Range::count, "60"}, a.frames_per_minute);
+    row({"min_frames", "smallest number of frames of the whole animation", Range::count, "8"}, a.min_frames);
   }
 };
 
@@ -145,18 +148,19 @@ struct OutputSpec {
   static constexpr const char* what = "Tables and pictures that the run writes.";
   /// The keys of every type.
   static void keys(auto& o, auto&& row) {
-    row(Parameter{"type", "which table or picture: see the types of outputs above"}.as("name").usually(
+    row(Parameter{"type", "type of table or picture: see the types of outputs above"}.as("name").usually(
             "required"),
         o.type);
     TimerSpec::keys(o.timer, row);
-    row(Parameter{"file", "a plain name; a table whose name ends in `.h5` is written as HDF5"}.usually(
-            "type and extension"),
+    row(Parameter{"file",
+                  "name of the file, without folders; a table whose name ends in `.h5` is written as HDF5"}
+            .usually("type and extension"),
         o.file);
-    row(Parameter{"folder", "inside the run's folder; created if absent"}.usually("the run's folder"),
+    row(Parameter{"folder", "folder inside the run's folder; created if absent"}.usually("the run's folder"),
         o.folder);
     if (o.table)
       row({"append",
-           "of CSV: keep the content of the file and add to it; outputs that all append can share a file",
+           "for CSV: keep the contents of the file and add to them; outputs that all append can share a file",
            Range::any, "false"},
           o.append);
     row(Parameter{"only", "only impacts with these values of flags and counts"}.usually("all impacts"),

@@ -20,7 +20,7 @@ inline constexpr int most_runs = 1000000;
 struct Setting : std::pair<std::string, std::string> {
   using pair::pair;
   static constexpr const char* what = "A table.";
-  static constexpr Parameter entry = Parameter{"*", "the key is one of the case"}.as("value").usually("");
+  static constexpr Parameter entry = Parameter{"*", "value of a key of the case"}.as("value").usually("");
   static std::optional<Setting> read(Section& section, const std::string& key);
 };
 
@@ -39,14 +39,13 @@ struct StudySpec {
     return cpu_limit ? cpu_limit->to<double>() : std::numeric_limits<double>::infinity();
   }
 
-  static constexpr Parameter seed_key{
-      "seed", Dimension::none, "the first of the seeds", {0, 999999999999}, "1"};
-  /// @param relative  "relative to the sweep file"
+  static constexpr Parameter seed_key{"seed", Dimension::none, "first seed", {0, 999999999999}, "1"};
+  /// @param relative  "case file, relative to the sweep file"
   static void shared_keys(auto& s, auto&& row, const char* relative) {
     row(Parameter{"case", relative}.as("file").usually("required"), s.case_file);
-    row(Parameter{"precision", "of all runs"}.as("name of a scalar").usually("that of the case"),
+    row(Parameter{"precision", "scalar of all runs"}.as("name of a scalar").usually("that of the case"),
         s.precision);
-    row({"max_cpu_time", Dimension::time, "of processor time, after which a run ends without a result",
+    row({"max_cpu_time", Dimension::time, "processor time after which a run ends without a result",
          Range::positive},
         s.cpu_limit);
   }
@@ -58,7 +57,7 @@ struct GridAxis {
   std::vector<std::string> values;
   static constexpr const char* what = "Values of keys.";
   static constexpr Parameter entry =
-      Parameter{"*", "the key is one of the case, as `--set` takes it, or `charge_ratio`"}
+      Parameter{"*", "values of a key of the case, named as in `--set`, or of `charge_ratio`"}
           .as("list of values")
           .usually("");
   static std::optional<GridAxis> read(Section& grid, const std::string& key);
@@ -72,13 +71,14 @@ struct SweepPoint {
 
   static constexpr const char* what = "Single points.";
   static void keys(auto& p, auto&& row) {
-    row(Parameter{"name", "of the point in the tables"}.usually("none"), p.name);
+    row(Parameter{"name", "name of the point in the tables"}.usually("none"), p.name);
     row(Parameter{"set", "keys of the case with their values"}.usually("this or a list"), p.set);
-    row(Parameter{"balls", "whole list, entries `[[sweep.point.balls]]`"}.as("tables").usually(
+    row(Parameter{"balls", "the whole list of batches, entries `[[sweep.point.balls]]`"}.as("tables").usually(
             "those of the case"),
         p.balls);
-    row(Parameter{"ball", "whole list, entries `[[sweep.point.ball]]`"}.as("tables").usually(
-            "those of the case"),
+    row(Parameter{"ball", "the whole list of single balls, entries `[[sweep.point.ball]]`"}
+            .as("tables")
+            .usually("those of the case"),
         p.ball);
   }
   static void check(Section& entry, std::vector<SweepPoint>& points);
@@ -89,11 +89,12 @@ struct SweepSpec : StudySpec {
   Named<GridAxis> grid;  ///< in the order of the file
   std::vector<SweepPoint> entries;
 
-  static constexpr const char* what = "Of a sweep file.";
+  static constexpr const char* what = "Settings of a sweep.";
   static void keys(auto& s, auto&& row) {
     row(seed_key, s.seed);
-    row({"replicas", "runs of each point, with successive seeds", Range(1, most_runs), "1"}, s.replicas);
-    shared_keys(s, row, "relative to the sweep file");
+    row({"replicas", "number of runs of each point, with successive seeds", Range(1, most_runs), "1"},
+        s.replicas);
+    shared_keys(s, row, "case file, relative to the sweep file");
     row({"grid", "every combination of the values, `[sweep.grid]`"}, s.grid);
     row({"point", "single points, each with all of the grid, entries `[[sweep.point]]`"}, s.entries);
   }
@@ -108,7 +109,7 @@ struct OptimizeVariable {
   std::string unit;
   bool integer = false;
 
-  static constexpr const char* what = "What is varied.";
+  static constexpr const char* what = "A variable of the search.";
   static void keys(auto& v, auto&& row) {
     row(Parameter{"key", "a key of the case, or `charge_ratio`"}.usually("required"), v.key);
     row(Parameter{"low", "lower bound"}.as("value").usually("required without `values`"), v.least);
@@ -131,19 +132,21 @@ struct OptimizeSpec : StudySpec {
   std::uint64_t runs_max = 0, replicas_first = 3, replicas_max = 24, points = 5, refinements = 2;
   std::vector<OptimizeVariable> variables;
 
-  static constexpr const char* what = "Of an optimisation file.";
+  static constexpr const char* what = "Settings of an optimisation.";
   static void keys(auto& o, auto&& row) {
     row(seed_key, o.seed);
-    row({"runs_max", "the whole budget", {1, most_runs}}, o.runs_max);
-    row({"replicas_first", "runs of every point", {2, 1000}, "3"}, o.replicas_first);
-    row({"replicas_max", "runs of a point that may be the best", {2, 1000}, "24"}, o.replicas_max);
-    row({"points", "of the first grid along each variable", {2, 100}, "5"}, o.points);
-    row({"refinements", "finer grids around the best point", {0, 20}, "2"}, o.refinements);
-    shared_keys(o, row, "relative to the optimisation file");
-    row(Parameter{"objective", "this or `milling_dose_rate`"}.as("name").usually(
+    row({"runs_max", "largest number of runs of the whole search", {1, most_runs}}, o.runs_max);
+    row({"replicas_first", "number of runs of every point", {2, 1000}, "3"}, o.replicas_first);
+    row({"replicas_max", "largest number of runs of a point that may be the best", {2, 1000}, "24"},
+        o.replicas_max);
+    row({"points", "number of points of the first grid along each variable", {2, 100}, "5"}, o.points);
+    row({"refinements", "number of finer grids around the best point", {0, 20}, "2"}, o.refinements);
+    shared_keys(o, row, "case file, relative to the optimisation file");
+    row(Parameter{"objective", "quantity to maximise: this or `milling_dose_rate`"}.as("name").usually(
             "`\"specific_milling_dose_rate\"`"),
         o.wanted);
-    row(Parameter{"variable", "one to three entries `[[optimize.variable]]`"}.usually("required"),
+    row(Parameter{"variable", "variables of the search, one to three entries `[[optimize.variable]]`"}
+            .usually("required"),
         o.variables);
   }
 };

@@ -11,7 +11,7 @@ namespace edmill::casefile {
 /// Harmonic parts of a joint or of a piston.
 struct SwingTable {
   Dimension dimension = Dimension::none;  ///< of the amplitude; none where the joint decides
-  const char* meaning = "as the joint rotates or translates";
+  const char* meaning = "amplitude of the rotation or translation";
   Quantity amplitude{}, speed{}, phase{};
 
   static constexpr const char* what =
@@ -20,8 +20,8 @@ struct SwingTable {
   static void keys(auto& s, auto&& row) {
     const Parameter amplitude{"amplitude", s.dimension, s.meaning};
     row(s.dimension == Dimension::none ? amplitude.as("angle or length") : amplitude, s.amplitude);
-    row({"speed", Dimension::angular_speed, "2 pi times the frequency"}, s.speed);
-    row({"phase", Dimension::angle, "at the time 0", Range::any, "0 deg"}, s.phase);
+    row({"speed", Dimension::angular_speed, "angular frequency, 2 pi times the frequency"}, s.speed);
+    row({"phase", Dimension::angle, "phase at time 0", Range::any, "0 deg"}, s.phase);
   }
 };
 
@@ -44,21 +44,22 @@ struct JointTable {
     const bool rotates = j.rotates.value_or(true), translates = !j.rotates.value_or(false);
     if (rotates)
       row(Parameter{"rotate",
-                    "`\"x\"`, `\"y\"`, `\"z\"` or three numbers: the axis in the frame of the joint before"}
+                    "axis of rotation in the frame of the previous joint: `\"x\"`, `\"y\"`, `\"z\"` or three "
+                    "numbers"}
               .as("axis")
               .usually("this or `translate`"),
           j.axis);
     if (translates)
       row(Parameter{"translate",
-                    "along an axis: `\"x\"`, `\"y\"`, `\"z\"`, or three numbers with `speed` or `swing`; "
-                    "without them, three lengths are a constant shift"}
+                    "axis of translation: `\"x\"`, `\"y\"`, `\"z\"`, or three numbers with `speed` or "
+                    "`swing`; without them, three lengths are a constant shift"}
               .as("axis or three lengths")
               .usually("this or `rotate`"),
           j.axis);
     if (rotates)
       row({"angle", Dimension::angle, "constant part of a rotation", Range::any, "0 deg"}, j.angle);
     row(Parameter{"speed", translates ? Dimension::speed : angular_speed,
-                  "constant, as the joint rotates or translates; rotations need no common period, a "
+                  "constant part of the speed of rotation or translation; rotations need no common period, a "
                   "translation needs `run.end_time`",
                   Range::any, translates ? "0 m/s" : "0 rad/s"}
             .as("angular speed or speed")
@@ -94,30 +95,39 @@ struct BodyTable {
       "each other.";
   static void keys(auto& b, auto&& row) {
     using enum Dimension;
-    row(Parameter{"name", "in tables", Range::any, nullptr, "`body 0`, `body 1`, ..."}, b.name);
-    row(Parameter{"type", "shape; the axis of a cylinder is y"}
+    row(Parameter{"name", "name of the body in tables", Range::any, nullptr, "`body 0`, `body 1`, ..."},
+        b.name);
+    row(Parameter{"type", "shape of the body; the axis of a cylinder is y"}
             .as("`\"box\"` or `\"cylinder\"`")
             .usually("`\"box\"`"),
         b.type);
-    row(Parameter{"size", length, "edges of a box along x, y, z, over all; up to two may be zero"}.usually(
-            "required for a box"),
+    row(Parameter{"size", length, "sizes of a box along x, y, z, including roundings; up to two may be zero"}
+            .usually("required for a box"),
         b.size);
-    row(Parameter{"diameter", length, "of a cylinder", Range::positive}.usually("required for a cylinder"),
+    row(Parameter{"diameter", length, "diameter of a cylinder", Range::positive}.usually(
+            "required for a cylinder"),
         b.diameter);
-    row(Parameter{"height", length, "of a cylinder, over all; zero for a disc without thickness",
+    row(Parameter{"height", length,
+                  "height of a cylinder, including roundings; zero for a disc without thickness",
                   Range::not_negative}
             .usually("required for a cylinder"),
         b.height);
-    row({"rounding", length, "radius of all edges; half of all sizes makes a sphere of a box",
+    row({"rounding", length, "radius of all edges; a box whose sizes are all twice the radius is a sphere",
          Range::not_negative, "0 m"},
         b.rounding);
-    row(Parameter{"on", "where its joints begin"}.as("`\"vessel\"` or `\"ground\"`").usually("`\"vessel\"`"),
+    row(Parameter{"on", "frame in which its joints begin"}
+            .as("`\"vessel\"` or `\"ground\"`")
+            .usually("`\"vessel\"`"),
         b.on);
-    row(Parameter{"joint", "from there to the body, as `[[mill.joint]]`"}.usually("none"), b.joints);
-    row({"repeat", "copies at equal angles about the axis of the first joint that rotates", {1, 24}, "1"},
+    row(Parameter{"joint", "joints from there to the body, as in `[[mill.joint]]`"}.usually("none"),
+        b.joints);
+    row({"repeat",
+         "number of copies, at equal angles about the axis of the first joint that rotates",
+         {1, 24},
+         "1"},
         b.repeat);
-    row(Parameter{"material", "of its surface"}.as("name").usually("none"), b.material);
-    row({"colour", "in pictures", Range::any, nullptr, "grey"}, b.colour);
+    row(Parameter{"material", "material of the surface"}.as("name").usually("none"), b.material);
+    row({"colour", "colour in pictures", Range::any, nullptr, "grey"}, b.colour);
   }
 };
 
@@ -126,8 +136,8 @@ struct ChainTable {
   Entries<JointTable> joints;
 
   static void keys(auto& c, auto&& row) {
-    row(Parameter{"joint", "from the ground to the vessel, any number of entries `[[mill.joint]]`"}.usually(
-            "required"),
+    row(Parameter{"joint", "joints from the ground to the vessel, any number of entries `[[mill.joint]]`"}
+            .usually("required"),
         c.joints);
   }
 };
@@ -147,8 +157,8 @@ struct PlaneTable {
 
   static constexpr const char* what = "Walls of a polyhedron.";
   static void keys(auto& p, auto&& row) {
-    row({"normal", "outward, of any length"}, p.normal);
-    row({"distance", Dimension::length, "from the vessel's origin, which is inside"}, p.distance);
+    row({"normal", "outward normal, of any length"}, p.normal);
+    row({"distance", Dimension::length, "distance from the vessel's origin, which is inside"}, p.distance);
   }
 };
 
@@ -156,7 +166,9 @@ struct VertexTable {
   QuantityVector at{};
 
   static constexpr const char* what = "Corners of a polyhedron.";
-  static void keys(auto& v, auto&& row) { row({"at", Dimension::length, "in the vessel frame"}, v.at); }
+  static void keys(auto& v, auto&& row) {
+    row({"at", Dimension::length, "position in the vessel frame"}, v.at);
+  }
 };
 
 /// [vessel] type = "polyhedron"
@@ -165,9 +177,10 @@ struct PolyhedronTable {
   Entries<VertexTable> vertices;
 
   static void keys(auto& p, auto&& row) {
-    row(Parameter{"plane", "entries `[[vessel.plane]]`, one for each wall"}.usually("this or `vertex`"),
+    row(Parameter{"plane", "planes of the walls, one entry `[[vessel.plane]]` for each"}.usually(
+            "this or `vertex`"),
         p.planes);
-    row(Parameter{"vertex", "entries `[[vessel.vertex]]`, the corners of a convex vessel"}.usually(
+    row(Parameter{"vertex", "corners of a convex vessel, entries `[[vessel.vertex]]`"}.usually(
             "this or `plane`"),
         p.vertices);
   }
@@ -181,7 +194,7 @@ inline PolyhedronTable table_of(const model::Polyhedron<Quantity>&) { return {};
 struct WallName : std::string {
   static constexpr const char* what = "Materials of single walls.";
   static constexpr Parameter entry =
-      Parameter{"*", "the key is a wall by its label or its number: `\"cap +y\"`, `wall_1`"}
+      Parameter{"*", "material of the wall that the key names, by label or number: `\"cap +y\"`, `wall_1`"}
           .as("name")
           .usually("`vessel.material`");
   static std::optional<WallName> read(Section&, const std::string& name) { return WallName{name}; }
@@ -190,18 +203,18 @@ struct WallName : std::string {
 struct PistonTable {
   std::string wall;
   Quantity distance, speed;
-  Entries<SwingTable> swings{{}, {Dimension::length, "inward"}};
+  Entries<SwingTable> swings{{}, {Dimension::length, "amplitude, positive inward"}};
 
   static constexpr const char* what =
       "A wall that is displaced inward from its nominal position by distance + speed t + swings.";
   static void keys(auto& p, auto&& row) {
-    row(Parameter{"wall", "a flat wall by its label or its number: `\"cap -y\"`, `wall_0`"}
-            .as("name")
-            .usually("required"),
+    row(Parameter{"wall", "flat wall, by label or number: `\"cap -y\"`, `wall_0`"}.as("name").usually(
+            "required"),
         p.wall);
-    row({"distance", Dimension::length, "inward of the wall's nominal position at time 0", Range::any, "0 m"},
+    row({"distance", Dimension::length, "distance inward from the wall's nominal position at time 0",
+         Range::any, "0 m"},
         p.distance);
-    row({"speed", Dimension::speed, "inward; needs `run.end_time`", Range::any, "0 m/s"}, p.speed);
+    row({"speed", Dimension::speed, "speed inward; needs `run.end_time`", Range::any, "0 m/s"}, p.speed);
     row(SwingTable::key, p.swings);
   }
 };
@@ -213,17 +226,17 @@ struct VesselTable {
   Inner<Named<WallName>> materials;
   Entries<PistonTable> pistons;
 
-  static constexpr const char* what = "Shape, walls and materials of the vessel, inside.";
+  static constexpr const char* what = "Shape of the inside of the vessel, its walls and their materials.";
   static void keys(auto& v, auto&& row) {
     row(Parameter{"type", "shape of the inside; its y axis is the axis of round vessels"}.as("name").usually(
             "`\"cylinder\"`"),
         v.shape);
-    row({"colour", "in pictures: a name, three integers up to 255 or three decimals up to 1", Range::any,
-         nullptr, "yellow"},
+    row({"colour", "colour in pictures: a name, three integers up to 255 or three decimals up to 1",
+         Range::any, nullptr, "yellow"},
         v.colour);
-    row(Parameter{"material", "of all walls"}.as("name").usually("none"), v.material);
-    row({"materials", "by wall, `[vessel.materials]`"}, v.materials);
-    row({"piston", "flat walls that move, entries `[[vessel.piston]]`"}, v.pistons);
+    row(Parameter{"material", "material of all walls"}.as("name").usually("none"), v.material);
+    row({"materials", "materials of single walls, `[vessel.materials]`"}, v.materials);
+    row({"piston", "moving flat walls, entries `[[vessel.piston]]`"}, v.pistons);
   }
 };
 
@@ -240,7 +253,10 @@ struct PairTable {
 
   static constexpr const char* what = "A law for two materials.";
   static void keys(auto& p, auto&& row) {
-    row(Parameter{"materials", "beside these, all keys of `[contact]` that describe a law"}
+    row(
+        Parameter{
+            "materials",
+            "names of the two materials; the entry also takes all keys of `[contact]` that describe a law"}
             .as("two names")
             .usually("required"),
         p.materials);
@@ -272,14 +288,14 @@ struct LawTable {
 
   static void keys(auto& given, auto&& row) {
     using enum Dimension;
-    row(Parameter{"model", "the contact law"}.as("name").usually("`\"walton-braun\"`"), given.name);
+    row(Parameter{"model", "name of the contact law"}.as("name").usually("`\"walton-braun\"`"), given.name);
     for_each_kind<Laws>([&](auto law) {
       law.parameters(law, [&](const Parameter& p, const Quantity&) {
         const Parameter own = p.only_of(law.name);
         row(p.fallback || p.otherwise ? own : own.usually("required"), given.parameters[p.key]);
       });
     });
-    row(Parameter{"restitution_normal", "another name of `restitution`", {0, 1}}.only_of(
+    row(Parameter{"restitution_normal", "another name for `restitution`", {0, 1}}.only_of(
             "walton-braun, constant"),
         given.parameters["restitution"]);
     for_each_kind<Laws>([&]<class Law>(const Law&) {
@@ -288,8 +304,8 @@ struct LawTable {
             PointsOf<Law>{given.points});
     });
     row({"least_separation", speed,
-         "bodies do not separate more slowly after an impact; `\"0 m/s\"` is the exact model, which ends at "
-         "a Zeno point",
+         "lowest speed at which bodies separate after an impact; `\"0 m/s\"` is the exact model, in which "
+         "infinitely many impacts in a finite time end the run",
          Range::not_negative, "1 cm/s"},
         given.least_separation);
   }
@@ -324,7 +340,9 @@ struct PowderTable {
   static constexpr const char* what = "Powder that the balls mill.";
   static void keys(auto& p, auto&& row) {
     TargetSpec::keys(p.target, row);
-    row({"mass", Dimension::mass, "for the charge ratio and the specific dose", Range::positive}, p.mass);
+    row({"mass", Dimension::mass, "mass of the powder, for the charge ratio and the specific dose",
+         Range::positive},
+        p.mass);
     row(Parameter{"counts",
                   "which part of the dose counts toward the target: all of it, or the part along the normal"}
             .as("`\"all\"` or `\"normal\"`")

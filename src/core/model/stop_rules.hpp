@@ -31,7 +31,7 @@ struct MaxCollisions {
 /// Ends a run at a milling dose since its start.
 struct MaxMillingDose {
   static constexpr Parameter key{"max_milling_dose", Dimension::energy,
-                                 "the run ends when this much has been dissipated since it began",
+                                 "the run ends when this energy has been dissipated since it began",
                                  Range::positive};
 
   template <class Real>
@@ -50,7 +50,8 @@ struct MaxMillingDose {
 /// Ends a run when a ball exceeds a speed just after an impact.
 struct MaxBallSpeed {
   static constexpr Parameter key{"max_ball_speed", Dimension::speed,
-                                 "the run ends when a ball is faster after an impact", Range::positive};
+                                 "the run ends when a ball is faster than this after an impact",
+                                 Range::positive};
 
   template <class Real>
   struct Watch {
@@ -68,10 +69,11 @@ struct MaxBallSpeed {
 
 /// Ends a run when the dose rate is known precisely enough.
 struct DoseRatePrecision {
-  static constexpr Parameter key{"dose_rate_precision", Dimension::none,
-                                 "the run ends when the half-width of the 95 % interval of the dose rate is "
-                                 "this part of it; tried first after 40 drive periods of statistics",
-                                 Range(0.0001, 1)};
+  static constexpr Parameter key{
+      "dose_rate_precision", Dimension::none,
+      "the run ends when the half-width of the 95 % interval of the dose rate is at most this fraction of "
+      "the rate; first tested after 40 drive periods of statistics",
+      Range(0.0001, 1)};
 
   /// Tests the interval only a few times, each after a time that the previous test predicts, so that a run
   /// does not end because its interval is narrow by chance. (docs/theory.md, section 8)

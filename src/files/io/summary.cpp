@@ -21,47 +21,49 @@ struct FieldList {
   void visit() {
     const auto& p = s.provenance;
     v("format", "", "", "edmill summary 1");
-    v("version", "", "of the program", p.version);
-    v("commit", "", "of the program", p.commit);
-    v("compiler", "", "of the program", p.compiler);
+    v("version", "", "version of the program", p.version);
+    v("commit", "", "commit of the program", p.commit);
+    v("compiler", "", "compiler that built the program", p.compiler);
     v("case_file", "", "", p.case_file);
     v("case_digest", "", "SHA-256 of the case's canonical text: units and comments do not change it",
       p.case_digest);
-    v("settings", "", "by `--set` over the case file", p.settings);
+    v("settings", "", "keys that `--set` has overridden, with their values", p.settings);
     v("reported", "", "whether the run was made with `--report`", p.reported);
-    v("seed", "", "of the case", p.seed);
+    v("seed", "", "seed of the case", p.seed);
     v("precision", "", "name of the scalar", p.precision);
     if (p.right_digits)
       v("right_digits", "",
-        "of every event and of the state at the end, where digits were asked for; as two runs have shown "
-        "([precision.md](precision.md#ask-for-digits))",
+        "number of correct digits of every event and of the final state, if digits were requested; two runs "
+        "have confirmed them ([precision.md](precision.md#ask-for-digits))",
         *p.right_digits);
     v("end_reason", "",
-      "`end_time` or another stop rule by its key, `inelastic_collapse`, `stalled`, `interrupted`, "
-      "`undecided`; of a run from Python or C++ also `stopped`, by an observer",
+      "`end_time` or the key of another stop rule, `inelastic_collapse`, `stalled`, `interrupted`, "
+      "`undecided`; for a run from Python or C++ also `stopped`, by an observer",
       model::name(s.end_reason));
     if (!s.error.empty()) v("error", "", "why the run ended before its end", s.error);
-    v("start_time", "s", "of the statistics", s.start_time);
-    v("end_time", "s", "of the statistics", s.end_time);
-    v("duration", "s", "of the statistics", s.duration());
+    v("start_time", "s", "start of the statistics", s.start_time);
+    v("end_time", "s", "end of the statistics", s.end_time);
+    v("duration", "s", "duration of the statistics", s.duration());
 
-    v.group("collisions", "number", [&] {
+    v.group("collisions", "number of collisions", [&] {
       by_partner("1", [&](std::size_t k) { return s.collisions[k]; });
       v("total", "1", "of all", s.total_collisions());
     });
-    v.group("collision_rate", "per time; null where the statistics cover none, as every rate", [&] {
-      by_partner("1/s", [&](std::size_t k) { return per_second(Real(number(s.collisions[k]))); });
-      v("total", "1/s", "of all", per_second(Real(number(s.total_collisions()))));
-    });
+    v.group("collision_rate", "collisions per time; null, as every rate, if the statistics cover no time",
+            [&] {
+              by_partner("1/s", [&](std::size_t k) { return per_second(Real(number(s.collisions[k]))); });
+              v("total", "1/s", "of all", per_second(Real(number(s.total_collisions()))));
+            });
     v.group("impact_rate",
-            "of collisions that the least separation speed does not decide: not of contacts at rest", [&] {
+            "rate of the collisions without contacts at rest, in which the least separation speed acts", [&] {
               by_partner("1/s", [&](std::size_t k) { return per_second(Real(number(s.impacts[k]))); });
               v("total", "1/s", "of all", per_second(Real(number(s.impacts_counted()))));
             });
-    v("fast_impact_rate", "1/s", "of impacts that approach at more than 1 m/s",
+    v("fast_impact_rate", "1/s", "rate of impacts with an approach speed above 1 m/s",
       per_second(Real(number(s.fast_impacts))));
     const Real impact_dose = s.milling_dose - s.touched_dose;
-    v("mean_impact_speed", "m/s", "of approach, along the normal, weighted by dose; without contacts at rest",
+    v("mean_impact_speed", "m/s",
+      "mean approach speed along the normal, weighted by dose, without contacts at rest",
       s.speed_by_dose > 0 && impact_dose > 0 ? std::optional<Real>(s.speed_by_dose / impact_dose)
                                              : std::nullopt);
     v.group(
@@ -73,75 +75,79 @@ struct FieldList {
             [&] { by_dose(s.dissipated_energy); });
     v("milling_dose", "J", "energy dissipated by all impacts", s.milling_dose);
     v("milling_dose_rate", "W", "", per_second(s.milling_dose));
-    v("inverse_milling_dose_rate", "s/J", "null without a dose",
+    v("inverse_milling_dose_rate", "s/J", "null if there is no dose",
       s.duration() > 0 && s.milling_dose > 0 ? std::optional<Real>(s.duration() / s.milling_dose)
                                              : std::nullopt);
-    v.group("milling_dose_by_partner", "its parts",
+    v.group("milling_dose_by_partner", "parts of the milling dose by partner",
             [&] { by_partner("J", [&](std::size_t k) { return s.dose_by_partner[k]; }); });
     if (s.powder_mass) {
       const Real dose = s.milling_dose / *s.powder_mass;
-      v("powder_mass", "kg", "this and the next three where the case has powder", *s.powder_mass);
-      v("charge_ratio", "1", "mass of the balls over that of the powder",
+      v("powder_mass", "kg", "mass of the powder; this and the next three only if the case has powder",
+        *s.powder_mass);
+      v("charge_ratio", "1", "mass of the balls divided by that of the powder",
         Real(*s.ball_mass / *s.powder_mass));
-      v("specific_milling_dose", "J/kg", "dose over the mass of the powder", dose);
+      v("specific_milling_dose", "J/kg", "dose divided by the mass of the powder", dose);
       v("specific_milling_dose_rate", "W/kg", "", per_second(dose));
     }
 
     v("wall_work", "J", "work of the walls on the balls", s.wall_work);
     v("wall_work_rate", "W", "", per_second(s.wall_work));
-    v.group("energy", "of all balls", [&] {
+    v.group("energy", "energies of all balls", [&] {
       v("kinetic_start", "J", "at `start_time`", s.energy_at_start.kinetic);
       v("potential_start", "J", "at `start_time`", s.energy_at_start.potential);
       v("kinetic_end", "J", "at `end_time`", s.energy_at_end.kinetic);
       v("potential_end", "J", "at `end_time`", s.energy_at_end.potential);
       v("closure", "J", "wall work - dose + supplied energy - change of the energies", s.energy_closure);
-      v("closure_relative", "1", "to the dose, or to the kinetic energy at one end where that is larger",
+      v("closure_relative", "1",
+        "closure relative to the dose, or to the kinetic energy at the start or end if that is larger",
         Real(s.energy_closure / s.energy_scale()));
     });
     v.group("least_separation", "impacts that separated at the least separation speed", [&] {
       visit_impacts(s.touched_impacts, s.touched_dose);
-      v("supplied_energy", "J", "by these impacts", s.supplied_energy);
-      v("supplied_energy_share", "1", "of the dose, or of the kinetic energy as in `energy`",
+      v("supplied_energy", "J", "energy that these impacts supply", s.supplied_energy);
+      v("supplied_energy_share", "1",
+        "share of the supplied energy in the dose, or in the kinetic energy as in `energy`",
         ratio(s.supplied_energy, s.energy_scale()));
     });
     v.group("stalls",
-            "impacts without friction since a ball was in a stall ([theory.md](theory.md), section 6)",
+            "impacts without friction because a ball was in a stall ([theory.md](theory.md), section 6)",
             [&] { visit_impacts(s.stall_impacts, s.stall_dose); });
 
     const auto& i = s.intervals;
-    v.group(
-        "intervals",
-        "half-widths of 95 % intervals under the names of the rates; none of a run of fewer than five drive "
-        "periods ([theory.md](theory.md), section 8)",
-        [&] {
-          v("batches", "1", "number of parts of the statistics", i.batches);
-          v("batch_length", "s", "of each", i.batch_length);
-          if (!i.any()) return;
-          const Real rate = s.milling_dose / s.duration();
-          v("milling_dose_rate", "W", "", i.dose_rate.half_width);
-          if (s.milling_dose > 0)
-            v("inverse_milling_dose_rate", "s/J", "",
-              i.dose_rate.half_width / static_cast<double>(rate * rate));
-          if (s.powder_mass)
-            v("specific_milling_dose_rate", "W/kg", "",
-              i.dose_rate.half_width / static_cast<double>(*s.powder_mass));
-          v("wall_work_rate", "W", "", i.wall_work_rate.half_width);
-          v.group("impact_rate", "", [&] {
-            by_partner("1/s", [&](std::size_t k) { return i.impact_rates[k].half_width; });
-            v("total", "1/s", "of all", i.impact_rate.half_width);
-          });
-          v("fast_impact_rate", "1/s", "", i.fast_impact_rate.half_width);
-          v.group("milling_dose_rate_by_partner", "", [&] {
-            by_partner("W", [&](std::size_t k) { return i.dose_rates[k].half_width; });
-            v("total", "W", "of all", i.dose_rate.half_width);
-          });
-          v("milling_dose_rate_of_batches", "W", "in the order of time", i.dose_rate.means);
-          if (!i.several_states.empty())
-            v("several_states", "",
-              "why other seeds may settle in another state; absent where nothing shows it", i.several_states);
-        });
+    v.group("intervals",
+            "half-widths of 95 % intervals under the names of the rates; none for a run of fewer than five "
+            "drive periods ([theory.md](theory.md), section 8)",
+            [&] {
+              v("batches", "1", "number of batches of the statistics", i.batches);
+              v("batch_length", "s", "length of a batch", i.batch_length);
+              if (!i.any()) return;
+              const Real rate = s.milling_dose / s.duration();
+              v("milling_dose_rate", "W", "", i.dose_rate.half_width);
+              if (s.milling_dose > 0)
+                v("inverse_milling_dose_rate", "s/J", "",
+                  i.dose_rate.half_width / static_cast<double>(rate * rate));
+              if (s.powder_mass)
+                v("specific_milling_dose_rate", "W/kg", "",
+                  i.dose_rate.half_width / static_cast<double>(*s.powder_mass));
+              v("wall_work_rate", "W", "", i.wall_work_rate.half_width);
+              v.group("impact_rate", "", [&] {
+                by_partner("1/s", [&](std::size_t k) { return i.impact_rates[k].half_width; });
+                v("total", "1/s", "of all", i.impact_rate.half_width);
+              });
+              v("fast_impact_rate", "1/s", "", i.fast_impact_rate.half_width);
+              v.group("milling_dose_rate_by_partner", "", [&] {
+                by_partner("W", [&](std::size_t k) { return i.dose_rates[k].half_width; });
+                v("total", "W", "of all", i.dose_rate.half_width);
+              });
+              v("milling_dose_rate_of_batches", "W", "dose rate of each batch, in the order of time",
+                i.dose_rate.means);
+              if (!i.several_states.empty())
+                v("several_states", "",
+                  "why other seeds may settle in another state; absent if there is no sign of it",
+                  i.several_states);
+            });
     v.group("warnings",
-            "by kind, why numbers are not to be trusted: `too_few_collisions`, `too_short`, `transient`, "
+            "by kind, why the numbers may not be reliable: `too_few_collisions`, `too_short`, `transient`, "
             "`several_states`, `wide_interval`, `precision`, `supplied_energy`, `by_rule`, `stall_share`, "
             "`energy`, `end_reason`",
             [&] {
@@ -149,58 +155,58 @@ struct FieldList {
             });
 
     if (s.target)
-      v.group("target", "if the case has `powder.target_dose`", [&] {
-        v("dose", "J/kg", "wanted", s.target->dose);
-        v("counts", "", "what of the dose counts", s.target->counts);
+      v.group("target", "milling time to the target dose, if the case has `powder.target_dose`", [&] {
+        v("dose", "J/kg", "target dose", s.target->dose);
+        v("counts", "", "part of the dose that counts", s.target->counts);
         v("counted_dose_rate", "W", "", s.target->counted_dose_rate);
         if (s.intervals.any())
           v("counted_dose_rate_half_width", "W", "", s.intervals.counted_dose_rate.half_width);
-        v("milling_time", "s", "to the target dose; null where nothing counts", s.milling_time());
+        v("milling_time", "s", "time to the target dose; null if no dose counts", s.milling_time());
         if (const auto width = s.milling_time_half_width()) v("milling_time_half_width", "s", "", *width);
       });
     if (s.collapse)
-      v.group("inelastic_collapse", "if the run ended in it", [&] {
-        v("ball", "", "number", s.collapse->ball);
+      v.group("inelastic_collapse", "the inelastic collapse, if the run ended in one", [&] {
+        v("ball", "", "number of the ball", s.collapse->ball);
         v("partner_kind", "", "`wall` or `ball`", s.collapse->with_wall ? "wall" : "ball");
-        v("partner", "", "number", s.collapse->partner);
-        v("accumulation_time", "s", "at which infinitely many impacts have happened",
+        v("partner", "", "number of the partner", s.collapse->partner);
+        v("accumulation_time", "s", "time at which infinitely many impacts have happened",
           s.collapse->accumulation_time);
       });
     if (s.stall)
-      v.group("stalled", "if the run ended so: bodies that cannot separate", [&] {
-        v("time", "s", "at which the clock stood still", s.stall->time);
-        v("balls", "", "numbers", s.stall->balls);
-        v("walls", "", "numbers", s.stall->walls);
-        v("impacts", "1", "of these bodies at that time", s.stall->impacts);
+      v.group("stalled", "bodies that cannot separate, if the run ended because of them", [&] {
+        v("time", "s", "simulated time at which the run stalled", s.stall->time);
+        v("balls", "", "numbers of the balls", s.stall->balls);
+        v("walls", "", "numbers of the walls", s.stall->walls);
+        v("impacts", "1", "number of impacts of these bodies at that time", s.stall->impacts);
       });
 
     if (!s.notes.empty())
       v.group("notes",
               "numbers of further observers of every run "
-              "([extending.md](extending.md#an-observer-of-every-run)); absent without any",
+              "([extending.md](extending.md#an-observer-of-every-run)); absent if there are none",
               [&] {
                 for (const auto& [name, value] : s.notes) v(name, "", "", value);
               });
-    v.group(
-        "escalations",
-        "decisions passed to each wider scalar, and those that a rule makes (`rule`: [theory](theory.md), "
-        "section 4)",
-        [&] {
-          for (const auto& e : s.escalations)
-            v.group(e.scalar, "", [&] {
-              v("wall", "1", "contacts with walls", e.wall);
-              v("pair", "1", "contacts of balls", e.pair);
-              v("order", "1", "which of two contacts is first", e.order);
+    v.group("escalations",
+            "number of decisions passed to each wider scalar, and made by a rule (`rule`: "
+            "[theory](theory.md), section 4)",
+            [&] {
+              for (const auto& e : s.escalations)
+                v.group(e.scalar, "", [&] {
+                  v("wall", "1", "decisions about contacts with walls", e.wall);
+                  v("pair", "1", "decisions about contacts of balls", e.pair);
+                  v("order", "1", "decisions which of two contacts is first", e.order);
+                });
             });
-        });
     v("simultaneous_contacts", "1",
       "impacts that a rule put before another contact of the ball at the same time ([theory](theory.md), "
       "section 4)",
       s.simultaneous_contacts);
-    v("deepest_overlap", "m", "by rounding, over all impacts", s.deepest_overlap);
-    v("impacts_since_start", "1", "of the whole run", s.total_impacts);
-    v("cpu_seconds", "s", "of the whole run", s.cpu_seconds);
-    v("collisions_per_cpu_second", "1/s", "of the whole run", ratio(number(s.total_impacts), s.cpu_seconds));
+    v("deepest_overlap", "m", "deepest overlap of bodies, by rounding, in all impacts", s.deepest_overlap);
+    v("impacts_since_start", "1", "number of impacts of the whole run", s.total_impacts);
+    v("cpu_seconds", "s", "processor time of the whole run", s.cpu_seconds);
+    v("collisions_per_cpu_second", "1/s", "impacts per second of processor time",
+      ratio(number(s.total_impacts), s.cpu_seconds));
   }
 
   /// The amount over the time simulated; nothing when that is none.
@@ -214,10 +220,10 @@ struct FieldList {
     return whole > 0 ? Number(part / whole) : Number(0);
   }
   void visit_impacts(std::uint64_t count, const Real& dose) {
-    v("impacts", "1", "number", count);
-    v("impact_share", "1", "of all impacts", ratio(number(count), number(s.total_collisions())));
-    v("milling_dose", "J", "of these impacts", dose);
-    v("milling_dose_share", "1", "of the whole dose", ratio(dose, s.milling_dose));
+    v("impacts", "1", "number of impacts", count);
+    v("impact_share", "1", "share of all impacts", ratio(number(count), number(s.total_collisions())));
+    v("milling_dose", "J", "milling dose of these impacts", dose);
+    v("milling_dose_share", "1", "share of the whole dose", ratio(dose, s.milling_dose));
   }
   void by_dose(const QuantilesByDose& energy) {
     v("median", "J", "impacts below it dissipate half of the dose of all impacts", energy.half);
@@ -304,8 +310,9 @@ std::string stall_message(const Summary<Real>& s) {
     add("wall " + std::to_string(wall) + " (" + s.partners[wall].label + ")");
   return "the run has stalled at " + to_text<Real>(s.stall->time) + " s: " + bodies + " hit each other " +
          std::to_string(s.stall->impacts) +
-         " times while the clock stood still, and no motion separates them; give them room (fewer or smaller "
-         "balls, a piston that ends its way earlier), or let the run end before";
+         " times while the simulated time did not advance, and no motion separates them; give them room "
+         "(fewer or smaller "
+         "balls, a piston that stops earlier), or end the run before";
 }
 
 template <class Real>

@@ -39,47 +39,48 @@ struct Fields {
 
   void operator()(auto& v) const {
     v("format", "", "", "edmill comparison 1");
-    v("version", "", "of the program", version());
-    v("commit", "", "of the program", commit());
+    v("version", "", "version of the program", version());
+    v("commit", "", "commit of the program", commit());
     v("verdict", "", "`agree`, `differ`, `too_few`", name_of(c.verdict));
     v.group("a", "the first log", [&] { log(v, c.a); });
     v.group("b", "the other log, with the same fields", [&] { log(v, c.b); });
-    v("tolerance", "1", "relative, of the comparison event by event", c.options.event_tolerance());
+    v("tolerance", "1", "relative tolerance of the comparison event by event", c.options.event_tolerance());
     v.group("event_by_event", "", [&] { events(v, c.events); });
     if (v.has(c.times.count > 0))
-      v.group("statistics", "of the common time; where that suffices", [&] { statistics(v); });
+      v.group("statistics", "statistics of the common time, if it is long enough", [&] { statistics(v); });
   }
 
  private:
   static void log(auto& v, const LogScan& scan) {
     v("file", "", "", scan.file);
-    v("events", "1", "number", scan.events);
-    v("first_time", "s", "of an event", scan.first);
-    v("last_time", "s", "of an event", scan.last);
+    v("events", "1", "number of events", scan.events);
+    v("first_time", "s", "time of the first event", scan.first);
+    v("last_time", "s", "time of the last event", scan.last);
   }
   void events(auto& v, const EventComparison& e) const {
     v("agreeing", "1", "events before the first difference", e.agreeing);
     v("horizon", "s", "time of the last of them", e.agreeing > 0 ? std::optional(e.horizon) : std::nullopt);
     v("same_partners", "1", "events before the bodies differ", e.same_partners);
     if (v.has(c.events_verdict.has_value())) {
-      v("asked_for", "1", "with `--events`", c.options.events.value_or(0));
-      v("verdict", "", "with `--events`", name_of(c.events_verdict.value_or(Verdict::agree)));
+      v("asked_for", "1", "number given with `--events`", c.options.events.value_or(0));
+      v("verdict", "", "verdict if `--events` was given", name_of(c.events_verdict.value_or(Verdict::agree)));
     }
     if (v.has(e.first.has_value()))
       v.group("first_difference", "", [&] { difference(v, e.first.value_or(FirstDifference{})); });
     v.by_name("largest", "1", "relative difference of each value up to the horizon",
               values_of([&](std::size_t k) { return c.a.has[k] && c.b.has[k]; }), name_of_value,
               [&](std::size_t k) { return e.largest[k]; });
-    v("digits_lost_per_event", "1", "by a straight line through the differences", e.digits_lost_per_event);
+    v("digits_lost_per_event", "1", "slope of a straight line through the differences",
+      e.digits_lost_per_event);
   }
   static void difference(auto& v, const FirstDifference& first) {
     v("quantity", "", "`partners` or a value's name", first.quantity);
-    v("relative_difference", "1", "of that value", first.relative_difference);
+    v("relative_difference", "1", "relative difference of that value", first.relative_difference);
     v.group("a", "the event in A", [&] { event(v, first.a); });
     v.group("b", "the event in B, with the same fields", [&] { event(v, first.b); });
   }
   static void event(auto& v, const Event& e) {
-    v("line", "1", "of the log", e.line);
+    v("line", "1", "line of the log", e.line);
     v("ball", "", "", e.ball);
     v("partner_kind", "", "`wall` or `ball`", e.with_wall ? "wall" : "ball");
     v("partner", "", "", e.partner);
@@ -89,23 +90,23 @@ struct Fields {
     v("from", "s", "", c.times.from);
     v("until", "s", "", c.times.until());
     v("batch_length", "s", "", c.times.length);
-    v("batches", "1", "number", c.times.count);
+    v("batches", "1", "number of batches", c.times.count);
     v.each("quantities", "by name", c.quantities, &Quantity::name, [&](const Quantity& q) {
       v("unit", "", "", q.unit);
       v("a", "`unit`", "mean in A; null for a spectrum", q.a);
       v("a_ci95", "`unit`", "half the width of its 95 % interval", q.a_half_width);
       v("b", "`unit`", "mean in B", q.b);
       v("b_ci95", "`unit`", "half the width of its 95 % interval", q.b_half_width);
-      v("difference", "`unit`", "B - A; of a spectrum Kolmogorov's distance", q.difference);
+      v("difference", "`unit`", "B - A; for a spectrum Kolmogorov's distance", q.difference);
       const bool is_spectrum = q.difference && !q.a;
       if (v.has(!is_spectrum))
         v("difference_ci95", "`unit`", "half the width of its 95 % interval", q.half_width);
       if (v.has(is_spectrum))
-        v("limit95", "1", "of a spectrum: the distance that 5 % of permutations exceed", q.half_width);
-      v("probability", "1", "of such a difference by chance, after Holm; null when not tested",
+        v("limit95", "1", "for a spectrum: the distance that 5 % of permutations exceed", q.half_width);
+      v("probability", "1", "probability of such a difference by chance, after Holm; null if not tested",
         q.probability);
       v("verdict", "", "`agree`, `differ`, `too_few`, `not_compared`", name_of(q.verdict));
-      if (v.has(!q.reason.empty())) v("reason", "", "of `not_compared`", q.reason);
+      if (v.has(!q.reason.empty())) v("reason", "", "reason of `not_compared`", q.reason);
     });
   }
 };

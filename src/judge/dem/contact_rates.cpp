@@ -124,8 +124,8 @@ struct ComparisonFields {
     v("verdict", "", "`agree`, `differ`, `too few`", word_for(c.verdict));
     v.group("a", "the first record", [&] { rates(v, c.a); });
     v.group("b", "the other one, with the same fields", [&] { rates(v, c.b); });
-    v("difference", "1", "of the dose rates, relative to A", c.ratio - 1);
-    v("half_width", "1", "of its 95 % interval", c.half_width);
+    v("difference", "1", "difference of the dose rates, relative to A", c.ratio - 1);
+    v("half_width", "1", "half-width of its 95 % interval", c.half_width);
     if (v.has(c.within.has_value())) v("within", "1", "largest difference that agrees", c.within);
   }
 
@@ -134,11 +134,11 @@ struct ComparisonFields {
     v("log", "", "", r.log);
     v("from", "s", "", r.first);
     v("until", "s", "", r.last);
-    v("contact_time", "s", "median of single contacts with walls; 0 of impacts", r.contact_time);
-    v("single_rate", "1/s", "single contacts", r.single_rate);
-    v("grouped_dose_share", "1", "of groups and lasting contacts", r.grouped);
-    v("milling_dose_rate", "W", "by the balance of energy", r.dose_rate);
-    v("milling_dose_rate_half_width", "W", "of its 95 % interval", r.half_width);
+    v("contact_time", "s", "median duration of single contacts with walls; 0 for impacts", r.contact_time);
+    v("single_rate", "1/s", "rate of single contacts", r.single_rate);
+    v("grouped_dose_share", "1", "share of the dose in groups and lasting contacts", r.grouped);
+    v("milling_dose_rate", "W", "dose rate by the balance of energy", r.dose_rate);
+    v("milling_dose_rate_half_width", "W", "half-width of its 95 % interval", r.half_width);
   }
 };
 
@@ -150,17 +150,17 @@ struct LimitFields {
     v.each("points", "by log", limit.points, &ContactRates::log, [&](const ContactRates& p) {
       v("contact_time", "s", "", p.contact_time);
       v("milling_dose_rate", "W", "", p.dose_rate);
-      v("half_width", "W", "of its 95 % interval", p.half_width);
+      v("half_width", "W", "half-width of its 95 % interval", p.half_width);
     });
     v("limit", "W", "dose rate with contacts that take no time", limit.at_zero.dose_rate);
-    v("half_width", "W", "of its 95 % interval", limit.at_zero.half_width);
-    v("slope", "W/s", "of the line over the contact time", limit.slope);
+    v("half_width", "W", "half-width of its 95 % interval", limit.at_zero.half_width);
+    v("slope", "W/s", "slope of the dose rate over the contact time", limit.slope);
     if (!v.has(limit.to_edmill.has_value())) return;
     const auto c = limit.to_edmill.value_or(ContactComparison{});
     v("edmill", "W", "with `--edmill`: dose rate of the run", c.a.dose_rate);
-    v("edmill_half_width", "W", "of its 95 % interval", c.a.half_width);
-    v("ratio", "1", "of the limit over it", c.ratio);
-    v("ratio_half_width", "1", "of its 95 % interval", c.half_width);
+    v("edmill_half_width", "W", "half-width of its 95 % interval", c.a.half_width);
+    v("ratio", "1", "limit divided by the dose rate of the run", c.ratio);
+    v("ratio_half_width", "1", "half-width of its 95 % interval", c.half_width);
     v("verdict", "", "`agree`, `differ`, `too few`", word_for(c.verdict));
   }
 };

@@ -35,55 +35,56 @@ struct Fields {
 
   void operator()(auto& v) const {
     v("format", "", "", "edmill contact audit 2");
-    v("version", "", "of the program", version());
+    v("version", "", "version of the program", version());
     v("verdict", "", "`agrees`, `differs`, `too few`", verdicts[static_cast<std::size_t>(a.verdict)]);
     v("case", "", "", a.case_name);
     v("log", "", "", a.log_name);
-    v("contacts", "1", "number", a.facts.contacts);
-    v("frames", "1", "number", a.facts.frames);
+    v("contacts", "1", "number of contacts", a.facts.contacts);
+    v("frames", "1", "number of frames", a.facts.frames);
     v("frame_interval", "s", "", a.facts.statistics.interval);
-    v("contact_time", "s", "median time in which a ball does not fly", a.facts.statistics.contact_time);
+    v("contact_time", "s", "median time during which a ball is not in free flight",
+      a.facts.statistics.contact_time);
     v.group("classes", "by name ([dem.md](dem.md#what-can-be-imported))", [&] {
       for (std::size_t k = 0; k < contact_class_names.size(); ++k)
         v.group(contact_class_names[k], "", [&] {
-          v("contacts", "1", "number", a.counts[k]);
+          v("contacts", "1", "number of contacts", a.counts[k]);
           v("milling_dose", "J", "", a.facts.doses[k]);
         });
     });
-    v("milling_dose_rate", "W", "by the balance of energy", a.dose_rate);
-    v("milling_dose_rate_half_width", "W", "of its 95 % interval", a.dose_rate_half_width);
+    v("milling_dose_rate", "W", "dose rate by the balance of energy", a.dose_rate);
+    v("milling_dose_rate_half_width", "W", "half-width of its 95 % interval", a.dose_rate_half_width);
     v.each("values", "by name, SI", a.judged, &Judged::name, [&](const Judged& j) {
       v("found", "", "", j.found.value);
-      v("low", "", "end of the 95 % interval", j.found.low);
-      v("high", "", "end of the 95 % interval", j.found.high);
-      v("contacts", "1", "number that show it", j.found.count);
-      v("dose_share", "1", "of these contacts", j.dose_share);
-      v("expected", "", "by the case", j.expected);
-      v("allowed", "", "beyond the interval", j.allowed);
-      v("judged", "", "false where too few contacts show it, or it follows from another", j.known());
-      v("agrees", "", "true also where it was not judged", j.agrees());
-      if (v.has(!j.equation.empty())) v("equation", "", "of [theory.md](theory.md)", j.equation);
+      v("low", "", "lower end of the 95 % interval", j.found.low);
+      v("high", "", "upper end of the 95 % interval", j.found.high);
+      v("contacts", "1", "number of contacts that show it", j.found.count);
+      v("dose_share", "1", "share of these contacts in the dose", j.dose_share);
+      v("expected", "", "value of the case", j.expected);
+      v("allowed", "", "deviation allowed beyond the interval", j.allowed);
+      v("judged", "", "false if too few contacts show the value, or it follows from another", j.known());
+      v("agrees", "", "true also if it was not judged", j.agrees());
+      if (v.has(!j.equation.empty())) v("equation", "", "equation in [theory.md](theory.md)", j.equation);
     });
-    v("wall_distance", "m", "of the places where balls leave their flights from walls", a.wall_distance);
-    v("wall_resolution", "m", "of these places, by frames", a.wall_resolution);
+    v("wall_distance", "m", "distance from the walls at which balls leave their flights", a.wall_distance);
+    v("wall_resolution", "m", "resolution of this distance by frames", a.wall_resolution);
     const auto ratio_of = [](const SlipBin& s) { return fmt::format("{:.4g}", s.ratio); };
-    v.each("slips", "what a contact leaves of the slip, by slip over approach", a.slips, ratio_of,
-           [&](const SlipBin& s) {
+    v.each("slips", "fraction of the slip that remains after a contact, by ratio of slip to approach speed",
+           a.slips, ratio_of, [&](const SlipBin& s) {
              if (v.has(s.of_walls.known())) {
-               v("walls", "1", "of the slip at the touch", s.of_walls.value);
-               v("walls_half_width", "1", "of the 95 % interval", s.of_walls.half_width());
+               v("walls", "1", "fraction of the slip at first touch, at walls", s.of_walls.value);
+               v("walls_half_width", "1", "half-width of its 95 % interval", s.of_walls.half_width());
              }
              if (v.has(s.of_balls.known())) {
-               v("balls", "1", "of the slip at the touch", s.of_balls.value);
-               v("balls_half_width", "1", "of the 95 % interval", s.of_balls.half_width());
+               v("balls", "1", "fraction of the slip at first touch, between balls", s.of_balls.value);
+               v("balls_half_width", "1", "half-width of its 95 % interval", s.of_balls.half_width());
              }
            });
-    v.each("causes", "by key, numbers of the case with which the walls are where balls meet them", a.causes,
+    v.each("causes", "by key: numbers of the case with which the walls are where balls meet them", a.causes,
            &GeometryCause::key, [&](const GeometryCause& c) {
              v("value", "", "SI", c.value);
-             v("half_width", "", "of its interval", c.half_width);
-             v("expected", "", "by the case", c.expected);
-             v("left", "m", "distance from the walls with it", c.left);
+             v("half_width", "", "half-width of its interval", c.half_width);
+             v("expected", "", "value of the case", c.expected);
+             v("left", "m", "distance from the walls that remains with this number", c.left);
            });
   }
 };

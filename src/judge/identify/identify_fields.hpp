@@ -11,22 +11,23 @@ struct Fields {
   const Identification& found;
 
   void operator()(auto& v) const {
-    v.group("identified", "where violations are found, and with `--identify`", [&] { all(v); });
+    v.group("identified", "causes; present if there are violations, or with `--identify`", [&] { all(v); });
   }
 
  private:
   void all(auto& v) const {
-    v("events", "1", "that were searched", found.events);
-    v("violations", "1", "of them", found.violations);
+    v("events", "1", "number of events searched", found.events);
+    v("violations", "1", "number of violations in them", found.violations);
     if (v.has(found.too_few || found.interrupted))
-      v("ended", "", "where no cause was sought to the end: `too few impacts`, `interrupted`",
+      v("ended", "", "why the search for causes was not completed: `too few impacts`, `interrupted`",
         found.interrupted ? "interrupted" : "too few impacts");
     if (v.has(found.follows.has_value()))
-      v("follows", "1", "impacts that a run of the case reproduces, of a log without states", found.follows);
+      v("follows", "1", "number of impacts that a run of the case reproduces, for a log without states",
+        found.follows);
     v.group("tried", "the extent of the search", [&] {
-      v("numbers", "1", "of the case, and terms of the equations", found.tried.numbers);
-      v("mistakes", "1", "other than wrong numbers", found.tried.mistakes);
-      v("parts", "1", "of the log", found.tried.parts);
+      v("numbers", "1", "numbers of the case and terms of the equations", found.tried.numbers);
+      v("mistakes", "1", "mistakes other than wrong numbers", found.tried.mistakes);
+      v("parts", "1", "parts of the log", found.tried.parts);
       v("stages", "", "", fmt::format("{}", fmt::join(found.tried.stages, "; ")));
     });
     v.numbered("causes", "by rank ([audit.md](audit.md#causes))", found.causes,
@@ -35,13 +36,16 @@ struct Fields {
   }
   static void one(auto& v, const Cause& cause) {
     v("text", "", "", cause.text());
-    v("explains", "1", "violations", cause.explains);
-    if (v.has(!cause.others.empty())) v("others", "", "kinds of the violations that it leaves", cause.others);
+    v("explains", "1", "number of violations that it explains", cause.explains);
+    if (v.has(!cause.others.empty()))
+      v("others", "", "kinds of the violations that it does not explain", cause.others);
     if (v.has(cause.could_follow > 0)) {
-      v("follows", "1", "impacts that a run with it reproduces, of a log without states", cause.follows);
-      v("could_follow", "1", "impacts that rounding lets a run reproduce", cause.could_follow);
+      v("follows", "1", "number of impacts that a run with it reproduces, for a log without states",
+        cause.follows);
+      v("could_follow", "1", "number of impacts that a run can reproduce in spite of rounding",
+        cause.could_follow);
     }
-    v("gain", "1", "in Schwarz's criterion, over no cause", cause.gain);
+    v("gain", "1", "gain in Schwarz's criterion over no cause", cause.gain);
     const auto numbers = fitted(cause);
     std::vector<std::string> mistakes;
     for (std::size_t m = 0; m + numbers.size() < cause.found.size(); ++m)
@@ -52,11 +56,12 @@ struct Fields {
         [](const Found& f) { return f.what.key; },
         [&](const Found& f) {
           v("value", "", "SI", f.value);
-          v("half_width", "", "of its interval", f.half_width);
-          v("nominal", "", "by the case", f.what.value);
+          v("half_width", "", "half-width of its interval", f.half_width);
+          v("nominal", "", "value of the case", f.what.value);
           if (v.has(!f.what.in_place_of.empty()))
-            v("in_place_of", "", "of a number of another contact law: that of the case", f.what.in_place_of);
-          if (v.has(!f.what.equation.empty())) v("equation", "", "of a term", f.what.equation);
+            v("in_place_of", "", "for a number of another contact law: the law of the case",
+              f.what.in_place_of);
+          if (v.has(!f.what.equation.empty())) v("equation", "", "equation of a term", f.what.equation);
         });
     v.texts("alike", "causes that the log cannot distinguish from it, by number", cause.alike);
   }
@@ -65,10 +70,11 @@ struct Fields {
       if (v.has(value.has_value())) v(key, "s", meaning, value);
     };
     time("step", "all times are multiples of it", stepping.step);
-    time("step_by_depth", "by overlaps: contacts are seen up to a step late", stepping.step_by_depth);
-    time("first_order_step", "of an integrator of first order", stepping.first_order_step);
+    time("step_by_depth", "step by overlaps: contacts are detected up to a step late",
+         stepping.step_by_depth);
+    time("first_order_step", "step of an integrator of first order", stepping.first_order_step);
     time("jitter", "root mean square of the errors of single times", stepping.jitter);
-    if (v.has(stepping.second_order)) v("order", "1", "2 where flights show no error of first order", 2);
+    if (v.has(stepping.second_order)) v("order", "1", "2 if flights show no error of first order", 2);
     if (!v.has(stepping.soft.has_value())) return;
     const auto soft = stepping.soft.value_or(SoftContacts{});
     v.group("soft_contacts", "contacts that last", [&] {
@@ -76,8 +82,9 @@ struct Fields {
       v("low", "s", "lower quartile", soft.low);
       v("high", "s", "upper quartile", soft.high);
       v("logged_at", "", "`begin` or `end` of a contact", soft.at == LoggedAt::begin ? "begin" : "end");
-      v("contacts", "1", "that show it", soft.contacts);
-      v("exponent", "1", "of duration over approach speed: 0 of a linear spring, -1/5 of Hertz's contacts",
+      v("contacts", "1", "number of contacts that show it", soft.contacts);
+      v("exponent", "1",
+        "exponent of the duration over approach speed: 0 for a linear spring, -1/5 for Hertz's contacts",
         soft.exponent);
       v("spring", "N/m", "stiffness of a linear spring with this duration", soft.spring);
       v("modulus", "Pa", "effective modulus of Hertz's contacts with this duration", soft.modulus);

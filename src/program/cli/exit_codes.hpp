@@ -38,8 +38,8 @@ struct ExitCodeText {
 
 inline constexpr ExitCodeText exit_codes[] = {
     {"0", "done"},
-    {"1", "any other error, e.g. a full disk, also where standard output goes"},
-    {"2", "bad input: each problem is one line with file, line, key, what was found and what was expected"},
+    {"1", "any other error, e.g. a full disk, or a standard output that cannot be written"},
+    {"2", "bad input: one line for each problem, with file, line, key, what was found and what was expected"},
     {"3", "the run ended in inelastic collapse; its results are on disk"},
     {"4",
      "a decision that no scalar could make; the message reproduces it, the results so far are on disk. "
@@ -51,11 +51,12 @@ inline constexpr ExitCodeText exit_codes[] = {
      "the physics of the case. prove --check: the certificate belongs to another case"},
     {"7", "compare: too few data to decide. audit: no events, or no columns that could be checked"},
     {"8",
-     "the run has stalled: bodies that cannot separate hit each other while the clock stands still; its "
+     "the run has stalled: bodies that cannot separate hit each other while the simulated time does not "
+     "advance; its "
      "results are on disk"},
     {"129, 130, 138, 143, 152",
      "interrupted by SIGHUP, SIGINT, SIGUSR1, SIGTERM or SIGXCPU: 128 and its number; the results so far are "
-     "on disk, unless it came before the first event"}};
+     "on disk, if there has been an event"}};
 
 /// In one line; control characters are escaped.
 void print_problem(const std::string& problem);

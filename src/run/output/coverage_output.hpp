@@ -71,10 +71,10 @@ struct CoverageKeys {
 
   static void keys(auto& c, auto&& row) {
     using casefile::table_size;
-    row({"angles", "cells about the axis", table_size, "36"}, c.angles);
-    row({"heights", "cells along the axis", table_size, "24"}, c.heights);
-    row({"rings", "of equal area on round caps", table_size, "6"}, c.rings);
-    row({"parts", "along each edge of a rectangle", table_size, "12"}, c.parts);
+    row({"angles", "number of cells around the axis", table_size, "36"}, c.angles);
+    row({"heights", "number of cells along the axis", table_size, "24"}, c.heights);
+    row({"rings", "number of rings of equal area on round caps", table_size, "6"}, c.rings);
+    row({"parts", "number of cells along each edge of a rectangle", table_size, "12"}, c.parts);
   }
 
   std::size_t parts_of(model::Coordinate c) const {

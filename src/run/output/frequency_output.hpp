@@ -27,17 +27,19 @@ struct FrequencyKeys {
       else
         row(p.usually("required"), casefile::AnyValue{});  // nothing to check it against
     };
-    bound("low", "begin of the first interval", f.low);
+    bound("low", "start of the first interval", f.low);
     bound("high", "end of the last interval", f.high);
-    row({"intervals", "of equal length", casefile::Range(1, 1000000), "10"}, f.intervals);
-    row(Parameter{"label", "in the header"}.usually("the variable's name"), f.variable.label);
-    row(Parameter{"title", "of the table"}.usually("none"), f.title);
+    row({"intervals", "number of intervals, of equal length", casefile::Range(1, 1000000), "10"},
+        f.intervals);
+    row(Parameter{"label", "name of the variable in the header"}.usually("the variable's name"),
+        f.variable.label);
+    row(Parameter{"title", "title of the table"}.usually("none"), f.title);
     const auto flag = [&](const char* key, const char* meaning, bool& value) {
       row(Parameter{key, Dimension::none, meaning, casefile::Range::any, "false"}, value);
     };
-    flag("wall_details", "columns for each wall", f.wall_details);
-    flag("percentages", "shares", f.percentages);
-    flag("out_of_range", "rows below and above the range", f.out_of_range);
+    flag("wall_details", "add columns for each wall", f.wall_details);
+    flag("percentages", "add the shares in per cent", f.percentages);
+    flag("out_of_range", "add rows for values below and above the range", f.out_of_range);
   }
   static void check(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
     auto& f = output.frequency;

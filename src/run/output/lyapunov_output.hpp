@@ -19,8 +19,8 @@ struct LyapunovKeys {
 
   static void keys(auto& output, auto&& row) {
     row(casefile::Parameter{"interval", Dimension::time,
-                            "finite-time exponents: a row for the growth in each such interval, in place of "
-                            "the table of exponents",
+                            "length of an interval for finite-time exponents: a row with the growth in each "
+                            "one, in place of the table of exponents",
                             casefile::Range::positive}
             .usually("the whole record"),
         output.timer.interval);
@@ -28,7 +28,7 @@ struct LyapunovKeys {
     row(
         casefile::Parameter{
             "exponents",
-            "how many, the largest first; of N balls there are 9 N, and more than that are all of them",
+            "number of exponents, the largest first; N balls have 9 N, and a larger number means all of them",
             casefile::Range(1, 9000), "1"},
         output.template make_own<LyapunovKeys>().exponents);
   }

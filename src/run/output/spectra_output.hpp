@@ -28,13 +28,15 @@ struct SpectraKeys {
   static void keys(auto& output, auto&& row) {
     using casefile::Parameter;
     auto& k = output.template make_own<SpectraKeys>();
-    row(Parameter{"of", "dissipated energy; or `speed`; or `impact_energy`, M/2 v^2 along the normal"}
+    row(Parameter{"of",
+                  "quantity of the spectrum: the dissipated energy; or `speed`; or `impact_energy`, M/2 v^2 "
+                  "along the normal"}
             .as("name")
             .usually("`\"energy\"`"),
         k.by);
     const bool speed = k.by == BinnedBy::speed;
     const auto dimension = speed ? Dimension::speed : Dimension::energy;
-    row(Parameter{"low", dimension, "begin of the first bin", casefile::Range::any,
+    row(Parameter{"low", dimension, "start of the first bin", casefile::Range::any,
                   speed ? "1 mm/s" : "1e-9 J"}
             .as("energy or speed")
             .usually("`\"1e-9 J\"`, `\"1 mm/s\"`"),
@@ -43,7 +45,8 @@ struct SpectraKeys {
             .as("energy or speed")
             .usually("`\"1 J\"`, `\"10 m/s\"`"),
         k.high);
-    row({"bins_per_decade", "in which impacts are counted", casefile::table_size, "10"}, k.bins_per_decade);
+    row({"bins_per_decade", "number of bins per factor of ten", casefile::table_size, "10"},
+        k.bins_per_decade);
   }
   static void check(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
     const auto& k = output.own_keys<SpectraKeys>();
@@ -145,7 +148,7 @@ struct RatesAboveKeys {
   std::vector<casefile::Quantity> cutoffs;  ///< ascending [m/s]
 
   static void keys(auto& output, auto&& row) {
-    row(casefile::Parameter{"cutoffs", "a row for each"}
+    row(casefile::Parameter{"cutoffs", "approach speeds, with a row for each"}
             .as("list of speeds")
             .usually("0, 1 mm/s, 1 cm/s, 0.1 m/s, 1 m/s"),
         output.template make_own<RatesAboveKeys>().texts);

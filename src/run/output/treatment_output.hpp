@@ -18,7 +18,7 @@ struct TreatmentKeys {
     row({"share_per_impact", "fraction of the powder's volume that one impact works",
          casefile::Range(1e-12, 1)},
         t.share);
-    row({"threshold", Dimension::energy, "impacts that dissipate less work no powder",
+    row({"threshold", Dimension::energy, "lowest energy that an impact must dissipate to work powder",
          model::Range::not_negative, "0 J"},
         t.threshold);
     row({"most", "largest number of hits with a row of its own", casefile::table_size, "10"}, t.most);

@@ -15,8 +15,8 @@ struct TrendsKeys {
     using enum casefile::Statistic;
     row(casefile::interval_key("30 s"), output.timer.interval);
     row(casefile::max_rows_key("32000"), output.timer.max_rows);
-    row({"accumulated", "from the start of the record in place of the interval", casefile::Range::any,
-         "false"},
+    row({"accumulated", "statistics since the start of the record, not since the start of the interval",
+         casefile::Range::any, "false"},
         output.accumulated);
     row(casefile::columns_key, casefile::ColumnReader{{.flags = true,
                                                        .counts = true,
@@ -182,7 +182,7 @@ struct TraceKeys {
   static void keys(auto& output, auto&& row) {
     row(casefile::interval_key(nullptr).usually("each impact"), output.timer.interval);
     row(casefile::max_rows_key(), output.timer.max_rows);
-    row({"ball", "its id", casefile::Range::any, "0"}, output.template make_own<TraceKeys>().ball);
+    row({"ball", "id of the ball", casefile::Range::any, "0"}, output.template make_own<TraceKeys>().ball);
   }
   static void check(casefile::Section& s, const casefile::CaseSpec& spec, casefile::OutputSpec& output) {
     if (spec.ball_count() > 0)

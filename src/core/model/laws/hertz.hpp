@@ -9,9 +9,9 @@
 
 namespace edmill::model {
 
-inline constexpr Parameter effective_modulus{"effective_modulus", Dimension::pressure,
-                                             "E*, 1/E* = (1 - nu_i^2)/E_i + (1 - nu_j^2)/E_j",
-                                             Range::positive};
+inline constexpr Parameter effective_modulus{
+    "effective_modulus", Dimension::pressure,
+    "effective modulus E*, with 1/E* = (1 - nu_i^2)/E_i + (1 - nu_j^2)/E_j", Range::positive};
 
 /// Viscoelastic spheres: M x" + k (x^(3/2) + 3/2 A x^(1/2) x') = 0 with k = 4/3 E* R^(1/2), until the force
 /// vanishes. The restitution depends only on v* = (3/2 A)^(1/2) ((k/M)^2 v)^(1/10). Sources: Ramirez,
@@ -25,7 +25,7 @@ struct Viscoelastic : CoulombSlip<Number> {
 
   static void parameters(auto& law, auto&& visit) {
     visit(effective_modulus, law.modulus);
-    visit(Parameter{"dissipative_time", Dimension::time, "A of the dissipative force", Range::positive},
+    visit(Parameter{"dissipative_time", Dimension::time, "time A of the dissipative force", Range::positive},
           law.dissipative_time);
     CoulombSlip<Number>::parameters(law, visit);
   }

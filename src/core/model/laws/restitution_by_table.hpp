@@ -32,9 +32,9 @@ Number value_at(const LawTable<Number>& points, const Number& argument) {
 template <class Number>
 struct RestitutionBySpeed : CoulombSlip<Number> {
   static constexpr const char* name = "restitution-by-speed";
-  static constexpr Parameter table{
-      "restitution_by_speed", Dimension::none,
-      "points `[[\"0.1 m/s\", 0.9], [\"3 m/s\", 0.6]]`; straight lines between, constant beyond"};
+  static constexpr Parameter table{"restitution_by_speed", Dimension::none,
+                                   "points of approach speed and e_n, `[[\"0.1 m/s\", 0.9], [\"3 m/s\", "
+                                   "0.6]]`; linear between them, constant beyond"};
   static constexpr Parameter table_rows[] = {
       {"speed", Dimension::speed, "of the approach", Range::not_negative},
       {"restitution", Dimension::none, "e_n of a point", {0, 1}}};
@@ -63,8 +63,8 @@ struct RestitutionBySlip {
   static constexpr const char* name = "restitution-by-slip";
   static constexpr Parameter table{
       "tangential_by_slip", Dimension::none,
-      "points `[[0, -0.4], [3, 0.1]]` of the ratio of slip to approach, and e_t; "
-      "straight lines between, constant below the first, sliding beyond the last"};
+      "points of the ratio of slip speed to approach speed and e_t, `[[0, -0.4], [3, 0.1]]`; linear between "
+      "them, constant below the first, sliding beyond the last"};
   static constexpr Parameter table_rows[] = {
       {"slip", Dimension::none, "over the approach speed", Range::not_negative},
       {"restitution", Dimension::none, "e_t of a point", {-1, 1}}};
@@ -75,7 +75,7 @@ struct RestitutionBySlip {
   LawTable<Number> points;  ///< |g_t| / |g_n|, rising, and e_t
 
   static void parameters(auto& law, auto&& visit) {
-    visit(Parameter{"restitution", "e_n", {0, 1}}, law.normal);
+    visit(Parameter{"restitution", "coefficient of restitution along the normal, e_n", {0, 1}}, law.normal);
     for (auto& point : law.points)
       for (std::size_t k = 0; k < 2; ++k) visit(table_rows[k], point[k]);
   }
@@ -110,8 +110,8 @@ struct PowderLoad : CoulombSlip<Number> {
   Number charge_ratio{5};  ///< mass of the balls over that of the powder
 
   static void parameters(auto& law, auto&& visit) {
-    visit(Parameter{"charge_ratio", "mass of the balls over that of the powder", Range(2.5, 10), nullptr,
-                    "that of the case"},
+    visit(Parameter{"charge_ratio", "mass of the balls divided by that of the powder", Range(2.5, 10),
+                    nullptr, "that of the case"},
           law.charge_ratio);
     CoulombSlip<Number>::parameters(law, visit);
   }

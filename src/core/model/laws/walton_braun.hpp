@@ -14,8 +14,9 @@ struct ConstantRestitution {
   Number tangential{1};  ///< e_t
 
   static void parameters(auto& law, auto&& visit) {
-    visit(Parameter{"restitution", "e_n", {0, 1}}, law.normal);
-    visit(Parameter{"restitution_tangential", "e_t", {-1, 1}}, law.tangential);
+    visit(Parameter{"restitution", "coefficient of restitution along the normal, e_n", {0, 1}}, law.normal);
+    visit(Parameter{"restitution_tangential", "tangential coefficient of restitution, e_t", {-1, 1}},
+          law.tangential);
   }
 
   const Number& restitution(const Number&) const { return normal; }
@@ -31,8 +32,9 @@ struct CoulombSlip {
   Number min_tangential{-1};  ///< beta, the lowest e_t
 
   static void parameters(auto& slip, auto&& visit) {
-    visit(Parameter{"friction", "mu", {0, 1000000}}, slip.friction);
-    visit(Parameter{"min_tangential", "least e_t", {-1, 1}, "-1"}, slip.min_tangential);
+    visit(Parameter{"friction", "coefficient of friction, mu", {0, 1000000}}, slip.friction);
+    visit(Parameter{"min_tangential", "smallest tangential coefficient of restitution, e_t", {-1, 1}, "-1"},
+          slip.min_tangential);
   }
 
   Number restitution_of_slip(const Number& normal_change, const Number& slip_speed,
@@ -55,7 +57,7 @@ struct WaltonBraun {
   Number min_tangential{-1};  ///< lowest e_t
 
   static void parameters(auto& law, auto&& visit) {
-    visit(Parameter{"restitution", "e_n", {0, 1}}, law.normal);
+    visit(Parameter{"restitution", "coefficient of restitution along the normal, e_n", {0, 1}}, law.normal);
     CoulombSlip<Number>::parameters(law, visit);
   }
 

@@ -46,12 +46,14 @@ struct Planetary {
   Number radius, period, ratio;
 
   static void parameters(auto& part, auto&& visit) {
-    visit(Parameter{"radius", Dimension::length, "of the disc, to the centre of the jar", Range::positive},
+    visit(Parameter{"radius", Dimension::length,
+                    "distance from the axis of the disc to the centre of the jar", Range::positive},
           part.radius);
-    visit(Parameter{"speed", Dimension::angular_speed, "of the disc, about Y", Range::drive}, part.period);
+    visit(Parameter{"speed", Dimension::angular_speed, "speed of the disc, about Y", Range::drive},
+          part.period);
     visit(Parameter{"ratio",
-                    "speed of the jar as seen from the disc, over that of the disc: negative where the jar "
-                    "turns the other way, -1 where it keeps its direction in space"},
+                    "speed of the jar relative to the disc, divided by that of the disc: negative if the jar "
+                    "turns the other way, -1 if it keeps its orientation in space"},
           part.ratio);
   }
   Joints<Number> joints() const {
@@ -71,8 +73,8 @@ struct Drum {
   Number period;
 
   static void parameters(auto& part, auto&& visit) {
-    visit(Parameter{"speed", Dimension::angular_speed, "of the drum, about its y axis, horizontal along Z",
-                    Range::drive},
+    visit(Parameter{"speed", Dimension::angular_speed,
+                    "speed of the drum about its y axis, which is horizontal along Z", Range::drive},
           part.period);
   }
   Joints<Number> joints() const {
@@ -92,10 +94,13 @@ struct Vibratory {
   Number period;
 
   static void parameters(auto& part, auto&& visit) {
-    visit(Parameter{"amplitude", Dimension::length, "A of the centre's position, A sin(w t) + B cos(w t)"},
+    visit(Parameter{"amplitude", Dimension::length,
+                    "amplitude A in the position of the centre, A sin(w t) + B cos(w t)"},
           part.amplitude);
-    visit(Parameter{"amplitude_quarter", Dimension::length, "B of it", Range::any, "0 m"}, part.quarter);
-    visit(Parameter{"speed", Dimension::angular_speed, "of the drive", Range::drive}, part.period);
+    visit(Parameter{"amplitude_quarter", Dimension::length, "amplitude B in the position of the centre",
+                    Range::any, "0 m"},
+          part.quarter);
+    visit(Parameter{"speed", Dimension::angular_speed, "speed of the drive", Range::drive}, part.period);
   }
   Joints<Number> joints() const {
     Joints<Number> chain{{}, period};
@@ -128,7 +133,8 @@ Joints<Number> spex_joints(const Number& arm, const Number& theta_max, const Num
 
 namespace detail {
 
-inline constexpr Parameter spex_arm{"arm", Dimension::length, "from the fulcrum to the centre of the vessel",
+inline constexpr Parameter spex_arm{"arm", Dimension::length,
+                                    "distance from the fulcrum to the centre of the vessel",
                                     Range::not_negative, "100 mm"};
 inline constexpr Parameter spex_theta{"theta_max", Dimension::angle,
                                       "amplitude of the swing of the arm, thesis (2.9)", Range::quarter_turn,
@@ -136,7 +142,7 @@ inline constexpr Parameter spex_theta{"theta_max", Dimension::angle,
 inline constexpr Parameter spex_gamma{"gamma_max", Dimension::angle,
                                       "amplitude of the rotation about the arm, thesis (2.9)",
                                       Range::quarter_turn, "15 deg"};
-inline constexpr Parameter spex_speed{"speed", Dimension::angular_speed, "of the drive", Range::drive,
+inline constexpr Parameter spex_speed{"speed", Dimension::angular_speed, "speed of the drive", Range::drive,
                                       "1098 rpm"};
 inline constexpr Parameter no_angle{nullptr, Dimension::angle, "", Range::any, "0 rad"};
 
@@ -177,13 +183,13 @@ struct Spex2d : detail::SpexSizes<Number> {
 template <class Number>
 struct StillMill : detail::SpexSizes<Number> {
   static constexpr const char* name = "still";
-  static constexpr Parameter keys[] = {
-      {"arm", Dimension::length,
-       "from the fulcrum to the centre of the vessel, whose x is the laboratory's Y, its y -X",
-       Range::not_negative, "0 m"},
-      detail::no_angle,
-      detail::no_angle,
-      {nullptr, Dimension::time, "", Range::positive, "0.0625 s"}};
+  static constexpr Parameter keys[] = {{"arm", Dimension::length,
+                                        "distance from the fulcrum to the centre of the vessel, whose x axis "
+                                        "is the laboratory's Y and whose y axis is -X",
+                                        Range::not_negative, "0 m"},
+                                       detail::no_angle,
+                                       detail::no_angle,
+                                       {nullptr, Dimension::time, "", Range::positive, "0.0625 s"}};
 };
 
 }  // namespace edmill::model

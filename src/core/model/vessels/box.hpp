@@ -96,7 +96,7 @@ struct Box {
   std::array<Number, 3> size;
 
   static void parameters(auto& part, auto&& visit) {
-    visit(Parameter{"size", Dimension::length, "edges along x, y, z", Range::positive}, part.size);
+    visit(Parameter{"size", Dimension::length, "inner sizes along x, y, z", Range::positive}, part.size);
   }
   BoxVessel<Number> vessel() const { return {{size[0] / 2, size[1] / 2, size[2] / 2}}; }
 };

@@ -125,8 +125,8 @@ struct Cylinder {
   Number diameter, height;
 
   static void parameters(auto& part, auto&& visit) {
-    visit(Parameter{"diameter", Dimension::length, "inside", Range::positive}, part.diameter);
-    visit(Parameter{"height", Dimension::length, "inside", Range::positive}, part.height);
+    visit(Parameter{"diameter", Dimension::length, "inner diameter", Range::positive}, part.diameter);
+    visit(Parameter{"height", Dimension::length, "inner height", Range::positive}, part.height);
   }
   CylinderVessel<Number> vessel() const { return {diameter / 2, height / 2}; }
 };

@@ -338,8 +338,9 @@ struct Capsule {
   Number diameter, height;
 
   static void parameters(auto& part, auto&& visit) {
-    visit(Parameter{"diameter", Dimension::length, "inside", Range::positive}, part.diameter);
-    visit(Parameter{"height", Dimension::length, "over all", Range::positive}, part.height);
+    visit(Parameter{"diameter", Dimension::length, "inner diameter", Range::positive}, part.diameter);
+    visit(Parameter{"height", Dimension::length, "inner height including the round ends", Range::positive},
+          part.height);
   }
   RoundedVessel<Number> vessel() const {
     return {Number(0), Number((height - diameter) / 2), Number(diameter / 2)};
@@ -353,9 +354,9 @@ struct RoundedCylinder {
   Number diameter, height, edge;
 
   static void parameters(auto& part, auto&& visit) {
-    visit(Parameter{"diameter", Dimension::length, "inside", Range::positive}, part.diameter);
-    visit(Parameter{"height", Dimension::length, "inside", Range::positive}, part.height);
-    visit(Parameter{"edge_radius", Dimension::length, "of the edges of the caps", Range::positive},
+    visit(Parameter{"diameter", Dimension::length, "inner diameter", Range::positive}, part.diameter);
+    visit(Parameter{"height", Dimension::length, "inner height", Range::positive}, part.height);
+    visit(Parameter{"edge_radius", Dimension::length, "radius of the edges of the caps", Range::positive},
           part.edge);
   }
   RoundedVessel<Number> vessel() const {

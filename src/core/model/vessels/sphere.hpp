@@ -88,7 +88,7 @@ struct Sphere {
   Number diameter;
 
   static void parameters(auto& part, auto&& visit) {
-    visit(Parameter{"diameter", Dimension::length, "inside", Range::positive}, part.diameter);
+    visit(Parameter{"diameter", Dimension::length, "inner diameter", Range::positive}, part.diameter);
   }
   SphereVessel<Number> vessel() const { return {diameter / 2}; }
 };

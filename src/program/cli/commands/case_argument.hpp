@@ -22,7 +22,7 @@ struct CaseArgument {
 
   void add_to(CLI::App& command, const std::string& name = "case") {
     command.add_option(name, file, "case file (TOML)")->required();
-    command.add_option("--set", overrides, "section.key=value, overrides the case file; can be repeated")
+    command.add_option("--set", overrides, "section.key=value that overrides the case file; can be repeated")
         ->take_all()
         ->expected(1);
   }

@@ -19,7 +19,7 @@ struct Machines {
       "list the mills that edmill new knows, with the sources of their numbers";
 
   void add_options(CLI::App& command) {
-    command.add_flag("--markdown", markdown_, "as a page of the manual");
+    command.add_flag("--markdown", markdown_, "print Markdown, for the manual");
   }
   int run() {
     io::print("{}", markdown_ ? machines::markdown() : machines::table());
@@ -32,36 +32,40 @@ struct Machines {
 
 struct New {
   static constexpr const char* name = "new";
-  static constexpr const char* what = "write a case with comments: a mill, balls, powder";
+  static constexpr const char* what = "write a commented case file for a mill, its balls and its powder";
 
   void add_options(CLI::App& command) {
-    command.add_option("--mill", wanted_.machine,
-                       "one of edmill machines, \"pm100\" or \"Retsch PM 100\" (default: spex8000)");
     command.add_option(
-        "--jar", wanted_.jar,
-        "volume of the jar, \"250ml\", or its inner diameter and height, \"75x57mm\" (default: "
-        "the mill's usual one)");
+        "--mill", wanted_.machine,
+        "mill, one of those that edmill machines lists: \"pm100\" or \"Retsch PM 100\" (default: spex8000)");
+    command.add_option("--jar", wanted_.jar,
+                       "volume of the jar, \"250ml\", or its inner diameter and height, \"75x57mm\" "
+                       "(default: the usual jar of the mill)");
     command
-        .add_option("--balls", wanted_.balls,
-                    "number and diameter, \"10x12.7mm\", and a material, \"10x12.7mm:zirconia\"; a diameter "
-                    "alone with --fill or --bpr; can be repeated (default: 10 of 10 mm of steel)")
+        .add_option(
+            "--balls", wanted_.balls,
+            "number, diameter and optional material of balls, \"10x12.7mm\" or \"10x12.7mm:zirconia\"; with "
+            "--fill or --bpr the diameter alone; can be repeated (default: \"10x10mm:steel\")")
         ->take_all()
         ->expected(1);
     command.add_option("--fill", wanted_.fill,
-                       "as many balls as fill this share of the jar with the gaps between them, \"30%\"");
+                       "share of the jar that the balls fill, including the gaps between them, \"30%\": "
+                       "determines the number of balls");
     command.add_option("--powder", wanted_.powder, "mass of the powder, \"5g\" (default: none)");
-    command.add_option(
-        "--bpr", wanted_.ratio,
-        "mass of the balls over that of the powder, 10: finds the number of balls, or the powder");
-    command.add_option("--target-dose", wanted_.target_dose, "target dose of the powder, \"10 kJ/g\"");
-    command.add_option("--speed", wanted_.speed, "speed of the drive (default: the mill's usual one)");
+    command.add_option("--bpr", wanted_.ratio,
+                       "ratio of the mass of the balls to that of the powder, 10: determines the number of "
+                       "balls, or the mass of the powder");
+    command.add_option("--target-dose", wanted_.target_dose,
+                       "target dose of the powder, \"10 kJ/g\" (default: none)");
+    command.add_option("--speed", wanted_.speed, "speed of the drive (default: the usual speed of the mill)");
     command.add_option("--restitution", wanted_.restitution,
-                       "restitution of all contacts (default: by powder and balls)");
-    command.add_option("--friction", wanted_.friction, "friction of all contacts (default: 0.4)");
+                       "coefficient of restitution of all contacts (default: chosen by powder and balls)");
+    command.add_option("--friction", wanted_.friction,
+                       "coefficient of friction of all contacts (default: 0.4)");
     command.add_option("--time", wanted_.time, "simulated time (default: \"10 s\")");
     command.add_option("--out", file_,
-                       "file of the case, written whole or not at all; standard output by default");
-    command.add_flag("--force", force_, "replace a file that has been edited");
+                       "file for the case, written completely or not at all (default: standard output)");
+    command.add_flag("--force", force_, "replace an existing file that has other contents");
   }
   int run() {
     const auto text = machines::new_case(wanted_);
@@ -85,13 +89,13 @@ struct New {
 struct Check {
   static constexpr const char* name = "check";
   static constexpr const char* what =
-      "read and check a case; print it in SI with derived numbers. Or check the format of a log";
+      "check a case and print it in SI with derived numbers, or check the format of a log";
 
   void add_options(CLI::App& command) {
     given_.add_to(command);
     command.get_option("case")->description("case file (TOML), or a log (CSV)");
-    command.add_option("--json", json_, "of a log: file for its description in JSON");
-    command.add_option("--draw", drawing_, "also draw how the vessel moves into this SVG file");
+    command.add_option("--json", json_, "file for the description of a log in JSON");
+    command.add_option("--draw", drawing_, "file for a drawing of how the vessel moves (SVG)");
   }
   int run() {
     if (app::is_log(given_.file)) return check_log();
@@ -136,7 +140,7 @@ inline std::string list_variables() {
 
 struct Variables {
   static constexpr const char* name = "variables";
-  static constexpr const char* what = "list the variables that outputs can show, as Markdown tables";
+  static constexpr const char* what = "list the variables that outputs can contain, as Markdown tables";
 
   void add_options(CLI::App&) {}
   int run() {

@@ -18,12 +18,13 @@ struct Certify : CaseCommand<app::CertifyOptions> {
 
   void add_options(CLI::App& command) {
     given_.add_to(command);
-    command.add_option("--collisions", options_.collisions, "how many events (default: all of the case)")
+    command.add_option("--collisions", options_.collisions, "number of events (default: all of the case)")
         ->check(CLI::Range(1, 10000000));
-    command.add_option("--digits", options_.digits, "digits of the values (default: 25)")
+    command.add_option("--digits", options_.digits, "number of correct digits of each value (default: 25)")
         ->check(CLI::Range(1, 100000));
-    command.add_option("--out", options_.file, "file (default: out/<case name>.reference.csv)");
-    command.add_flag("--quiet", quiet_, "no progress and no report");
+    command.add_option("--out", options_.file,
+                       "file for the events (CSV; default: out/<case name>.reference.csv)");
+    command.add_flag("--quiet", quiet_, "print no progress and no report");
   }
   int run() {
     name_file(".reference.csv");
@@ -53,10 +54,9 @@ struct Prove : CaseCommand<app::ProveOptions> {
 
   void add_options(CLI::App& command) {
     given_.add_to(command);
-    auto* check = command.add_option(
-        "--check", checked_,
-        "prove nothing, but check whether the header of this certificate is that of the case");
-    command.add_option("--collisions", options_.collisions, "how many events")
+    auto* check = command.add_option("--check", checked_,
+                                     "certificate whose header is compared with the case; nothing is proven");
+    command.add_option("--collisions", options_.collisions, "number of events to prove")
         ->check(CLI::Range(1, 10000000))
         ->excludes(check);
     command.add_option("--out", options_.file, "file for the events, each number with its radius (CSV)")
@@ -65,12 +65,12 @@ struct Prove : CaseCommand<app::ProveOptions> {
         .add_option("--certificate", options_.certificate,
                     "file for a certificate that can be checked without edmill")
         ->excludes(check);
-    command.add_option("--most-bits", options_.most_bits, "largest number of bits (default: 16384)")
+    command.add_option("--most-bits", options_.most_bits, "highest precision in bits (default: 16384)")
         ->check(CLI::Range(128, 1048576))
         ->excludes(check);
     command.add_flag("--compare", compare_, "also report how many events each precision gets right")
         ->excludes(check);
-    command.add_flag("--quiet", quiet_, "no progress and no report");
+    command.add_flag("--quiet", quiet_, "print no progress and no report");
   }
   int run() {
     return interruptible(given_.read(), options_, [this](const auto& spec, auto& options) {

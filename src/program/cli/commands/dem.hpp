@@ -46,7 +46,7 @@ struct Export : CaseCommand<decks::DeckOptions> {
   void add_options(CLI::App& command) {
     using casefile::Dimension;
     given_.add_to(command);
-    command.add_option("--to", options_.code, "DEM code")
+    command.add_option("--to", options_.code, "DEM code: lammps, liggghts or yade")
         ->required()
         ->check(CLI::IsMember(std::vector<std::string>(decks::deck_codes.begin(), decks::deck_codes.end())));
     command.add_option("--out", folder_, "folder for the deck (default: the working directory)");
@@ -55,17 +55,17 @@ struct Export : CaseCommand<decks::DeckOptions> {
     add_quantity(command, "--contact-time", options_.contact_time, Dimension::time,
                  "duration of the largest ball's contact with a wall (default: \"50 us\")");
     add_quantity(command, "--contact-speed", options_.speed, Dimension::speed,
-                 "approach speed of that contact (default: \"1 m/s\")");
+                 "approach speed at which a contact takes that time (default: \"1 m/s\")");
     add_quantity(command, "--duration", options_.duration, Dimension::time,
-                 "simulated time (default: to the end of the case)");
+                 "simulated time (default: until the end of the case)");
     add_quantity(command, "--frames", options_.frame_interval, Dimension::time,
                  "time between frames of the dump (default: a fifth of the contact time)");
-    command.add_option("--steps", options_.steps, "time steps in a contact (default: 50)")
+    command.add_option("--steps", options_.steps, "number of time steps in a contact (default: 50)")
         ->check(CLI::Range(10, 10000));
     command
         .add_option("--facets", options_.facets,
-                    "facets of a cylinder, for codes that have only triangles (default: 128 in LIGGGHTS and "
-                    "24 in YADE)")
+                    "number of facets of a cylinder, for codes that have only triangles (default: 128 in "
+                    "LIGGGHTS and 24 in YADE)")
         ->check(CLI::Range(8, 4096));
     command.add_flag("--quiet", quiet_, "print nothing");
   }
@@ -100,26 +100,33 @@ struct Import : CaseCommand<dem::ImportOptions> {
   void add_options(CLI::App& command) {
     command
         .add_option("dump", options_.dump,
-                    "frames: `dump custom` of LAMMPS (text or binary) or LIGGGHTS, or a table, also "
-                    "compressed; - for standard input")
+                    "dump with frames: `dump custom` of LAMMPS (text or binary) or LIGGGHTS, or a table; may "
+                    "be compressed; - is standard input")
         ->required();
     given_.add_to(command, "--case");
-    command.add_option("--out", options_.log, "log of contacts (CSV; default: contacts.csv)");
-    command.add_option("--deck", options_.deck, "input of the code, which gives time step, units and frame");
+    command.add_option("--out", options_.log, "file for the log of contacts (CSV; default: contacts.csv)");
+    command.add_option("--deck", options_.deck,
+                       "input file of the DEM code, from which time step, units and frame are read");
     add_quantity(command, "--timestep", options_.time_step, casefile::Dimension::time,
-                 "of a dump that has no times");
+                 "time step of a dump without times (default: that of the deck)");
     command
-        .add_option("--units", options_.units,
-                    "of the dump (mm: mm, s, kg); si unless the dump or the deck names them")
+        .add_option(
+            "--units", options_.units,
+            "units of the dump; mm means mm, s, kg (default: those that the dump or the deck names, or si)")
         ->check(CLI::IsMember({"si", "cgs", "mm", "micro", "nano"}));
     command.add_option("--axes", axes_,
-                       "of the case in those of the dump: \"x z -y\" where its y is the case's -Z");
+                       "axes X, Y and Z of the case in those of the dump: \"x z -y\" if its y is the case's "
+                       "-Z (default: \"x y z\")");
     command
-        .add_option("--shift", shift_, "place of the dump's origin in the case: \"0 mm\" \"0 mm\" \"10 mm\"")
+        .add_option(
+            "--shift", shift_,
+            "position of the dump's origin in the case: \"0 mm\" \"0 mm\" \"10 mm\" (default: the origin)")
         ->expected(3);
-    command.add_option("--frame", frame_, "frame of the dump; laboratory unless the deck names it")
+    command
+        .add_option("--frame", frame_,
+                    "frame of the dump: laboratory or vessel (default: that of the deck, or laboratory)")
         ->check(CLI::IsMember({"laboratory", "vessel"}));
-    command.add_flag("--quiet", quiet_, "no progress line and no table");
+    command.add_flag("--quiet", quiet_, "print no progress line and no table");
   }
   int run() {
     options_.in_vessel = frame_ == "vessel";
@@ -148,19 +155,22 @@ struct Import : CaseCommand<dem::ImportOptions> {
 
 struct Limit {
   static constexpr const char* name = "limit";
-  static constexpr const char* what = "extrapolate logs of contacts to contacts of no duration";
+  static constexpr const char* what =
+      "extrapolate the dose rates of logs of contacts to contacts of zero duration";
 
   void add_options(CLI::App& command) {
-    command.add_option("logs", logs_, "logs of contacts of one deck with several contact times")
+    command.add_option("logs", logs_, "logs of contacts from decks of one case with different contact times")
         ->required()
         ->expected(2, 100);
-    command.add_option("--edmill", run_, "run of edmill, or its collision log, to compare the limit with");
-    add_quantity(command, "--from", from_, casefile::Dimension::time, "time to begin at (default: all)");
+    command.add_option("--edmill", run_, "folder of a run, or its collision log, to compare the limit with");
+    add_quantity(command, "--from", from_, casefile::Dimension::time,
+                 "time at which the statistics begin (default: the start of each log)");
     command.add_option("--within", within_,
-                       "largest difference of the limit from edmill, relative: \"5%\" or 0.05");
-    command.add_option("--json", json_, "file for the result in JSON");
+                       "largest relative difference of the limit from edmill: \"5%\" or 0.05 (default: by "
+                       "their 95 % intervals)");
+    command.add_option("--json", json_, "file for the result as JSON");
     command.add_option("--draw", svg_, "file for a drawing (SVG)");
-    command.add_flag("--quiet", quiet_, "no table");
+    command.add_flag("--quiet", quiet_, "print no table");
   }
   int run() {
     std::optional<double> within;

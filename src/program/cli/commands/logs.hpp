@@ -21,8 +21,8 @@ inline int code_of(compare::Verdict verdict) {
 class Judgement {
  public:
   void add_to(CLI::App& command, const char* meaning_of_quiet) {
-    command.add_option("--json", json_, "file for the result in JSON");
-    command.add_option("--junit", junit_, "file for the result as JUnit's XML");
+    command.add_option("--json", json_, "file for the result as JSON");
+    command.add_option("--junit", junit_, "file for the result as JUnit XML");
     command.add_flag("--quiet", quiet, meaning_of_quiet);
   }
   /// Makes the files, then judges. @return the exit code
@@ -47,21 +47,25 @@ struct Compare {
 
   void add_options(CLI::App& command) {
     command.add_option("A", options_.a, "reference: folder of a run, or a collision log (CSV)")->required();
-    command.add_option("B", options_.b, "the other")->required();
+    command.add_option("B", options_.b, "log to compare with it: folder of a run, or a collision log (CSV)")
+        ->required();
     command
         .add_option("--tolerance", options_.tolerance, "relative tolerance for single events (default: 1e-9)")
         ->check(CLI::Range(0.0, 1.0));
-    command.add_option("--events", options_.events, "number of events that must agree one by one");
-    command.add_option("--from", options_.limits.from, "time in s to begin at");
-    command.add_option("--until", options_.limits.until, "time in s to end at");
-    command.add_option(
-        "--within", within_,
-        "largest difference of the dose rates of contacts that last, relative: \"5%\" or 0.05");
+    command.add_option("--events", options_.events,
+                       "number of events that must agree one by one (default: none)");
+    command.add_option("--from", options_.limits.from,
+                       "start of the statistics, in s (default: where those of both runs begin)");
+    command.add_option("--until", options_.limits.until,
+                       "end of the statistics, in s (default: the end of the shorter log)");
+    command.add_option("--within", within_,
+                       "largest relative difference of dose rates that agree, for contacts that last: \"5%\" "
+                       "or 0.05 (default: by their 95 % intervals)");
     command
         .add_option("--batch", options_.batch,
                     "length of a batch in s (default: a twentieth of the common time)")
         ->check(CLI::PositiveNumber);
-    judgement_.add_to(command, "no table");
+    judgement_.add_to(command, "print no table");
   }
   int run() {
     if (!within_.empty()) options_.within = part_of_one("--within", within_);
@@ -81,26 +85,32 @@ struct Audit {
   void add_options(CLI::App& command) {
     given_.add_to(command);
     command.add_option("log", options_.log, "collision log (CSV), or folder of a run")->required();
-    command.add_option("--column", options_.columns, "ours=theirs [unit]: name of a column; can be repeated")
+    command
+        .add_option("--column", options_.columns,
+                    "ours=theirs [unit]: edmill's name of a column, and its name in the log; can be repeated")
         ->take_all()
         ->expected(1);
     command.add_option("--first-ball", options_.first_ball, "number of the log's first ball (default: 0)")
         ->check(CLI::Range(0, 1000000000));
-    command.add_option(
-        "--walls", options_.walls,
-        "numbers of the walls by id, e.g. \"1, 2, 3\" for the caps at -y and +y and the cylinder");
+    command.add_option("--walls", options_.walls,
+                       "the log's numbers of the walls, in the order of edmill's ids: \"1, 2, 3\" for the "
+                       "caps at -y and +y and the cylinder (default: those of edmill)");
     command.add_option("--tolerance", options_.tolerance, "relative tolerance (default: 1e-9)")
         ->check(CLI::Range(1e-15, 0.5));
     command
         .add_option("--gap-tolerance", options_.gap_tolerance,
-                    "largest gap or overlap of bodies in contact, in m")
+                    "largest gap or overlap of bodies in contact, in m (default: by rounding)")
         ->check(CLI::PositiveNumber);
-    command.add_flag("--from-start", options_.from_start, "the log begins at the case's initial state");
-    command.add_flag("--identify", options_.identify,
-                     "search for causes in parts of the log, and for two and three together");
-    command.add_option("--examples", options_.examples, "examples of each kind of violation (default: 3)")
+    command.add_flag("--from-start", options_.from_start,
+                     "treat the log as one that begins at the initial state of the case");
+    command.add_flag(
+        "--identify", options_.identify,
+        "also search for causes in parts of the log, and for combinations of two and three causes");
+    command
+        .add_option("--examples", options_.examples,
+                    "number of examples of each kind of violation (default: 3)")
         ->check(CLI::Range(0, 1000));
-    judgement_.add_to(command, "no progress line and no table");
+    judgement_.add_to(command, "print no progress line and no table");
   }
   int run() {
     return interruptible(given_.read(), options_, [this](const casefile::CaseSpec& spec, auto& options) {

@@ -181,7 +181,7 @@ inline int end_of_study(const std::optional<app::StudyResult>& result, bool quie
 }
 
 inline const std::string every = "how often to save the run's state, \"10 min\" or \"2 s simulated\"";
-inline constexpr const char* quiet_run = "no progress line and no result table";
+inline constexpr const char* quiet_run = "print no progress line and no result table";
 
 struct Run : RunCommand {
   static constexpr const char* name = "run";
@@ -195,37 +195,40 @@ struct Run : RunCommand {
         },
         "");
     command.add_option("--out", folder_, "folder for the results (default: out/<case name>)");
-    command.add_option("--precision", precision_, "scalar of the run, overrides that of the case")
+    command
+        .add_option("--precision", precision_,
+                    "scalar of the run, one that edmill --version lists (default: that of the case)")
         ->check(precisions);
-    auto* shadow =
-        command
-            .add_option("--shadow", shadow_, "also run in this wider scalar and report when the two diverge")
-            ->check(precisions);
+    auto* shadow = command
+                       .add_option("--shadow", shadow_,
+                                   "also run in this wider scalar and report when the two runs diverge")
+                       ->check(precisions);
     command
         .add_option("--digits", digits_,
-                    "every event and number correct to this many digits: the precision is chosen for it, and "
-                    "verified")
+                    "number of correct digits in every event and number; edmill chooses the precision and "
+                    "verifies it")
         ->check(CLI::Range(1, 100000))
         ->excludes("--precision");
     command.add_flag("--estimate", estimate_,
-                     "estimate events, digits, time and memory of the run, and do not run");
+                     "estimate events, digits, time and memory of the run without running it");
     auto* check =
         command.add_flag("--check", check_,
-                         "also find what decides the dose rate: six more runs with another seed, half of the "
-                         "least separation speed, other restitution and friction (default with --report, of "
-                         "a run with fewer than a million impacts)");
+                         "also find out what the dose rate depends on, by six more runs with another seed, "
+                         "half of the least separation speed, and other restitution and friction (default "
+                         "with --report if the run has fewer than a million impacts)");
     auto* checkpoint =
         command.add_option("--checkpoint", checkpoint_, every + " (default: never)")->excludes(shadow);
-    auto* report = command.add_flag("--report", report_, "write report.html, and the tables that it shows");
+    auto* report =
+        command.add_flag("--report", report_, "also write report.html and the tables that it shows");
     check->excludes(checkpoint);
     command
-        .add_option("--uncertainty", uncertainty_, "of restitution and friction, for --check (default: 0.1)")
+        .add_option("--uncertainty", uncertainty_,
+                    "uncertainty of restitution and friction for --check (default: 0.1)")
         ->check(CLI::Range(0.001, 1.0));
     command
-        .add_option(
-            "--seeds", seeds_,
-            "so many runs on all cores, with the case's seed and the next ones: their answer together, and "
-            "the steady states in which they settle")
+        .add_option("--seeds", seeds_,
+                    "number of runs on all cores, with the seed of the case and the following ones: reports "
+                    "their common result and the steady states in which they settle")
         ->check(CLI::Range(2, 100000))
         ->excludes(shadow)
         ->excludes(checkpoint)
@@ -233,9 +236,10 @@ struct Run : RunCommand {
         ->excludes(check)
         ->excludes("--digits");
     command.add_flag("--quiet", quiet_, quiet_run);
-    command.add_option("--until-precision", until_precision_,
-                       "run until the 95 % interval of the dose rate is this part of it, \"1%\" or 0.01: up "
-                       "to 100 times the case's end time, or to the run.end_time of --set");
+    command.add_option(
+        "--until-precision", until_precision_,
+        "run until the 95 % interval of the dose rate is this fraction of the rate, \"1%\" or 0.01, for up "
+        "to 100 times the end time of the case, or to a run.end_time given with --set");
     command.add_option("--target-dose", target_,
                        "target dose of the powder, \"10 kJ/g\": also report the milling time");
   }
@@ -281,7 +285,7 @@ struct Run : RunCommand {
 
 struct Demo : RunCommand {
   static constexpr const char* name = "demo";
-  static constexpr const char* what = "simulate the demo, 28 balls in a SPEX 8000, with its report";
+  static constexpr const char* what = "simulate an example, 28 balls in a SPEX 8000, and write its report";
 
   void add_options(CLI::App& command) {
     command.add_option("--out", folder_, "folder for the results (default: out/demo)");
@@ -307,11 +311,14 @@ struct Resume : RunCommand {
 
 struct Report {
   static constexpr const char* name = "report";
-  static constexpr const char* what = "make the HTML page of a run from its files, or one that compares runs";
+  static constexpr const char* what =
+      "make the HTML page of a run from its files, or a page that compares several runs";
 
   void add_options(CLI::App& command) {
-    command.add_option("folder", folders_, "folder of the run; of several runs to compare them")->required();
-    command.add_option("--out", file_, "page that compares several runs (default: comparison.html)");
+    command.add_option("folder", folders_, "folder of a run, or folders of several runs to compare")
+        ->required();
+    command.add_option("--out", file_,
+                       "file for the page that compares several runs (default: comparison.html)");
     command.add_flag("--quiet", quiet_, "do not print the path of the page");
   }
   int run() {

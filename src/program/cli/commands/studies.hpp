@@ -19,24 +19,26 @@ struct Bifurcation : CaseCommand<app::BifurcationOptions> {
 
   void add_options(CLI::App& command) {
     given_.add_to(command);
-    command.add_option("--over", options_.over, "key of a parameter of the case, \"contact.restitution\"")
+    command
+        .add_option("--over", options_.over, "key of the case whose value is varied, \"contact.restitution\"")
         ->required();
     command.add_option("--from", options_.from, "first value, in the unit of the case file")->required();
-    command.add_option("--to", options_.to, "last value")->required();
-    command.add_option("--steps", options_.steps, "how many values (default: 400)")
+    command.add_option("--to", options_.to, "last value, in the unit of the case file")->required();
+    command.add_option("--steps", options_.steps, "number of values (default: 400)")
         ->check(CLI::Range(2, 100000));
     command
         .add_option("--skip", options_.skip,
-                    "impacts of ball 0 with walls before the first phase (default: 1000)")
+                    "number of impacts of ball 0 with walls before the first phase is drawn (default: 1000)")
         ->check(CLI::Range(0, 100000000));
-    command.add_option("--keep", options_.keep, "number of phases drawn after these (default: 100)")
+    command.add_option("--keep", options_.keep, "number of phases drawn for each value (default: 100)")
         ->check(CLI::Range(1, 100000));
     command.add_option("--above", above_,
-                       "slower impacts do not count, such as the hops of a ball that rests: \"2 cm/s\"");
-    command.add_option(
-        "--out", options_.file,
-        "drawing (SVG), with its points beside it (CSV; default: out/<case name>.bifurcation.svg)");
-    command.add_flag("--quiet", quiet_, "no progress and no report");
+                       "lowest approach speed of impacts that count, \"2 cm/s\", which excludes the hops of "
+                       "a ball at rest (default: all impacts)");
+    command.add_option("--out", options_.file,
+                       "file for the drawing (SVG; default: out/<case name>.bifurcation.svg); its points are "
+                       "written beside it (CSV)");
+    command.add_flag("--quiet", quiet_, "print no progress and no report");
   }
   int run() {
     if (!above_.empty()) {
@@ -69,21 +71,26 @@ struct Bifurcation : CaseCommand<app::BifurcationOptions> {
 struct Sensitivity : CaseCommand<run::SensitivityOptions> {
   static constexpr const char* name = "sensitivity";
   static constexpr const char* what =
-      "derivatives of the first events with respect to parameters of the case and the initial state";
+      "compute the derivatives of the first events with respect to parameters of the case and the initial "
+      "state";
 
   void add_options(CLI::App& command) {
     given_.add_to(command);
     command
         .add_option("--by", options_.by,
-                    "key of a parameter of the case, \"contact.restitution\", or \"initial.3.vx\", of ball 3 "
-                    "at the start; can be repeated")
+                    "key of the case, \"contact.restitution\", or a coordinate of a ball at the start, "
+                    "\"initial.3.vx\"; can be repeated")
         ->required();
-    command.add_option("--events", options_.events, "how many")->required()->check(CLI::Range(1, 1000000));
-    command.add_option("--digits", options_.digits, "digits of each derivative (default: 17)")
+    command.add_option("--events", options_.events, "number of events")
+        ->required()
+        ->check(CLI::Range(1, 1000000));
+    command.add_option("--digits", options_.digits, "number of digits of each derivative (default: 17)")
         ->check(CLI::Range(1, 1000));
-    command.add_flag("--states", options_.states, "also those of the balls' states after each impact");
-    command.add_option("--out", options_.file, "file (CSV; default: out/<case name>.sensitivity.csv)");
-    command.add_flag("--quiet", quiet_, "no progress and no report");
+    command.add_flag("--states", options_.states,
+                     "also write the derivatives of the states of the balls after each impact");
+    command.add_option("--out", options_.file,
+                       "file for the derivatives (CSV; default: out/<case name>.sensitivity.csv)");
+    command.add_flag("--quiet", quiet_, "print no progress and no report");
   }
   int run() {
     name_file(".sensitivity.csv");
@@ -108,11 +115,13 @@ struct Study {
   void add_options(CLI::App& command) {
     command.add_option("file", options_.file, "sweep or optimisation file (TOML)")->required();
     command.add_option("--out", options_.folder, "folder for the tables (default: out/<name of the file>)");
-    command.add_option("--jobs", options_.jobs, "runs at a time in each process (default: all cores)")
+    command
+        .add_option("--jobs", options_.jobs,
+                    "number of simultaneous runs in each process (default: all cores)")
         ->check(CLI::Range(1, 4096));
     command.add_flag("--estimate", options_.estimate,
-                     "only say how many runs there are and how long they will take, after short trials");
-    command.add_flag("--quiet", options_.quiet, "no progress line and no report");
+                     "only report the number of runs and how long they will take, after short trial runs");
+    command.add_flag("--quiet", options_.quiet, "print no progress line and no report");
   }
   int run() {
     return interruptible(options_, [&] { return end_of_study(work(options_), options_.quiet); });
@@ -124,11 +133,12 @@ struct Study {
 
 struct Sweep : Study<app::sweep> {
   static constexpr const char* name = "sweep";
-  static constexpr const char* what = "run a case at many points and tabulate the results";
+  static constexpr const char* what =
+      "run a case with many combinations of parameters and tabulate the results";
 };
 struct Optimize : Study<app::optimize> {
   static constexpr const char* name = "optimize";
-  static constexpr const char* what = "search for the largest dose rate within bounds";
+  static constexpr const char* what = "search for the parameters with the largest dose rate, within bounds";
 };
 
 }  // namespace edmill::cli

@@ -190,7 +190,8 @@ inline std::string reference(const CLI::App& app) {
          units() + sections() +
          "## Keys of summary.json\n\nThe result of a run; docs/files.md says how to read it.\n\n" +
          io::summary_reference() +
-         "\n## Keys of documents\n\nWhat `--json FILE` writes, SI; values that do not exist are null, and "
+         "\n## Keys of documents\n\nContents of the file that `--json FILE` names, in SI; values that do not "
+         "exist are null, and "
          "`*` is any name or number.\n\n" +
          app::document_keys();
 }
