@@ -223,7 +223,7 @@ class Session : private Observer<double> {
     if (spec.precision != "double" || spec.digits)
       throw InputError("case.toml: found " +
                        (spec.digits ? "run.digits" : "run.precision = \"" + spec.precision + "\"") +
-                       ", expected a run in double: this page has no other numbers; the command line has");
+                       ", expected a run in double: this page has no other precision, the command line has");
     if (spec.ball_count() > most_balls)
       throw InputError(std::to_string(spec.ball_count()) +
                        " balls are too many to be drawn: this page takes up to " +
@@ -284,7 +284,7 @@ std::vector<std::string> settings() {
 }
 
 Session& running() {
-  if (!session) throw InputError("found no run, expected one that has begun");
+  if (!session) throw InputError("no run has begun");
   return *session;
 }
 

@@ -526,9 +526,9 @@ class Filling {
     if (fitting == 0 && !mill_.bodies.empty())
       return problems_.push_back(
           spec_.batches.front().where +
-          ": found no room for a ball between the bodies in the vessel, expected some");
+          ": no room for a ball between the bodies in the vessel: use smaller balls, or fewer bodies");
     problems_.push_back(fmt::format(
-        "{}: found {} balls at a packing fraction of {:.3g}, expected fewer: the first {} find room",
+        "{}: found {} balls at a packing fraction of {:.3g}, expected fewer: only the first {} fit",
         spec_.batches.front().where, drawn.size(), volume_of_balls() / room(), fitting));
   }
 
@@ -731,8 +731,8 @@ void require_resolution(const CaseSpec& spec, const InitialCase<Real>& built) {
     if (diameter / 2 < least_radius)
       problems.push_back(ball.where + ": found a ball of radius " + number(diameter / 2) +
                          " m, expected at least " + number(least_radius) + " m: in this mill " +
-                         scalar_name<Real>() + " knows a position to " + number(rounding) +
-                         " m; a wider precision knows it better");
+                         scalar_name<Real>() + " resolves a position to " + number(rounding) +
+                         " m: use a wider precision");
   });
   const Real least_hop = 4 * sqrt(rounding * (acceleration + gravity));
   const auto check_least = [&](const Real& speed, const std::string& section) {

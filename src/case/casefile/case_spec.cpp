@@ -39,7 +39,7 @@ void read_run(Section& run, CaseSpec& spec) {
     stops = stops || run.has(rule.key.key);
     rules += std::string(", ") + rule.key.key;
   });
-  if (!stops) run.problem("end_time", "no stop rule", "at least one of " + rules);
+  if (!stops) run.problem("end_time", "nothing", "at least one of " + rules);
   run.reject_unknown_keys();
 }
 
@@ -64,10 +64,11 @@ void read_density(Section& s, BallSpec& ball, const CaseSpec& spec) {
     if (material.density)
       ball.density = *material.density;
     else if (!s.has("density"))
-      s.problem("density", "nothing, and material \"" + material.name + "\" has none",
-                describe(Dimension::density));
+      s.problem("density", "nothing",
+                describe(Dimension::density) + ": material \"" + material.name + "\" has none");
     if (material.density && s.has("density"))
-      s.problem("density", "a density beside that of material \"" + material.name + "\"", "one of them");
+      s.problem("density", "a density in addition to that of material \"" + material.name + "\"",
+                "one of them");
   }
 }
 
@@ -114,7 +115,7 @@ void read_wall_materials(Section& vessel, VesselTable& table, CaseSpec& spec) {
       continue;
     }
     if (!named.insert(wall).second)
-      walls.problem(key, "a second material of a wall, by its key and by its label", "one of them");
+      walls.problem(key, "two materials for a wall, one by its key and one by its label", "one of them");
     spec.wall_materials[static_cast<std::size_t>(wall)] =
         material_of(walls, key, walls.text(key).value_or(""), spec);
   }
@@ -235,8 +236,7 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
   for (const std::string study : {"sweep", "optimize"})
     if (root.contains(study))
       throw InputError(
-          fmt::format("{}: found a section [{}], expected a case file; for this one there is edmill {}", name,
-                      study, study));
+          fmt::format("{}: found a section [{}], expected a case file: use edmill {}", name, study, study));
 
   CaseSpec spec;
   spec.file = name;
@@ -273,9 +273,9 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
   for (auto& entry : file.outputs) read_output(entry, spec);
   read_all_keys(*file.audit.section, spec.audit);
   if (!top.has("ball") && !top.has("balls"))
-    top.problem("balls", "no balls", "entries [[balls]] or [[ball]]");
+    top.problem("balls", "nothing", "entries [[balls]] or [[ball]]");
   else if (document.problems.empty() && spec.ball_count() == 0)
-    file.batches.front().problem("count", "no balls", "a count above 0 in one of the entries");
+    file.batches.front().problem("count", "0 in all entries", "a count above 0 in one of them");
   top.reject_unknown_keys();
   check_times(run, spec);
   if (document.problems.empty()) require_travel(walls.pistons, spec);
@@ -286,7 +286,8 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
     if (given.is_relative() && !stream) spec.initial_state = (io::folder_of(name) / given).string();
     // It is read more than once.
     if (!io::is_readable(spec.initial_state) || (stream && !io::Spool::is_active()))
-      run.problem("initial_state", "no file '" + spec.initial_state + "'", "a final_state.csv");
+      run.problem("initial_state", "\"" + spec.initial_state + "\", which cannot be read",
+                  "a final_state.csv");
   }
   if (!document.problems.empty()) throw InputError(document.problems_by_line());
   if (spec.initial_state.empty() || !finished) spec.digest = sha256(canonical_text(spec));
@@ -369,7 +370,8 @@ std::vector<std::string> problems_of(const CaseSpec& spec) {
   for (const auto& pair : spec.pairs) check(contact, pair.law, spec);
   for (const auto& body : spec.bodies)
     for (const auto& half : body.core())
-      top.require(!half.negative() && !body.rounding.negative(), "body", "sizes not below the roundings");
+      top.require(!half.negative() && !body.rounding.negative(), "body",
+                  "sizes of at least twice the rounding");
   check_times(top.section("run"), spec);
   std::vector<Section> pistons(spec.pistons.size(), vessel);
   if (document.problems.empty()) require_travel(pistons, spec);
@@ -402,9 +404,9 @@ WrittenNumber value_of_key(const CaseSpec& spec, const std::string& key) {
   const auto unit = text.find_first_not_of(' ', end);
   if (unit != std::string::npos) found.unit = text.substr(unit);
   if (!parse_decimal(found.number))
-    throw InputError(spec.file + ": key '" + key + "': found " +
-                     (text.empty() ? "nothing" : "\"" + text + "\"") +
-                     ", expected a number that the case file or a setting gives");
+    throw InputError(spec.file + ": key '" + key +
+                     "': " + (text.empty() ? "missing" : "found \"" + text + "\"") +
+                     ", expected a number in the case file or in --set");
   return found;
 }
 

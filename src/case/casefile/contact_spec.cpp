@@ -15,8 +15,8 @@ void read_law(Section& s, LawTable& given) {
   if (s.has("restitution") && s.has("restitution_normal"))
     s.problem("restitution_normal", "both 'restitution' and 'restitution_normal'", "one of them");
   if (s.has("collapse_time"))
-    s.problem("collapse_time", "a key that is no longer known",
-              "'least_separation', the least speed at which bodies leave an impact");
+    s.problem("collapse_time", "a key that no longer exists",
+              "'least_separation', the lowest speed at which bodies separate after an impact");
 }
 
 /// Mass of the balls over that of the powder, where the case has powder.
@@ -39,7 +39,7 @@ void require_diameters(Section& s, const CaseSpec& spec) {
     const auto &diameter = rational(ball.diameter), &spread = rational(ball.diameter_spread);
     if (diameter - spread < least || diameter + spread > largest)
       s.problem("model", fmt::format("\"{}\" with balls of {:g} m", Law::name, ball.diameter.to<double>()),
-                "balls of 2.36 mm to 9.52 mm, which its table is for");
+                "balls of 2.36 mm to 9.52 mm, the range of its table");
   });
 }
 
@@ -125,13 +125,14 @@ void require_all_pairs(Section& contact, const CaseSpec& spec) {
   std::vector<int> of_balls;
   spec.for_each_ball([&](const BallSpec& ball) { of_balls.push_back(ball.material); });
   const auto name = [&](int material) {
-    return material == 0 ? "what has no material" : "\"" + spec.materials[material - 1].name + "\"";
+    return material == 0 ? "bodies without a material" : "\"" + spec.materials[material - 1].name + "\"";
   };
   const auto require = [&](int one, int other) {
     for (const auto& pair : spec.pairs)
       if (pair.is_of(one, other)) return;
-    contact.problem("pair", "no law between " + name(one) + " and " + name(other),
-                    "an entry [[contact.pair]] for it, or a law in [contact]");
+    contact.problem(
+        "pair", "nothing",
+        "an entry [[contact.pair]] for " + name(one) + " and " + name(other) + ", or a law in [contact]");
   };
   for (const int ball : of_balls) {
     for (const int other : of_balls) require(ball, other);

@@ -12,8 +12,8 @@ namespace edmill::casefile {
 class OutOfMemory : public std::bad_alloc {
  public:
   explicit OutOfMemory(const CaseSpec& spec)
-      : text_(spec.file + ": found too little memory for " + std::to_string(spec.ball_count()) +
-              " balls, expected more memory or a case of fewer balls") {}
+      : text_(spec.file + ": not enough memory for " + std::to_string(spec.ball_count()) +
+              " balls: use fewer balls, or a computer with more memory") {}
   const char* what() const noexcept override { return text_.c_str(); }
 
  private:

@@ -37,7 +37,7 @@ void check_common(Section& s, const CaseSpec& spec, const OutputSpec& output) {
   s.require(!output.append || !output.hdf5(), "append", "false for HDF5");
   for (const auto& other : spec.outputs)
     s.require(place(other) != place(output) || (other.append && output.append), "file",
-              "a file name that no other output has, unless both append");
+              "a file name that no other output has, or append = true for both");
 }
 
 /// Index in ball_variables of the variable that a key names; nothing for an unknown name, which is reported.

@@ -102,9 +102,9 @@ Joint<Quantity> joint_of(Section& section, JointTable& table, bool copied) {
   if (!named && section.has("distance"))
     section.problem(
         "distance",
-        shift ? "a shift with all three lengths given" : "a distance along an axis of three numbers",
-        shift ? "translate = \"x\", \"y\" or \"z\" with it"
-              : "a joint of its own for it, translate = [..] with three lengths");
+        shift ? "a distance in addition to three lengths" : "a distance along an axis of three numbers",
+        shift ? "translate = \"x\", \"y\" or \"z\", or no distance"
+              : "a separate joint for it, translate = [..] with three lengths");
   if (shift) {
     joint.shift = *shift;
     return joint;
@@ -171,8 +171,8 @@ std::vector<Joint<Quantity>> read_joints(Entries<JointTable>& entries, bool copi
   for (Section& entry : entries) {
     const bool rotates = entry.has("rotate");
     if (rotates == entry.has("translate")) {
-      entry.problem("rotate", rotates ? "rotate and translate" : "neither rotate nor translate",
-                    "one of them");
+      entry.problem("rotate", rotates ? "both 'rotate' and 'translate'" : "nothing",
+                    rotates ? "one of them" : "'rotate' or 'translate'");
       continue;
     }
     JointTable table;
@@ -276,7 +276,8 @@ std::vector<Face<Quantity>> read_vertices(Section& vessel, Entries<VertexTable>&
   }
   const Hull hull(vertices);
   if (const auto inner = hull.inner_vertex()) {
-    vessel.problem("vertex", "a vertex " + std::to_string(*inner) + " that is no corner of the hull of all",
+    vessel.problem("vertex",
+                   "a vertex " + std::to_string(*inner) + " that is not a corner of the convex hull",
                    "the corners of a convex vessel");
     return {};
   }
@@ -288,7 +289,7 @@ model::Polyhedron<Quantity> read_polyhedron(Section& vessel) {
   read_keys(vessel, table);
   const std::string key = vessel.has("vertex") ? "vertex" : "plane";
   if (vessel.has("vertex") == vessel.has("plane")) {
-    vessel.problem("plane", vessel.has("plane") ? "planes and vertices" : "neither planes nor vertices",
+    vessel.problem("plane", vessel.has("plane") ? "both planes and vertices" : "nothing",
                    "[[vessel.plane]] or [[vessel.vertex]]");
     return {};
   }
@@ -380,7 +381,7 @@ void require_room(Section& entry, const PolyhedronVessel& polyhedron, const std:
     if (plane.distance < diameter / 2)
       return entry.problem(
           "wall", fmt::format("pistons or walls that come as near as {:g} m to the origin", plane.distance),
-          fmt::format("room for a ball of {:g} m there all the time", diameter));
+          fmt::format("room for a ball of {:g} m there at all times", diameter));
 }
 
 }  // namespace
@@ -434,7 +435,7 @@ Joints<Quantity> with_phases(Joints<Quantity> joints) {
 void require_end(Section& mill) {
   for (Section& entry : mill.sections("joint"))
     if (entry.has("translate") && entry.has("speed"))
-      entry.problem("speed", "a translation that goes on and on", "a run.end_time");
+      entry.problem("speed", "a translation without end", "a run.end_time");
 }
 
 std::string equation_of(const Joints<Quantity>& joints) {
@@ -515,7 +516,7 @@ void require_travel(std::vector<Section>& entries, const CaseSpec& spec) {
   for (std::size_t k = 0; k < spec.pistons.size(); ++k) {
     const auto& piston = spec.pistons[k];
     if (!piston.speed.zero() && !spec.end_time) {
-      entries[k].problem("speed", "a piston that moves on and on", "a run.end_time");
+      entries[k].problem("speed", "a piston that moves without end", "a run.end_time");
       continue;
     }
     const double to = spec.end_time ? spec.end_time->to<double>() : from;
@@ -523,7 +524,7 @@ void require_travel(std::vector<Section>& entries, const CaseSpec& spec) {
     const double depth = depth_of(vessel, piston.wall);
     if (own.least < -1e-14 * depth)  // beyond rounding
       entries[k].problem("wall", fmt::format("a piston that leaves the vessel by {:g} m", -own.least),
-                         "a distance from which its speed and swings do not bring it out");
+                         "a distance, speed and swings that keep it inside");
     if (const auto* polyhedron = vessel.get_if<PolyhedronVessel>()) {
       if (k == 0) require_room(entries[k], *polyhedron, spec.pistons, from, to, diameter);
       continue;
@@ -534,9 +535,10 @@ void require_travel(std::vector<Section>& entries, const CaseSpec& spec) {
       if (dot<double>(normal(piston.wall), normal(spec.pistons[other].wall)) < -0.5)
         room -= travel_of(spec.pistons[other], from, to).most;
     if (room < diameter)
-      entries[k].problem(
-          "wall", fmt::format("a piston that meets the other end: it leaves {:g} m", std::max(room, 0.0)),
-          fmt::format("room for a ball of {:g} m all the time", diameter));
+      entries[k].problem("wall",
+                         fmt::format("a piston that comes too close to the other end: it leaves {:g} m",
+                                     std::max(room, 0.0)),
+                         fmt::format("room for a ball of {:g} m at all times", diameter));
   }
 }
 
@@ -576,8 +578,8 @@ std::optional<Solid> read_shape(Section& entry, const BodyTable& table) {
     nothing = nothing && size.zero();
   }
   if (negative || nothing)
-    entry.problem("size", nothing ? "a body without any size" : "a negative length",
-                  "three lengths, one of them positive");
+    entry.problem("size", nothing ? "a body without size" : "a negative length",
+                  "three lengths, at least one of them positive");
   else
     entry.require(fits, "rounding", "at most half of each size");
   body.is_round = round && width < body.size[0];
@@ -613,7 +615,8 @@ void read_bodies(Entries<BodyTable>& entries, CaseSpec& spec) {
     const auto turning =
         std::find_if(body.joints.begin(), body.joints.end(), [](const auto& joint) { return joint.rotates; });
     if (copied && turning == body.joints.end()) {
-      entry.problem("repeat", "no joint that rotates", "one about whose axis the copies are placed");
+      entry.problem("repeat", "copies without a rotating joint",
+                    "a joint with 'rotate', about whose axis they are placed");
       return;
     }
     const int material = material_of(entry, "material", table.material, spec);

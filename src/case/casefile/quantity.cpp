@@ -275,7 +275,7 @@ QuantityResult parse_quantity(std::string_view text, Dimension dimension, SizeLi
   };
   const std::string_view body = trimmed(text);
   if (has_comma(body))
-    return problem("a comma in a number: a decimal point is expected, and no mark of thousands");
+    return problem("a comma in a number: a decimal point is expected, and no thousands separators");
   const auto length = number_length(body);
   const auto number = parse_decimal(body.substr(0, length));
   if (!number) return problem("not a finite decimal number");
@@ -288,12 +288,12 @@ QuantityResult parse_quantity(std::string_view text, Dimension dimension, SizeLi
     for (const auto& other : units())
       for (const auto& spelling : other.spellings)
         if (std::equal(spelling.begin(), spelling.end(), unit.begin(), unit.end(), is_same_letter))
-          return problem(fmt::format("unknown unit '{}': '{}' is known", given, spelling));
+          return problem(fmt::format("unknown unit '{}', did you mean '{}'?", given, spelling));
     return problem(fmt::format("unknown unit '{}'", given));
   }
   if (!known && plain == Plain::refused && dimension != Dimension::none) return problem("no unit");
   const Quantity quantity = known ? *number * known->factor : *number;
-  if (!of_physical_size(quantity, limit)) return problem("its size is beyond 1e-30 to 1e30 in SI units");
+  if (!of_physical_size(quantity, limit)) return problem("its size is outside of 1e-30 to 1e30 in SI units");
   return quantity;
 }
 

@@ -40,9 +40,8 @@ std::string hint_of(const Document& document, std::size_t line) {
   const bool comma =
       text.find('=') != std::string::npos && value != std::string::npos && has_comma(text.substr(value));
   for (const auto* quote : {"\u201c", "\u201d", "\u2018", "\u2019"})
-    if (text.find(quote) != std::string::npos)
-      return " and a typographic quotation mark, where \" is expected";
-  return comma ? " and a comma in a number, where a decimal point is expected" : "";
+    if (text.find(quote) != std::string::npos) return " with a typographic quotation mark in place of \"";
+  return comma ? " with a comma in place of a decimal point" : "";
 }
 
 /// Parses the index of an array entry, "3"; nothing if there is no such entry.
@@ -64,11 +63,11 @@ Node* child_of(Node& parent, const std::string& key) {
 
 void apply(toml::table& root, Document& document, const std::string& text) {
   const auto equals = text.find('=');
-  const auto complain = [&](const std::string& found) {
-    document.problems.push_back("--set " + text + ": found " + found + ", expected section.key=value");
+  const auto complain = [&](const std::string& problem) {
+    document.problems.push_back("--set " + text + ": " + problem + ", expected section.key=value");
   };
-  if (equals == std::string::npos) return complain("no '='");
-  if (equals == 0) return complain("no key");
+  if (equals == std::string::npos) return complain("'=' is missing");
+  if (equals == 0) return complain("the key is missing");
   const std::string value = text.substr(equals + 1);
   auto key = text.substr(0, equals);
   key.erase(key.find_last_not_of(" \t") + 1);
@@ -78,10 +77,10 @@ void apply(toml::table& root, Document& document, const std::string& text) {
   for (std::size_t k = 0; k < keys.size(); ++k) {
     if (const auto* array = parent->as_array()) {
       const auto entry = entry_of(*array, keys[k]);
-      if (!entry) return complain("no entry '" + keys[k] + "' of '" + keys[k - 1] + "'");
+      if (!entry) return complain("'" + keys[k - 1] + "' has no entry '" + keys[k] + "'");
       keys[k] = std::to_string(*entry);  // "00" is entry 0
     } else if (!parent->as_table()) {
-      return complain("'" + keys[k - 1] + "', which is no section");
+      return complain("'" + keys[k - 1] + "' is not a section");
     }
     path += (path.empty() ? "" : ".") + keys[k];
     if (k + 1 == keys.size()) break;
@@ -97,7 +96,7 @@ void apply(toml::table& root, Document& document, const std::string& text) {
   auto& read = *parsed.get("value");
   const auto& last = keys.back();
   if (parent->is_array() && child_of(*parent, last)->is_table() && !read.is_table())
-    return complain("a value for '" + path + "', which is a section");
+    return complain("'" + path + "' is a section, not a key");
   std::erase_if(document.overrides, [&](const auto& o) { return o.first.starts_with(path + "."); });
   document.overrides[path] = value;
   if (auto* table = parent->as_table())
@@ -147,7 +146,7 @@ toml::table parse_toml(const std::string& text, const std::string& kind, Documen
     return table;
   } catch (const toml::parse_error& error) {
     const auto line = error.source().begin.line;
-    throw InputError(document.name + ":" + std::to_string(line) + ": found no valid TOML (" +
+    throw InputError(document.name + ":" + std::to_string(line) + ": invalid TOML (" +
                      std::string(error.description()) + ")" + hint_of(document, line) + ", expected " + kind);
   }
 }
@@ -198,7 +197,8 @@ void Document::report(const toml::node* node, const std::string& path, const std
   for (auto dot = path.find('.'); dot != std::string::npos; dot = path.find('.', dot + 1))
     if (problem_keys.count(path.substr(0, dot))) return;
   if (!problem_keys.insert(path).second) return;
-  problems.push_back(where(node, path) + ": key '" + path + "': found " + found + ", expected " + expected);
+  const auto what = found == "nothing" ? "missing" : "found " + found;
+  problems.push_back(where(node, path) + ": key '" + path + "': " + what + ", expected " + expected);
 }
 
 std::vector<std::string> Document::problems_by_line() const {
@@ -381,7 +381,7 @@ std::optional<std::string> Section::setting_of(const toml::node& node, const std
   if (node.is_string() || node.is_number() || node.is_boolean() || (array && in_one_line && !of_tables))
     return document_->raw(node, path);
   if (of_tables) return list_of(*array, path);
-  return refuse(node, path, kind_of(node), "a value of this key");
+  return refuse(node, path, kind_of(node), "a value for this key");
 }
 
 /// An array of tables in one line, "[{count = 2, diameter = "12.7 mm"}]".

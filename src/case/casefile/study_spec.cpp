@@ -29,10 +29,10 @@ void check_study(Section& s, StudySpec& spec) {
     if (given.is_relative()) spec.case_file = (io::folder_of(spec.file) / given).string();
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(spec.case_file, ignored))
-      s.problem("case", "no file '" + spec.case_file + "'", "a case file");
+      s.problem("case", "\"" + spec.case_file + "\", which cannot be read", "a case file");
     else if (asks_for_digits(spec.case_file))
       s.problem("case", "run.digits in '" + spec.case_file + "'",
-                "a case with run.precision: a study makes all its runs in one");
+                "a case with run.precision: all runs of a study have one precision");
   }
   if (!spec.precision.empty()) check_precision(s, spec.precision);
 }
@@ -60,7 +60,7 @@ void check_keys(Section& s, const SweepSpec& spec) {
     for (const auto& key : set.keys()) {
       check_key(set, key);
       for (const auto& axis : spec.grid)
-        if (axis.key == key) set.problem(key, "a key of [sweep.grid]", "a key in one of the two");
+        if (axis.key == key) set.problem(key, "a key of [sweep.grid]", "the key in only one of the two");
     }
   }
 }
@@ -102,7 +102,7 @@ Spec read_study_file(const std::string& path, const std::string& section, const 
   spec.file = path;
   Section top(document, &root, "");
   if (!top.has(section) && (top.has("mill") || top.has("vessel") || top.has("ball") || top.has("balls")))
-    throw InputError(path + ": found a case file, expected " + kind + "; for a case there is edmill run");
+    throw InputError(path + ": found a case file, expected " + kind + ": use edmill run");
   if (!top.has(section)) top.problem(section, "nothing", "a section [" + section + "]");
   Section s = top.section(section);
   read_keys(s, spec);

@@ -85,7 +85,7 @@ SoftLaw soft_law(const model::ContactLaw<double>& law, const std::string& file, 
   });
   if (soft.restitution < 0.05)
     throw InputError(
-        fmt::format("{}: key 'contact.restitution': found {}, expected 0.05 or more: with less the "
+        fmt::format("{}: key 'contact.restitution': found {}, expected 0.05 or more: with a lower one the "
                     "contacts of DEM codes stick",
                     file, soft.restitution));
   soft.damping = damping_for(soft.restitution, options.steps,
@@ -99,7 +99,7 @@ void refuse_what_no_code_has(const casefile::CaseSpec& spec, const casefile::Ini
     problems.push_back(fmt::format("{}: found {}, expected {}", spec.file, found, expected));
   };
   if (!spec.pistons.empty())
-    problem("pistons", "walls that move together: no deck has walls that move apart");
+    problem("pistons", "walls that move together: decks have no walls that move relative to each other");
   if (!spec.pairs.empty()) problem("laws of pairs of materials", "one law between balls and one at walls");
   for (const auto& ball : built.the_case.balls)
     if (std::abs(ball.reduced_inertia - 0.4) > 1e-12) {
@@ -255,7 +255,7 @@ std::string region_of(const DeckCase& c, const std::string& moves) {
   if (const auto* sphere = v.get_if<model::SphereVessel<double>>())
     return fmt::format("region vessel sphere 0 0 0 {} side in units box{}\n", sphere->radius, moves);
   throw InputError(
-      fmt::format("{}: key 'vessel.type': found a vessel that is no single region of LAMMPS, expected "
+      fmt::format("{}: key 'vessel.type': found a vessel that is not a single region of LAMMPS, expected "
                   "cylinder, box or sphere",
                   c.file));
 }
@@ -269,8 +269,8 @@ struct RegionMotion {
 
 InputError no_region(const DeckCase& c, std::size_t body, const char* found, const char* expected) {
   return InputError(
-      fmt::format("{}: found {}, {}, expected {}, which a region of LAMMPS can be: LIGGGHTS and YADE have "
-                  "bodies as triangles",
+      fmt::format("{}: found {}, {}, expected {}, as LAMMPS's regions require; LIGGGHTS and YADE represent "
+                  "bodies by triangles",
                   c.file, c.mill.bodies[body].name.label, found, expected));
 }
 
@@ -301,7 +301,7 @@ RegionMotion motion_of_region(const DeckCase& c, std::size_t k) {
     } else if (axis == none) {
       shifts.push_back(joint);
     } else if (moves(joint)) {
-      throw no_region(c, k, "which slides on what turns", "one that slides before it turns");
+      throw no_region(c, k, "which slides on a joint that turns", "one that slides before it turns");
     } else {
       for (std::size_t i = 0; i < 3; ++i) place[i] += joint.shift[i];
     }
@@ -344,7 +344,7 @@ double tsuji_of(const DeckCase& c, const SoftLaw& law) {
   if (law.damping > 1.2728)
     throw InputError(
         fmt::format("{}: key 'contact.restitution': found {}, expected {:.2g} or more: LAMMPS's damping "
-                    "tsuji goes no lower",
+                    "tsuji allows no lower one",
                     c.file, law.restitution, restitution_of(1.2728, c.options.steps) + 0.005));
   return lammps_restitution(law.damping);
 }
@@ -519,8 +519,8 @@ Deck liggghts_deck(DeckCase& c) {
   const auto meshes = meshes_of(c.mill.vessel, c.options.facets);
   if (meshes.empty())
     throw InputError(
-        fmt::format("{}: key 'vessel.type': found a vessel with walls that are round in two ways, expected "
-                    "flat walls or a cylinder, which LIGGGHTS can have as triangles",
+        fmt::format("{}: key 'vessel.type': found a vessel with doubly curved walls, expected "
+                    "flat walls or a cylinder, which LIGGGHTS can represent by triangles",
                     c.file));
   Deck deck{{{}}, fmt::format("liggghts -in {}.in", c.options.name), {}};
   // During a step the commands evaluate their rates with the step number of its end. The rates of its middle
@@ -583,15 +583,14 @@ Deck yade_deck(DeckCase& c) {
   for (const auto& body : c.mill.bodies)
     if (!turns_about_a_point(c, body.motion))
       throw InputError(
-          fmt::format("{}: found {}, which has no point at rest, expected a body that turns about "
-                      "one, which YADE's engines move",
+          fmt::format("{}: found {}, which has no point at rest, expected a body that turns about one, as "
+                      "YADE's engines require",
                       c.file, body.name.label));
   if (!planes && (meshes.empty() || !turns_about_a_point(c, c.mill.motion)))
     throw InputError(fmt::format(
-        "{}: found a {}, expected a box that translates, or flat walls or a cylinder about a point at "
-        "rest, which YADE's engines move",
-        c.file,
-        meshes.empty() ? "vessel with walls that are round in two ways" : "motion along its own axis"));
+        "{}: found a {}, expected a box that translates, or flat walls or a cylinder that turn about a point "
+        "at rest, as YADE's engines require",
+        c.file, meshes.empty() ? "vessel with doubly curved walls" : "motion along its own axis"));
   std::string balls;
   for (std::size_t k = 0; k < c.balls.size(); ++k) {
     const auto& [x, v, w] = c.states[k];
@@ -656,8 +655,7 @@ Deck make_deck(const casefile::CaseSpec& spec, const DeckOptions& options) {
         in_double({casefile::joints_from_ground(body, spec), casefile::period_of(spec.mill)}));
     c.on_vessel.push_back(body.on_vessel);
   }
-  if (!(duration > 0))
-    throw InputError(spec.file + ": found no run.end_time and no --duration, expected one of them");
+  if (!(duration > 0)) throw InputError(spec.file + ": no run.end_time: set it, or give --duration");
   // A ball at an edge between two triangles of YADE touches both, so that they must be few.
   if (c.options.facets == 0) c.options.facets = options.code == "yade" ? 24 : 128;
   const long steps = std::lround(duration / time_step);

@@ -265,16 +265,15 @@ struct Charge {
     for (auto& b : batches) {
       if (b.count == 0 && (open || !finds_number))
         throw InputError("--balls: found \"" + b.diameter + "\" without a number of balls, expected \"10x" +
-                         b.diameter + "\", or how many there are by --fill, or by --powder and --bpr");
+                         b.diameter + "\", or --fill, or --powder and --bpr, which determine their number");
       if (b.count == 0) open = &b;
       add(b);
     }
     if (finds_number && !open)
-      throw InputError(
-          fmt::format("{}: found the number of balls as well, expected --balls with a diameter alone",
-                      fill > 0 ? "--fill" : "--bpr"));
+      throw InputError(fmt::format("{} determines the number of balls: give --balls with a diameter alone",
+                                   fill > 0 ? "--fill" : "--bpr"));
     if (fill > 0 && ratio > 0 && powder > 0)
-      throw InputError("--bpr: found --fill and --powder as well, expected two of the three");
+      throw InputError("--bpr cannot be combined with both --fill and --powder: give two of the three");
     if (open) {
       const double wanted_now = fill > 0 ? (fill * packing * inside.volume() - volume) / volume_of(*open)
                                          : (ratio * powder - mass) / mass_of(*open);
@@ -459,8 +458,7 @@ std::string new_case(const Wanted& wanted) {
   if (!wanted.speed.empty()) value_of("--speed", wanted.speed, Dimension::angular_speed);
   if (!wanted.target_dose.empty()) {
     value_of("--target-dose", wanted.target_dose, Dimension::specific_energy);
-    if (charge.powder <= 0)
-      throw InputError("--target-dose: found no --powder, expected the mass of the powder");
+    if (charge.powder <= 0) throw InputError("--target-dose needs the mass of the powder: give --powder");
   }
   if (!wanted.restitution.empty()) require_number("--restitution", wanted.restitution, 1);
   if (!wanted.friction.empty()) require_number("--friction", wanted.friction, 1e6);

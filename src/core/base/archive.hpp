@@ -70,14 +70,14 @@ class Archive {
   }
   /// @throws InputError when not everything was loaded
   void finish() const {
-    if (loading_ && !rest_.empty()) throw InputError("found more bytes than a saved state has");
+    if (loading_ && !rest_.empty()) throw InputError("the saved state has too many bytes");
   }
 
  private:
   template <class T>
   void one(T& value);
   void need(std::uint64_t size) const {
-    if (size > rest_.size()) throw InputError("found fewer bytes than a saved state has");
+    if (size > rest_.size()) throw InputError("the saved state ends early");
   }
 
   bool loading_;
@@ -98,7 +98,7 @@ void archive_value(Archive& a, std::vector<T, Allocator>& values) {
     for (auto& value : values) a(value);
     return;
   }
-  if (!values.empty()) throw InputError("found a saved state of another case");
+  if (!values.empty()) throw InputError("the saved state belongs to another case");
   for (std::size_t k = 0; k < size; ++k) a(values.emplace_back());
 }
 template <class T, std::size_t size>
@@ -121,7 +121,7 @@ void archive_value(Archive& a, std::variant<T...>& value) {
   std::uint64_t index = value.index();
   a(index);
   if (a.loading()) {
-    if (index >= sizeof...(T)) throw InputError("found no such kind of a saved state");
+    if (index >= sizeof...(T)) throw InputError("the saved state contains an unknown kind of value");
     [&]<std::size_t... kind>(std::index_sequence<kind...>) {
       ((index == kind ? void(value.template emplace<kind>()) : void()), ...);
     }
@@ -139,7 +139,7 @@ void Archive::one(T& value) {
   if constexpr (std::is_same_v<T, bool>) {
     std::uint8_t byte = value;
     raw(&byte, 1);
-    if (byte > 1) throw InputError("found neither true nor false in a saved state");
+    if (byte > 1) throw InputError("the saved state contains a flag that is neither true nor false");
     value = byte == 1;
   } else if constexpr (std::is_same_v<T, long> || std::is_same_v<T, unsigned long>) {
     // The size of long depends on the machine, as does that of std::size_t.

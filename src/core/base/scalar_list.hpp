@@ -49,7 +49,8 @@ inline void archive_value(Archive& a, mpfr& value) {
   std::int64_t bits = mpfr_get_prec(value.data());
   a(bits);
   if (a.loading()) {
-    if (bits < 1 || bits > 10'000'000) throw InputError("found no such number in a saved state");
+    if (bits < 1 || bits > 10'000'000)
+      throw InputError("the saved state contains a number of impossible precision");
     value.set_precision(static_cast<mpfr_prec_t>(bits));
   }
   mpfr_ptr number = value.data();

@@ -157,7 +157,7 @@ class CellGrid {
     if (!a.loading()) return;
     std::fill(content_.begin(), content_.end(), Cell());
     for (const auto& [at, cell] : occupied) {
-      if (at >= content_.size()) throw InputError("found a cell that the grid does not have");
+      if (at >= content_.size()) throw InputError("the saved state contains a cell outside of the grid");
       content_[at] = cell;
     }
   }

@@ -158,7 +158,7 @@ void Simulation<Real>::archive(Archive& a) {
   a(flights_, bodies_, agendas_, ladder_, candidates_, counts_, stall_watch_, now_, top_speed_);
   if (!a.loading()) return;
   EDMILL_REQUIRE(flights_.size() == balls && agendas_.size() == balls, "a saved state of the same case");
-  if (!is_sound()) throw InputError("found a saved state that no run of the case can have");
+  if (!is_sound()) throw InputError("the saved state is not one of a run of this case");
   ladder_.raise_top_speed(top_speed_);
   candidates_.raise_top_speed(top_speed_);
   for (int i = 0; i < ball_count(); ++i) {

@@ -87,7 +87,7 @@ std::runtime_error not_written(const fs::path& place, int error) {
 }
 
 void throw_not_written(const fs::path& place, int error) {
-  if (error == EPIPE) throw PipeClosed(place.string() + ": nobody reads the pipe any more");
+  if (error == EPIPE) throw PipeClosed(place.string() + ": the reader of the pipe has closed it");
   throw not_written(place, error);
 }
 
@@ -182,13 +182,13 @@ Destination::Destination(fs::path given, fs::path beside)
     : named(std::move(given)), place(named), through(is_device(named)) {
   std::error_code error;
   if (!through && fs::is_directory(named, error))
-    throw InputError(named.string() + ": found a folder, expected a place for a file");
+    throw InputError(named.string() + ": found a folder, expected a file");
   const auto note = [&](const fs::path& path) {
     place = path;
     return false;
   };
   if (!through && !follow(named, note))
-    throw InputError(named.string() + ": found links that lead to each other, expected a place for a file");
+    throw InputError(named.string() + ": found a circle of symbolic links, expected a file");
   beside_ = through ? fs::temp_directory_path(error) / "edmill" : beside.empty() ? place : std::move(beside);
   temporary = temporary_name(beside_);
 }
@@ -226,7 +226,7 @@ void Destination::commit() const {
 void Destination::require_file() const {
   if (through)
     throw InputError(named.string() +
-                     ": found a device or a pipe, expected a file, since a resumed run continues it");
+                     ": found a device or a pipe, expected a file: a resumed run continues it");
 }
 
 fs::path Destination::archive(Archive& a) {
@@ -248,9 +248,9 @@ void Destination::continue_with(const fs::path& left, bool is_kept) {
 }
 
 InputError Destination::another_file() const {
-  return InputError(named.string() +
-                    ": found another file than the checkpoint was made with, expected the files as the run "
-                    "left them");
+  return InputError(
+      named.string() +
+      ": the file has changed since the checkpoint was saved: restore the files as the run left them");
 }
 
 AtomicFile::AtomicFile(const fs::path& place, bool append, const fs::path& beside)
@@ -258,8 +258,7 @@ AtomicFile::AtomicFile(const fs::path& place, bool append, const fs::path& besid
   const int descriptor = destination_.through ? destination_.open_through()
                                               : open_for_writing(destination_.temporary, O_CREAT | O_TRUNC);
   if (descriptor < 0)
-    throw InputError(destination_.named.string() +
-                     ": found a file that cannot be written, expected a writable place");
+    throw InputError(destination_.named.string() + ": this file cannot be written: name another");
   buffer_.open(descriptor);
   stream_.clear();
 }

@@ -25,9 +25,8 @@ fs::path checkpoint_place(const fs::path& folder) { return folder / "checkpoint"
 
 void require_no_checkpoint(const fs::path& folder) {
   if (const auto found = checkpoint_place(folder); fs::exists(found))
-    throw InputError(found.string() +
-                     ": found the checkpoint of an unfinished run, expected none: continue with " +
-                     "`edmill resume " + folder.string() + "`, or remove it");
+    throw InputError(found.string() + ": this folder has an unfinished run: continue with `edmill resume " +
+                     folder.string() + "`, or remove this file");
 }
 
 void write_checkpoint(const fs::path& folder, Checkpoint checkpoint) {
@@ -43,16 +42,16 @@ void write_checkpoint(const fs::path& folder, Checkpoint checkpoint) {
 
 Checkpoint read_checkpoint(const fs::path& folder) {
   const auto place = checkpoint_place(folder);
-  const auto fail = [&](const std::string& found) {
-    throw InputError(place.string() + ": found " + found + ", expected a checkpoint of an unfinished run");
-  };
+  const auto fail = [&](const std::string& problem) { throw InputError(place.string() + ": " + problem); };
   std::error_code ignored;
-  if (!std::ifstream(place) || !fs::is_regular_file(place, ignored)) fail("no such file");
+  if (!std::ifstream(place) || !fs::is_regular_file(place, ignored))
+    fail("no such file: the folder has no unfinished run");
   const std::string text = content_of(place);
   const std::size_t begin = magic.size() + digest_size + 1;
-  if (text.size() < begin || text.substr(0, magic.size()) != magic) fail("something else");
+  if (text.size() < begin || text.substr(0, magic.size()) != magic)
+    fail("this file is not a checkpoint of a run");
   const std::string_view body = std::string_view(text).substr(begin);
-  if (sha256(body) + '\n' != text.substr(magic.size(), digest_size + 1)) fail("a damaged one");
+  if (sha256(body) + '\n' != text.substr(magic.size(), digest_size + 1)) fail("the checkpoint is damaged");
 
   Archive archive(body);
   std::string program, program_commit;

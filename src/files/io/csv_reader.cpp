@@ -91,10 +91,11 @@ CsvReader::CsvReader(const std::filesystem::path& file, const std::string& expec
   } while (line_.starts_with('#'));
   if (line_.starts_with("\xff\xfe") || line_.starts_with("\xfe\xff"))
     throw InputError(
-        fmt::format("{}:1: found UTF-16, expected UTF-8, as iconv -f utf-16 -t utf-8 makes it", file_));
+        fmt::format("{}:1: found UTF-16, expected UTF-8: convert it with iconv -f utf-16 -t utf-8", file_));
   if (line_.starts_with("ITEM: "))
-    throw InputError(fmt::format("{}: found frames of a DEM code, expected {}: edmill import {} makes one",
-                                 file_, expected, file_));
+    throw InputError(
+        fmt::format("{}: found frames of a DEM code, expected {}: convert them with edmill import {}", file_,
+                    expected, file_));
   separator_ = separator_of(line_);
   if (!read_row()) throw_problems();
   header_.assign(fields_.begin(), fields_.end());
@@ -105,15 +106,16 @@ std::optional<std::size_t> CsvReader::column(std::string_view name) {
   if (place == header_.end()) return std::nullopt;
   const auto again = std::find(place + 1, header_.end(), name);
   if (again != header_.end())
-    bad_line(fmt::format("column {}: found '{}' again, expected it once", again - header_.begin() + 1, name));
+    bad_line(fmt::format("column {}: found '{}' a second time, expected it once", again - header_.begin() + 1,
+                         name));
   return place - header_.begin();
 }
 
 std::optional<std::size_t> CsvReader::needed_column(std::string_view name) {
   const auto place = column(name);
   if (!place)
-    bad_line(fmt::format("found {} column '{}', expected it in the header",
-                         number_in(header_[0]) ? "numbers and no" : "no", name));
+    bad_line(
+        fmt::format("the header has {} column '{}'", number_in(header_[0]) ? "numbers, but no" : "no", name));
   return place;
 }
 
@@ -158,7 +160,7 @@ bool CsvReader::read_row() {
   constexpr std::size_t longest = 1 << 20;
   for (std::string more; !split(); ++further_lines_) {
     if (line_.size() > longest || !std::getline(in_, more)) {
-      bad_line("found a quote that is not closed, expected another one");
+      bad_line("a quotation mark is not closed");
       return false;
     }
     line_ += '\n' + more;

@@ -54,9 +54,9 @@ InputError Facts::wrong(std::string_view path, const char* expected) const {
   std::string key(path);
   std::replace(key.begin(), key.end(), '/', '.');
   const auto shown =
-      found ? std::visit([](const auto& held) { return JsonText::of(held); }, *found).substr(0, 40)
-            : "nothing";
-  return InputError(source_ + ": " + key + ": found " + shown + ", expected " + expected);
+      found ? "found " + std::visit([](const auto& held) { return JsonText::of(held); }, *found).substr(0, 40)
+            : "missing";
+  return InputError(source_ + ": " + key + ": " + shown + ", expected " + expected);
 }
 
 std::string Facts::json() const {

@@ -75,11 +75,11 @@ SavedState<Real> read_final_state(const std::string& path) {
     const Instant<Real> time{std::stoll(std::string(period)), real(12)};
     if (time.offset < 0) fail(in_quotes(csv.field(12)) + " as drive_offset", "a time of 0 or more");
     if (saved.states.empty()) saved.time = time;
-    if (!(time == saved.time)) fail("another time than in line 2", "one time for all balls");
+    if (!(time == saved.time)) fail("a time other than that of line 2", "one time for all balls");
     saved.states.push_back({vector(1), vector(4), vector(7)});
   }
   csv.throw_problems();
-  if (saved.states.empty()) fail("no balls", "a line for each ball");
+  if (saved.states.empty()) fail("a header alone", "a line for each ball");
   return saved;
 }
 

@@ -111,7 +111,7 @@ class Spooled {
     const int error = errno;
     ::close(in);
     if (count > 0 || !file || std::fflush(file.get()) != 0)
-      throw std::runtime_error(path + ": found no place for a temporary copy of it in " +
+      throw std::runtime_error(path + ": no space for a temporary copy of it in " +
                                fs::temp_directory_path().string());
     errno = error;
     return count == 0 ? std::move(file) : nullptr;
@@ -150,8 +150,7 @@ class InputFile::Buffer : public std::streambuf {
     } else if (is_readable(path)) {
       descriptor_ = open_for_reading(path);
     }
-    if (descriptor_ < 0 || !fill())
-      throw InputError(path_ + ": found no readable file, expected " + expected);
+    if (descriptor_ < 0 || !fill()) throw InputError(path_ + ": no readable file, expected " + expected);
     decoder_ = decoder_for(waiting_);
   }
   Buffer(const Buffer&) = delete;
@@ -201,11 +200,11 @@ class InputFile::Buffer : public std::streambuf {
         if (!more) return 0;
         need();
         more = !waiting_.empty();
-        if (!more && !decoder_->at_end()) throw std::runtime_error("they end early");
+        if (!more && !decoder_->at_end()) throw std::runtime_error("it ends early");
       }
     } catch (const std::runtime_error& error) {
       throw InputError(path_ + ": found damaged " + decoder_->name() + " data (" + error.what() +
-                       "), expected a whole file");
+                       "), expected a complete file");
     }
   }
 

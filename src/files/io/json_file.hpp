@@ -23,7 +23,7 @@ inline nlohmann::json read_json(const std::filesystem::path& file, const std::st
     return nlohmann::json::parse(text);
   } catch (const nlohmann::json::parse_error& error) {
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
-    throw InputError(fmt::format("{}:{}: found no valid JSON, expected {}", file.string(),
+    throw InputError(fmt::format("{}:{}: invalid JSON, expected {}", file.string(),
                                  1 + std::count(text.begin(), end, '\n'), expected));
   } catch (const nlohmann::json::exception& error) {  // a number that no double can represent
     throw InputError(fmt::format("{}: found {}, expected {}", file.string(), error.what(), expected));

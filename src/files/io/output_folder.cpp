@@ -21,14 +21,12 @@ void prepare_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error || !fs::is_directory(folder))
-    throw InputError(folder.string() + ": found no folder and cannot create it (" + error.message() +
-                     "), expected an output folder");
+    throw InputError(folder.string() + ": cannot create this output folder (" + error.message() + ")");
   for (const auto* name : {"summary.json", "final_state.csv"})
     if (fs::is_directory(folder / name, error))
-      throw InputError((folder / name).string() + ": found a folder, expected a place for a file");
+      throw InputError((folder / name).string() + ": found a folder, expected a file");
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    throw InputError(folder.string() +
-                     ": found a folder that cannot be written to, expected an output folder");
+    throw InputError(folder.string() + ": cannot write to this folder: name another");
 }
 
 namespace {
@@ -44,8 +42,7 @@ int locked(int descriptor, const fs::path& folder, FolderLock::Kind kind) {
     ::close(descriptor);
     if (!taken) return -1;
     throw InputError(folder.string() +
-                     ": found another process writing there, expected one at a time: wait for it, or name "
-                     "another folder");
+                     ": another process is writing there: wait for it, or name another folder");
   }
   return descriptor;
 }
@@ -154,9 +151,9 @@ void require_own_files(const fs::path& folder, const std::vector<std::string>& n
   const auto own = recorded(folder);
   for (const auto& name : names)
     if (!own.contains(name) && fs::exists(folder / name))
-      throw InputError(fmt::format(
-          "{}: found a file that edmill has not written, expected a folder without it: use another --out",
-          (folder / name).string()));
+      throw InputError(
+          fmt::format("{}: edmill has not written this file, and would replace it: use another --out",
+                      (folder / name).string()));
 }
 
 void remove_other_files(const fs::path& folder, const std::vector<fs::path>& files) {

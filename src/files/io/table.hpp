@@ -113,7 +113,7 @@ class Table {
     bool whole = next_ < cells_.size() || next_ == 0;
     for (std::size_t k = 0; k < cells_.size(); ++k)
       whole = whole && std::visit([](const auto& v) { return v.size(); }, cells_[k]) == rows() + (k < next_);
-    if (!whole) throw InputError("found a saved table with columns of different lengths");
+    if (!whole) throw InputError("the saved table has columns of different lengths");
   }
 
  private:

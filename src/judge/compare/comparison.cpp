@@ -36,10 +36,9 @@ BatchTimes common_times(const LogScan& a, const LogScan& b, const ComparisonOpti
   const auto& limits = options.limits;
   double from = std::max(a.first, b.first), until = std::min(a.last, b.last);
   if (from > until)
-    throw InputError(
-        fmt::format("{} covers {:g} s to {:g} s and {} covers {:g} s to {:g} s, expected logs with "
-                    "time in common",
-                    a.file, a.first, a.last, b.file, b.first, b.last));
+    throw InputError(fmt::format(
+        "{} covers {:g} s to {:g} s and {} covers {:g} s to {:g} s: the logs have no time in common", a.file,
+        a.first, a.last, b.file, b.first, b.last));
   if (limits.from)
     from = std::max(from, *limits.from);
   else
@@ -48,16 +47,16 @@ BatchTimes common_times(const LogScan& a, const LogScan& b, const ComparisonOpti
   if (limits.until) until = std::min(until, *limits.until);
   if ((limits.from || limits.until) && from > until)
     throw InputError(
-        fmt::format("--from, --until: found limits that leave nothing of {:g} s to {:g} s, which both "
-                    "logs cover",
+        fmt::format("--from, --until: these limits leave nothing of {:g} s to {:g} s, which both logs cover",
                     std::max(a.first, b.first), std::min(a.last, b.last)));
   if (!(until > from)) return {};
   const double span = until - from, length = options.batch.value_or(span / 20);
   // Rounding must not cost the last batch.
   const double count = std::floor(span / length * (1 + 1e-12));
   if (!(count >= fewest_batches && count <= most_batches))
-    throw InputError(fmt::format("--batch: found {:g} s, {:g} batches in {:g} s to {:g} s, expected {} to {}",
-                                 length, count, from, until, fewest_batches, most_batches));
+    throw InputError(
+        fmt::format("--batch: found {:g} s, {:g} batches in {:g} s to {:g} s, expected {} to {} batches",
+                    length, count, from, until, fewest_batches, most_batches));
   return {from, length, static_cast<std::size_t>(count)};
 }
 

@@ -71,11 +71,11 @@ ContactLogFacts read_facts(const std::string& file) {
         found.get_to(value);
     });
   } catch (const nlohmann::json::exception&) {
-    throw InputError(fmt::format("{}:2: found {}, expected the head that `edmill import` writes", file,
+    throw InputError(fmt::format("{}:2: found {}, expected the header that `edmill import` writes", file,
                                  io::in_quotes(line)));
   }
   if (facts.facets == 1 || facts.facets == 2)
-    throw InputError(fmt::format("{}:2: facets: found {}, expected none, or 3 or more", file, facts.facets));
+    throw InputError(fmt::format("{}:2: facets: found {}, expected 0, or 3 or more", file, facts.facets));
   return facts;
 }
 
@@ -94,7 +94,7 @@ std::string class_table(const ByClass<double>& doses, const ByClass<std::uint64_
 
 ContactLogWriter::ContactLogWriter() : rows_(std::tmpfile(), std::fclose) {
   if (!rows_)
-    throw InputError("found no room for a temporary file, expected a folder for them that can be written");
+    throw InputError("a temporary file could not be created: make room in the folder for temporary files");
 }
 
 void ContactLogWriter::add(const Contact& c) {

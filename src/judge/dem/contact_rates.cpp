@@ -27,7 +27,7 @@ ContactRates rates_of(const std::string& log, const char* what, double first, do
                       const Window& window, const auto& next) {
   ContactRates r{.log = log, .first = std::max(first, window.from), .last = std::min(last, window.until)};
   if (window.compared && !(r.last > r.first))
-    throw InputError(fmt::format("{}: found no {} in the time that is compared, expected some", log, what));
+    throw InputError(fmt::format("{}: no {} in the time that is compared", log, what));
   if (!window.compared && !(r.last > window.from))
     throw InputError(fmt::format("{}: found a record that ends at {} s, expected one beyond {} s", log,
                                  r.last, window.from));
@@ -69,8 +69,9 @@ ContactRates rates_of_contacts(const std::string& file, const Window& window, do
 ContactRates rates_of_impacts(const std::string& place, const Window& window) {
   const auto scan = logs::scan_log(place);
   if (!scan.has[model::milling_dose])
-    throw InputError(scan.file + ": found no column milling_dose, expected " +
-                     (window.compared ? "one: the dose is compared" : "that of edmill's collision log"));
+    throw InputError(
+        scan.file + ": no column milling_dose: " +
+        (window.compared ? "the dose rates cannot be compared" : "give a collision log of edmill"));
   logs::EventLog log(place);
   return rates_of(place, "impacts", scan.statistics_start.value_or(scan.first), scan.last, window, [&] {
     const auto event = log.next();
@@ -100,7 +101,7 @@ std::string verdict_of(const ContactComparison& c) {
   return fmt::format("too few data: the ratio is known to ± {:.2g} %, {}", 100 * c.half_width,
                      c.within
                          ? "which leaves open whether it is" + bound
-                         : fmt::format("± {:g} % are needed; --within asks for other bounds", 100 * widest));
+                         : fmt::format("± {:g} % are needed; --within sets another bound", 100 * widest));
 }
 
 void judge(ContactComparison& c) {

@@ -42,8 +42,7 @@ std::vector<std::string> words(const std::string& line) {
 int facets_of(const std::string& word, const std::string& deck) {
   const auto facets = io::number_in(word);
   if (!facets || !(*facets >= 3 && *facets <= 1e6 && *facets == std::floor(*facets)))
-    throw InputError(
-        fmt::format("{}: found {} facets, expected a number from 3 on", deck, io::in_quotes(word)));
+    throw InputError(fmt::format("{}: found {} facets, expected at least 3", deck, io::in_quotes(word)));
   return static_cast<int>(*facets);
 }
 
@@ -94,7 +93,7 @@ void read_format(Bytes& in) {
     in.fail("the format of LAMMPS before 2021, which does not name its columns, or another file",
             "a dump custom of a later LAMMPS, or the text that its binary2txt makes");
   if (const auto one = in.take<std::int32_t>(); one != 1)
-    in.fail("numbers of a machine with the other order of bytes", "those of this one");
+    in.fail("numbers in the byte order of another machine", "that of this machine");
   if (const auto revision = in.take<std::int32_t>(); revision != 2)
     in.fail(fmt::format("revision {}", revision), "2");
 }
@@ -106,7 +105,7 @@ void read_box(Bytes& in, std::array<double, 3>& low, std::array<double, 3>& size
     low[axis] = in.take<double>();
     size[axis] = in.take<double>() - low[axis];
   }
-  if (triclinic != 0) in.fail("a box whose edges are not at right angles", "another");
+  if (triclinic != 0) in.fail("a box whose edges are not at right angles", "a rectangular box");
 }
 
 /// Reads the values of all rows. No more memory is allocated than the frame can need.
@@ -211,7 +210,7 @@ void FrameReader::set_columns(const std::vector<std::string>& columns) {
   for (std::size_t k = 0; k < 3; ++k)
     if (places_[x + k] < 0 && places_[scaled_x + k] < 0) missing.emplace_back(names[x + k][0]);
   if (!missing.empty())
-    fail(fmt::format("no column {}", fmt::join(missing, ", ")),
+    fail(fmt::format("columns without {}", fmt::join(missing, ", ")),
          "all of id x y z vx vy vz omegax omegay omegaz");
   for (std::size_t k = 0; k < 3; ++k) {
     const bool is_scaled = places_[x + k] < 0;
@@ -345,7 +344,7 @@ bool FrameReader::next_of_table(Frame& frame) {
     if (!line()) return false;
     if (words(line_).empty() || line_.starts_with("#")) continue;
     set_columns(words(line_));
-    if (places_[moment] < 0) fail("no column time", "time id x y z vx vy vz omegax omegay omegaz");
+    if (places_[moment] < 0) fail("columns without time", "time id x y z vx vy vz omegax omegay omegaz");
   }
   std::vector<FrameRow> rows;
   if (waiting_) rows.push_back(*std::exchange(waiting_, std::nullopt));

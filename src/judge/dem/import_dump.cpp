@@ -122,7 +122,7 @@ identify::Axes axes_from(const std::string& text) {
   std::sort(seen.begin(), seen.end());
   if (seen != "xyz" || in >> word)
     throw InputError(fmt::format(
-        "--axes: found {}, expected x, y and z in some order, each with a - or without: \"x z -y\"",
+        "--axes: found {}, expected x, y and z in some order, each with or without a -: \"x z -y\"",
         io::in_quotes(text)));
   return axes;
 }

@@ -60,8 +60,8 @@ void read_summary(const std::filesystem::path& summary, LogScan& scan) {
   const auto root = io::read_json(summary, "the summary of a run");
   const auto found = root.find("start_time");
   if (found == root.end() || !found->is_number())
-    throw InputError(fmt::format("{}: start_time: found {}, expected a time in s", summary.string(),
-                                 found == root.end() ? "nothing" : io::in_quotes(found->dump())));
+    throw InputError(fmt::format("{}: start_time: {}, expected a time in s", summary.string(),
+                                 found == root.end() ? "missing" : "found " + io::in_quotes(found->dump())));
   scan.statistics_start = found->get<double>();
   const auto counts = root.value("collisions", nlohmann::json::object());
   int walls = 0;
@@ -95,7 +95,7 @@ std::vector<int> parse_walls(const std::string& text, const model::Partners& par
     labels += (k == 0 ? "" : ", ") + partners[k].label;
   }
   if (!good || !(in >> std::ws).eof())
-    throw InputError(fmt::format("{}: found {}, expected {} different numbers: of {}", where,
+    throw InputError(fmt::format("{}: found {}, expected {} different numbers, one for each of: {}", where,
                                  io::in_quotes(text), partners.walls(), labels));
   return walls;
 }
@@ -157,7 +157,8 @@ void EventLog::read_header(const LogConventions& conventions) {
       if (!in_header(column)) column = trimmed(column.substr(0, bracket));
     }
     theirs[k] = column;
-    if (!in_header(column)) complain("no such column in " + csv_.file(), "a name of its header");
+    if (!in_header(column))
+      complain("a column that " + csv_.file() + " does not have", "a name in its header");
   }
   if (!problems.empty()) throw InputError(problems);
 
@@ -252,7 +253,7 @@ std::optional<LoggedEvent> EventLog::read() {
     event.time = *time;
     if (is_good_ && event.time < latest_) {
       csv_.bad_field(*columns_[time_name].place,
-                     fmt::format("no time before {} s, that of the line above", latest_));
+                     fmt::format("a time not before {} s, that of the line above", latest_));
       continue;
     }
     if (!(std::abs(event.time) < beyond_)) {

@@ -273,8 +273,8 @@ Animation read_animation(const std::filesystem::path& file) {
   pugi::xml_document document;
   const auto result = document.load_file(file.c_str());
   if (!result)
-    throw InputError(fmt::format("{}: found no valid XML at byte {} ({}), expected an animation",
-                                 file.string(), result.offset, result.description()));
+    throw InputError(fmt::format("{}: invalid XML at byte {} ({}), expected an animation", file.string(),
+                                 result.offset, result.description()));
   try {
     return animation_of(document.child("X3D").child("Scene"));
   } catch (const InputError& error) {

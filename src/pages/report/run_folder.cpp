@@ -210,7 +210,7 @@ std::size_t OutputTable::column(std::string_view name) const {
   const std::size_t text_columns = texts.empty() ? 0 : texts.front().size();
   for (std::size_t k = text_columns; k < header.size(); ++k)
     if (header[k] == name || header[k].starts_with(std::string(name) + " [")) return k - text_columns;
-  throw InputError(file + ": found no column '" + std::string(name) + "', expected it in the header");
+  throw InputError(file + ": the header has no column '" + std::string(name) + "'");
 }
 
 std::vector<std::vector<double>> OutputTable::rows_of(std::string_view text) const {

@@ -129,7 +129,7 @@ class Certifier {
       }
       if (side_by_side(chosen(digits), chosen(more))) return;
     }
-    result.undecided = "eight attempts with more and more digits do not agree";
+    result.undecided = "eight attempts with increasing numbers of digits do not agree";
   }
 
   Certification result;
@@ -274,7 +274,7 @@ unsigned wider_than(unsigned digits) { return digits + std::max(20u, digits / 20
 
 Certification certify(const casefile::CaseSpec& spec, const CertifyOptions& options) try {
   if (options.collisions == 0 && !spec.end_time)
-    throw InputError(spec.file + ": found no run.end_time, expected one, or a number of collisions");
+    throw InputError(spec.file + ": no run.end_time: set it, or give --collisions");
   io::NamedFile file(options.file);
   const Interruption scope(options.interrupt);
   Certifier certifier(spec, options);

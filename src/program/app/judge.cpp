@@ -21,8 +21,8 @@ audit::Options merged(const casefile::CaseSpec& spec, const AuditOptions& given)
   for (const auto& text : given.columns) {
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
-      throw InputError(fmt::format("--column {}: found {}, expected ours=theirs, e.g. \"time=t [ms]\"", text,
-                                   equals == 0 ? "no name" : "no '='"));
+      throw InputError(fmt::format("--column {}: {} is missing, expected ours=theirs, e.g. \"time=t [ms]\"",
+                                   text, equals == 0 ? "the name" : "'='"));
     const std::string ours = text.substr(0, equals);
     std::erase_if(options.conventions.columns, [&](const auto& column) { return column.first == ours; });
     options.conventions.columns.emplace_back(ours, text.substr(equals + 1));

@@ -64,8 +64,7 @@ io::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::strin
   c.case_text = spec.text;
   c.case_digest = spec.digest;
   if (io::is_stream(spec.initial_state))
-    throw InputError(
-        "key 'run.initial_state': found a pipe, expected a file, since a resumed run reads it again");
+    throw InputError("key 'run.initial_state': found a pipe, expected a file: a resumed run reads it again");
   if (!spec.initial_state.empty()) c.initial_state = std::filesystem::absolute(spec.initial_state).string();
   c.overrides = spec.settings;
   c.precision = precision;
@@ -95,8 +94,8 @@ RunResult resume(const std::string& interval, RunOptions options) {
   spec.settings = checkpoint.overrides;
   spec.right_digits = checkpoint.right_digits;
   if (spec.digest != checkpoint.case_digest)
-    throw InputError(options.folder + ": found another initial state in " + spec.initial_state +
-                     " than the run had, expected the unchanged file");
+    throw InputError(options.folder + ": the initial state in " + spec.initial_state +
+                     " has changed since the run began: restore that file");
   const std::string precision = checkpoint.precision;
   options.report = checkpoint.report;
   options.checkpoint = std::move(checkpoint);

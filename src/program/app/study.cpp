@@ -24,9 +24,7 @@ namespace {
 study::RunRecord do_job(const study::Job& job, const std::atomic<bool>* interrupt) {
   const auto spec = casefile::read_case(job.case_file, job.overrides);
   if (spec.digits)
-    throw InputError(
-        spec.file +
-        ": key 'run.digits': found it in a study, expected a precision: digits are found for one run");
+    throw InputError(spec.file + ": key 'run.digits' is not available in a study: set run.precision");
   return casefile::with_memory_for(spec, [&] {
     const auto run =
         run::make_run(spec.precision, spec, {.interrupt = interrupt, .max_cpu_time = job.max_cpu_time});
@@ -159,7 +157,7 @@ Bifurcation bifurcation(const casefile::CaseSpec& spec, const BifurcationOptions
   const std::filesystem::path place(options.file);
   if (place.has_extension() && place.extension() != ".svg")
     throw InputError("--out: found \"" + options.file +
-                     "\", expected the name of a drawing, .svg: its points stand beside it as .csv");
+                     "\", expected the name of a drawing, .svg: its points are written beside it as .csv");
   io::NamedFile table(place.has_extension() ? std::filesystem::path(place).replace_extension(".csv")
                                             : "");  // none beside a device
   for (std::size_t step = 0; step < options.steps; ++step) {

@@ -125,7 +125,7 @@ int after_output(int code) {
 
 /// Runs a command, and prints the errors that it throws. @return the exit code
 int exit_code_of(const std::function<int()>& command) {
-  const std::string no_memory = "found too little memory, expected more";
+  const std::string no_memory = "not enough memory";
   try {
     return command();
   } catch (const InputError& error) {

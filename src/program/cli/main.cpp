@@ -69,7 +69,7 @@ std::string unknown_command(const std::string& word, const std::vector<std::stri
                                      [&](const auto& known) { return known.first == word; });
   const auto expected = synonym == std::end(synonyms) ? casefile::nearest_of(word, commands)
                                                       : fmt::format("'{}'", synonym->second);
-  return fmt::format("{}: found an unknown command, expected {} (see edmill --help)", word, expected);
+  return fmt::format("{}: unknown command, expected {} (see edmill --help)", word, expected);
 }
 
 std::vector<std::string> options_of(const CLI::App& command) {
@@ -108,8 +108,8 @@ std::string problem_of(const CLI::App& app, const std::vector<std::string>& word
   }
   const auto options = options_of(*command);
   if (const auto word = unknown_option(words, options); !word.empty())
-    return fmt::format("{}: found an unknown option, expected {} (see {})", word,
-                       casefile::nearest_of(word, options), help);
+    return fmt::format("{}: unknown option, expected {} (see {})", word, casefile::nearest_of(word, options),
+                       help);
   std::string text = error.what();
   for (const auto& word : words)
     if (casefile::has_comma(word) && text.find(word) != std::string::npos)

@@ -118,14 +118,14 @@ Json read_header(std::istream& in) {
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
     if (event == Json::parse_event_t::object_end) keys.pop_back();
     if (event == Json::parse_event_t::key && !keys.back().insert(key).second)
-      throw std::runtime_error("twice the key " + key.dump());
+      throw std::runtime_error("the key " + key.dump() + " appears twice");
     return true;
   });
   if (header.at("format") != "edmill certificate" || (header.at("version") != 1 && header.at("version") != 2))
-    throw std::runtime_error("another format");
+    throw std::runtime_error("the format is another one");
   for (const auto* count : {"events", "bits"})
     if (!header.at(count).is_number_unsigned())
-      throw std::runtime_error(std::string("no whole number of ") + count);
+      throw std::runtime_error(std::string(count) + " is not a whole number");
   return header;
 }
 
@@ -152,9 +152,9 @@ std::string text_of_difference(const Json& row, const Json& expected) {
   const std::string path = row.at("path");
   const Json::json_pointer at(path);
   const auto text = [](const Json& value) { return value.is_primitive() ? value.dump() : value.type_name(); };
-  const auto found = row.at("op") == "remove" ? "nothing" : text(row.at("value"));
-  return fmt::format("{}: found {}, expected {}", path, found,
-                     row.at("op") == "add" ? "nothing" : text(expected.at(at)));
+  const auto found = row.at("op") == "remove" ? "missing" : "found " + text(row.at("value"));
+  return fmt::format("{}: {}, expected {}", path, found,
+                     row.at("op") == "add" ? "no such key" : text(expected.at(at)));
 }
 
 }  // namespace
@@ -169,8 +169,7 @@ std::vector<std::string> other_case(std::istream& certificate, const std::string
     for (const auto& row : Json::diff(expected, found))
       differences.push_back(text_of_difference(row, expected));
   } catch (const std::exception& error) {
-    throw InputError(name + ": found " + error.what() +
-                     " in the first line, expected the header of a certificate");
+    throw InputError(name + ": the first line is not the header of a certificate: " + error.what());
   }
   return differences;
 }

@@ -72,7 +72,7 @@ template <class Other>
 Vessel vessel_of(const Other& other) {
   throw InputError(
       std::string("[vessel] type: found \"") + other.name +
-      "\", expected one with walls that are planes, a cylinder or a sphere: `prove` knows no others");
+      "\", expected one with walls that are planes, a cylinder or a sphere: `prove` supports no others");
 }
 
 ExactLaw law_of(const casefile::ContactSpec& spec, const std::string& file) {
@@ -82,7 +82,7 @@ ExactLaw law_of(const casefile::ContactSpec& spec, const std::string& file) {
   if (const auto* constant = std::get_if<model::ConstantRestitution<Quantity>>(&spec.law))
     return {false, constant->normal, constant->tangential, Quantity(), v_s};
   throw InputError(file + ": key 'contact.model': found \"" + spec.name() +
-                   "\", expected \"walton-braun\" or \"constant\": `prove` knows no others");
+                   "\", expected \"walton-braun\" or \"constant\": `prove` supports no others");
 }
 
 /// Index of the law of two materials: 0 between balls, 1 with walls, then those of pairs.
@@ -167,11 +167,10 @@ void add_batches(const CaseSpec& spec, const std::optional<QuantityVector>& half
 
 ExactCase exact_case(const CaseSpec& spec) {
   if (!spec.pistons.empty())
-    throw InputError(spec.file +
-                     ": [[piston]]: found walls that move in the vessel, expected none: `prove` knows none");
+    throw InputError(spec.file + ": [[piston]]: `prove` does not support walls that move in the vessel");
   if (!spec.initial_state.empty())
     throw InputError(spec.file +
-                     ": key 'run.initial_state': found a saved state, expected the balls of the case");
+                     ": key 'run.initial_state': found a saved state, expected balls described in the case");
   ExactCase result;
   result.name = one_line(std::filesystem::path(spec.file).filename().string());
   result.digest = spec.digest;

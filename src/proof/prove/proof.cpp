@@ -448,7 +448,7 @@ Proof prove(const casefile::CaseSpec& spec, const ProofOptions& options) {
     for (slong bits = first_bits; !attempt(proof, next, bits, options); bits *= 2)
       if (2 * bits > options.most_bits)
         throw Impossible{
-            fmt::format("event {}: {} bits do not tell {}; the contacts may be simultaneous, or the widest "
+            fmt::format("event {}: {} bits do not decide {}; the contacts may be simultaneous, or the widest "
                         "scalar has lost the sequence",
                         proof.attempts.back().events, bits, proof.attempts.back().undecided)};
     // A certificate need not be longer than the proof requires.

@@ -110,15 +110,15 @@ struct EventFile::Data {
     std::error_code none;
     const auto size = std::filesystem::file_size(from, none);
     if (none && rows > 0)
-      throw InputError(destination.named.string() + ": found no file, expected the one that the run left");
+      throw InputError(destination.named.string() + ": no such file: restore the one that the run left");
     std::string bytes;
     for (written = 0; written < rows; written += block)
       for (auto& c : columns) {
         const ChunkPlace& chunk = c.chunks.at(written / block);
         if (chunk.at > size || chunk.size > size - chunk.at)
-          throw InputError(destination.named.string() +
-                           ": found a file that ends before a block of the checkpoint, "
-                           "expected the files as the run left them");
+          throw InputError(
+              destination.named.string() +
+              ": the file ends before a block of the checkpoint: restore the files as the run left them");
         bytes.resize(chunk.size);
         in.seekg(static_cast<std::streamoff>(chunk.at));
         if (!in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
@@ -187,7 +187,7 @@ void EventFile::archive(Archive& a) {
   for (const auto& c : d.columns)
     if (a.loading() && (rows % block != 0 || c.chunks.size() != rows / block))
       throw InputError(d.destination.named.string() +
-                       ": found a checkpoint with blocks for another number of rows");
+                       ": the checkpoint has blocks for another number of rows");
   std::string digest = d.digest.hex();
   a(digest);
   const auto left = d.destination.archive(a);

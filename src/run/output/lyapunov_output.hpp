@@ -33,7 +33,7 @@ struct LyapunovKeys {
         output.template make_own<LyapunovKeys>().exponents);
   }
   static void check(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
-    s.require(output.only.empty(), "only", "none: exponents belong to the whole motion");
+    s.require(output.only.empty(), "only", "no restriction: exponents describe the motion of all balls");
   }
 };
 

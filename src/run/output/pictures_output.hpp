@@ -197,7 +197,7 @@ class AnimationOutput : public FramesOutput<Real> {
     a(first_, paths_, frames_);
     const auto balls = this->run.ball_colours.size();
     if (first_ ? first_->balls.size() != balls || paths_.balls.size() != balls : !paths_.balls.empty())
-      throw InputError("found a saved animation of other balls");
+      throw InputError("the saved animation is of other balls");
   }
 
  private:
@@ -292,7 +292,7 @@ class ParaviewOutput : public FramesOutput<Real> {
         folder_(std::filesystem::path(this->place()).replace_extension()) {
     std::error_code ignored;
     if (std::filesystem::exists(folder_, ignored) && !std::filesystem::is_directory(folder_, ignored))
-      throw InputError(folder_.string() + ": found a file, expected a place for a folder");
+      throw InputError(folder_.string() + ": found a file, expected a folder");
   }
 
   std::vector<io::WholeFile*> complete() override {

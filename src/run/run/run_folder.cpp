@@ -18,13 +18,13 @@ RunFolder::RunFolder(fs::path place, const casefile::CaseSpec& spec, std::option
     io::require_no_checkpoint(place_);
     io::require_own_files(place_, {"case.toml", "final_state.csv", "summary.json", io::crate_file});
     if (fs::exists(place_ / "runs") && fs::exists(place_ / "runs.csv"))
-      throw InputError(place_.string() +
-                       ": found the runs of a sweep, an optimisation or several seeds, expected a folder "
-                       "without: use another --out");
+      throw InputError(
+          place_.string() +
+          ": this folder has the runs of a sweep, an optimisation or several seeds: use another --out");
   }
   if (!begins && io::read_checkpoint(place_).state != checkpoint_->state)
     throw InputError(io::checkpoint_place(place_).string() +
-                     ": found another checkpoint than a moment ago, expected one process at a time");
+                     ": another process has just changed this checkpoint: run one at a time");
   for (const auto& output : spec.outputs) {
     if (checkpoint_) io::Destination(place_ / output.folder / output.file).require_file();
     take(place_ / output.folder);
@@ -100,8 +100,7 @@ CheckpointInterval parse_checkpoint_interval(const std::string& text) {
   if (!time || !time->positive())
     throw InputError("--checkpoint: found " +
                      (time ? "\"" + text + "\"" : std::get<casefile::QuantityProblem>(parsed).found) +
-                     ", expected a time above 0 by the clock, such as '10 min', or in the run, such as '2 s "
-                     "simulated'");
+                     ", expected a positive time, such as '10 min' by the clock or '2 s simulated'");
   return {time->to<double>(), simulated};
 }
 

@@ -177,7 +177,7 @@ model::AnyMotion<Real> to_motion(const Joints<Real>& given, const Real& period) 
     if (!j.rotates && j.speed.turns != 0)
       throw InputError("joint: found a translation with turns per period, expected harmonics");
     if ((j.rotates || !joint.swings.empty()) && j.axis == std::array<Real, 3>{})
-      throw InputError("joint: found an axis of no length");
+      throw InputError("joint: the axis has no length");
     joints.list.push_back(std::move(joint));
   }
   return model::ChainMotion<Real>(joints);
@@ -204,7 +204,8 @@ void forget_walls(model::Mill<Real>& mill, const model::AnyVessel<Real>& own) {
                      " walls and bodies, expected at most " + std::to_string(most));
   if (foreign)
     throw InputError(
-        "vessel of the program: found a case whose walls move or have materials, expected a case without");
+        "vessel of the program: found a case whose walls move or have materials, expected a case with plain "
+        "walls");
   of_walls = kept;
   mill.vessel = own;
 }

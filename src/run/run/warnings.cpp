@@ -20,8 +20,8 @@ constexpr std::pair<model::EndReason, const char*> ends[] = {
     {model::EndReason::inelastic_collapse,
      "The run ended in inelastic collapse: a ball met another body infinitely often in a finite time."},
     {model::EndReason::stalled,
-     "The run has stalled: bodies that cannot separate hit each other while the clock stood still. The "
-     "results cover the time up to then."},
+     "The run has stalled: bodies that cannot separate hit each other while the simulated time did not "
+     "advance. The results cover the time up to then."},
     {model::EndReason::undecided,
      "The run ended at a decision that no scalar could make; the results cover the time up to then."}};
 
@@ -48,7 +48,7 @@ void check_dose_rate(const io::Facts& f, const std::optional<double>& wanted, co
   if (wanted && relative > *wanted) {
     const double ratio = relative / *wanted;
     warn("precision",
-         fmt::format("The dose rate is known to {}, {} was asked for: some {:.2g} s more are needed.",
+         fmt::format("The dose rate is known to {}, but {} was requested: about {:.2g} s more are needed.",
                      percent(relative), percent(*wanted), (ratio * ratio - 1) * duration));
   } else if (relative > interval_limit) {
     warn("wide_interval",
@@ -78,18 +78,18 @@ std::vector<io::Warning> warnings_of(const io::Facts& f, const std::optional<dou
   check_dose_rate(f, wanted_precision, warn);
   if (in_stalls > stall_share_limit)
     warn("stall_share", fmt::format("{} of the dose comes from impacts without friction, in stalls of bodies "
-                                    "that touch: friction acts less than the case says.",
+                                    "that touch: friction is weaker than in the case.",
                                     percent(in_stalls)));
   if (supplied > supplied_share_limit)
     warn("supplied_energy", fmt::format("The least separation speed supplies energy, {} of the {}: "
                                         "run with a smaller contact.least_separation.",
                                         percent(supplied), scale));
   if (by_rule > by_rule_share_limit)
-    warn("by_rule", fmt::format("{} of the impacts come at the same time as another one of their ball, in an "
-                                "order that a rule decides: compare with other seeds or another precision.",
+    warn("by_rule", fmt::format("{} of the impacts coincide with another impact of their ball, and a rule "
+                                "decides the order: compare with other seeds or another precision.",
                                 percent(by_rule)));
   if (closure > closure_limit)
-    warn("energy", fmt::format("Energy closes only to {:.2g} of the {}.", closure, scale));
+    warn("energy", fmt::format("The balance of energy closes only to {:.2g} of the {}.", closure, scale));
   return list;
 }
 

@@ -31,8 +31,9 @@ std::string count_of(const casefile::CaseSpec& spec, const std::string& ratio) {
   };
   const auto value = casefile::parse_decimal(ratio);
   if (!value || !value->positive()) fail("\"" + ratio + "\"", "a positive number");
-  if (!spec.powder_mass) fail("no powder", "a case with powder.mass");
-  if (spec.batches.size() != 1 || !spec.balls.empty()) fail("other balls", "a case with one batch [[balls]]");
+  if (!spec.powder_mass) fail("a case without powder", "one with powder.mass");
+  if (spec.batches.size() != 1 || !spec.balls.empty())
+    fail("several kinds of balls", "a case with one batch [[balls]]");
   const auto& balls = spec.batches.front();
   const double d = balls.diameter.to<double>();
   const double mass = balls.density.to<double>() * std::numbers::pi / 6 * d * d * d;
@@ -179,7 +180,7 @@ std::string describe(const Point& point) {
   }
   const auto found = point.estimate(main_quantities().front());
   if (!found.states.empty())
-    out += fmt::format("The seeds settle in {} steady states: no single number holds them all.\n",
+    out += fmt::format("The seeds settle in {} steady states: no single number describes them all.\n",
                        found.states.size());
   return out;
 }
@@ -252,7 +253,7 @@ void Study::add_runs(std::size_t point, std::uint64_t count) {
 
 void Study::require_a_good_case() const {
   if (points_.empty())
-    throw InputError(spec_.file + ": found a budget of too few runs for a point, expected more");
+    throw InputError(spec_.file + ": the budget is too small for one point: raise runs_max");
   for (const auto& point : points_)
     for (const auto& run : point.runs)
       if (!run.record) return;

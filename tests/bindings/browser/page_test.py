@@ -254,7 +254,7 @@ class Page(unittest.TestCase):
 
     def test_files_in_the_wrong_place(self):
         log = FOLDER / "long.csv"
-        for rows, said in ((40_000, "found no valid TOML"), (200_000, "a case file (TOML) is shorter")):
+        for rows, said in ((40_000, "invalid TOML"), (200_000, "a case file (TOML) is shorter")):
             log.write_text("time,ball,partner_kind,partner\n" + "0.001,1,wall,0\n" * rows)
             for name in ("judged-case", "log"):
                 self.element(name).send_keys(str(log))

@@ -60,5 +60,5 @@ def test_events_are_proven(demo, tmp_path):
     for proven, event in zip(proof.events, run.events):
         assert abs(proven.time - event["time"]) < Decimal("1e-30")
         assert 0 < proven.time_radius < Decimal("1e-30")
-    with pytest.raises(edmill.UndecidedError, match="bits do not tell"):
+    with pytest.raises(edmill.UndecidedError, match="bits do not decide"):
         edmill.prove(demo, 400, most_bits=128)

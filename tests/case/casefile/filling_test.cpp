@@ -131,10 +131,9 @@ TEST(Filling, WhatFindsNoRoomIsRefusedWithHowManyDo) {
                                   "[[balls]]\ncount = 3\ndiameter = \"24 mm\"\n", 1));
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_NE(
-        std::string(error.what())
-            .find("found 3 balls at a packing fraction of 0.332, expected fewer: the first 2 find room"),
-        std::string::npos)
+    EXPECT_NE(std::string(error.what())
+                  .find("found 3 balls at a packing fraction of 0.332, expected fewer: only the first 2 fit"),
+              std::string::npos)
         << error.what();
   }
 }

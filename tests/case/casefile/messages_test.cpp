@@ -138,7 +138,7 @@ TEST(Messages, AValueThatIsWrongIsNamedByItsKeyAndNoKeyThatIsNotGiven) {
         wrong[k] = lines[k].substr(0, begin) + number + rest;
         for (const auto& message : problems_of(text_of(wrong))) {
           ++refused;
-          EXPECT_EQ(message.find("': found nothing"), std::string::npos) << wrong[k] << ": " << message;
+          EXPECT_EQ(message.find("': missing"), std::string::npos) << wrong[k] << ": " << message;
           const auto key = key_of(message);
           const auto is_of = [&](const auto& g) { return g.starts_with(key) || key.starts_with(g); };
           EXPECT_TRUE(std::any_of(given.begin(), given.end(), is_of)) << wrong[k] << ": " << message;

@@ -168,7 +168,7 @@ TEST(Quantity, ACommaInANumberIsNamed) {
        {"12,7 mm", "-0,5 m", ",5 mm", "+,5 mm", "1,000.5 mm", "1.000,5 mm", "3,0", "0,1mm"})
     EXPECT_EQ(problem(text, D::length),
               "\"" + std::string(text) +
-                  "\" (a comma in a number: a decimal point is expected, and no mark of thousands)");
+                  "\" (a comma in a number: a decimal point is expected, and no thousands separators)");
   for (const auto* text : {"5 mm,", ", 5 mm", "5, mm", "mm,5"})
     EXPECT_EQ(problem(text, D::length).find("comma"), std::string::npos) << text;
 }
@@ -186,7 +186,7 @@ TEST(Quantity, WhatIsNoQuantityIsNamed) {
 
 TEST(Quantity, SizesThatDoubleCannotCubeAreRejected) {
   for (const auto* text : {"1e31 m", "-1e31 m", "1e-31 m", "1e400 m", "1e-400 m", "1.1e33 mm", "1e-28 mm"})
-    EXPECT_NE(problem(text, D::length).find("beyond 1e-30 to 1e30"), std::string::npos) << text;
+    EXPECT_NE(problem(text, D::length).find("outside of 1e-30 to 1e30"), std::string::npos) << text;
   for (const auto* text : {"1e30 m", "1e-30 m", "1e33 mm", "0 m", "0e-300 m", "-0 m"})
     EXPECT_EQ(problem(text, D::length), "") << text;
 }

@@ -97,7 +97,7 @@ TEST(CsvReader, ReadsTablesOfOtherPrograms) {
     return std::string();
   };
   EXPECT_NE(problem(std::string("\xff\xfet\0i\0", 6)).find("iconv"), std::string::npos);
-  EXPECT_NE(problem("0.5,1\n").find("found numbers and no column 'time'"), std::string::npos);
+  EXPECT_NE(problem("0.5,1\n").find("the header has numbers, but no column 'time'"), std::string::npos);
   EXPECT_NE(problem("ITEM: TIMESTEP\n0\n").find("edmill import"), std::string::npos);
 }
 
@@ -121,7 +121,7 @@ TEST(CsvReader, AQuoteThatNothingClosesIsReported) {
       file.rows();
       FAIL() << text;
     } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find("a quote that is not closed"), std::string::npos)
+      EXPECT_NE(std::string(error.what()).find("a quotation mark is not closed"), std::string::npos)
           << error.what();
     }
   }

@@ -86,7 +86,7 @@ TEST(Facts, ProblemsNameTheFileAndTheKey) {
   EXPECT_EQ(problem([&] { facts.number("a/b"); }), "s.json: a.b: found \"x\", expected a number");
   EXPECT_EQ(problem([&] { facts.find("a/b"); }), "s.json: a.b: found \"x\", expected a number");
   EXPECT_EQ(problem([&] { facts.number("a/c"); }), "s.json: a.c: found null, expected a number");
-  EXPECT_EQ(problem([&] { facts.text("d"); }), "s.json: d: found nothing, expected a text");
+  EXPECT_EQ(problem([&] { facts.text("d"); }), "s.json: d: missing, expected a text");
   EXPECT_EQ(problem([&] { end_reason_of(facts); }),
             "s.json: end_reason: found \"bored\", expected why the run ended");
 }

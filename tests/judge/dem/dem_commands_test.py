@@ -67,9 +67,9 @@ MILLS = {  # a case, and the codes that cannot have it
     "still": ('[mill]\ntype = "still"\n[vessel]\ntype = "box"\nsize = ["4 cm", "4 cm", "4 cm"]\n', {}),
     "planetary": ('[mill]\ntype = "planetary"\nradius = "70 mm"\nspeed = "300 rpm"\nratio = -2\n[vessel]\ndiameter = "40 mm"\nheight = "40 mm"\n', {}),
     "drum": ('[mill]\ntype = "drum"\nspeed = "60 rpm"\n[vessel]\ndiameter = "40 mm"\nheight = "40 mm"\n', {}),
-    "sphere": ('[vessel]\ntype = "sphere"\ndiameter = "40 mm"\n', {"liggghts": "round in two ways", "yade": "round in two ways"}),
+    "sphere": ('[vessel]\ntype = "sphere"\ndiameter = "40 mm"\n', {"liggghts": "doubly curved walls", "yade": "doubly curved walls"}),
     "capsule": ('[vessel]\ntype = "capsule"\ndiameter = "30 mm"\nheight = "60 mm"\n',
-                {"lammps": "no single region", "liggghts": "round in two ways", "yade": "round in two ways"}),
+                {"lammps": "not a single region", "liggghts": "doubly curved walls", "yade": "doubly curved walls"}),
     "stirred": (TANK + ROTOR.format(""), {}),
     "sphere inside": (TANK + '[[body]]\nsize = ["8 mm", "8 mm", "8 mm"]\nrounding = "4 mm"\n', {}),
     "sheet": (TANK + '[[body]]\nsize = ["8 mm", "0 mm", "6 mm"]\n[[body]]\ntype = "cylinder"\ndiameter = "6 mm"\nheight = "0 mm"\n'
@@ -111,7 +111,7 @@ def exports():
               "--set", "contact.restitution_tangential=0.3", "--set", 'contact.effective_modulus="1e11 Pa"', "--set",
               'contact.dissipative_time="1e-6 s"')
     fails("0.05 or more", "export", "box.toml", "--to", "yade", "--set", "contact.restitution=0.01")
-    fails("goes no lower", "export", "box.toml", "--to", "lammps", "--set", "contact.restitution=0.1")
+    fails("allows no lower one", "export", "box.toml", "--to", "lammps", "--set", "contact.restitution=0.1")
     fails("reduced inertia", "export", "box.toml", "--to", "lammps", "--set", "balls.0.reduced_inertia=0.5")
     fails("abaqus not in", "export", "box.toml", "--to", "abaqus")
     fails("a positive time", "export", "box.toml", "--to", "lammps", "--contact-time", "0 s")

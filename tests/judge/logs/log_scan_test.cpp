@@ -65,8 +65,8 @@ TEST_F(LogReading, EveryProblemOfAHeaderAtOnce) {
   const auto all = problems("time,ball,kind,partner,time,speed\n");
   ASSERT_EQ(all.size(), 3u);
   EXPECT_EQ(all[0], "1: column 5: found 'time' again, expected it once");
-  EXPECT_EQ(all[1], "1: found no column 'partner_kind', expected it in the header");
-  EXPECT_EQ(all[2], "1: found no column 'approach_speed', expected it in the header");
+  EXPECT_EQ(all[1], "1: the header has no column 'partner_kind'");
+  EXPECT_EQ(all[2], "1: the header has no column 'approach_speed'");
   EXPECT_EQ(problems(""), (std::vector<std::string>{"1: found the end of the file, expected a header"}));
 }
 

@@ -246,7 +246,7 @@ TEST_F(Report, TextsOfTheCaseAreNoMarkup) {
 TEST_F(Report, AFolderWithoutARunIsBadInput) {
   const auto done = edmill("report " + scratch.string());
   EXPECT_EQ(done.code, 2);
-  EXPECT_NE(done.err.find("summary.json: found no readable file"), std::string::npos) << done.err;
+  EXPECT_NE(done.err.find("summary.json: no readable file"), std::string::npos) << done.err;
 }
 
 TEST_F(Report, BrokenFilesAreToldByFileLineAndKey) {
@@ -267,9 +267,8 @@ TEST_F(Report, BrokenFilesAreToldByFileLineAndKey) {
   const auto energy = summary.begin() + static_cast<std::ptrdiff_t>(summary.find("\"energy\""));
   const auto line = 1 + std::count(summary.begin(), energy, '\n');
   breaks("summary.json", "\"energy\": {", "\"energy\" {",
-         "summary.json:" + std::to_string(line) + ": found no valid JSON");
-  breaks("summary.json", "\"wall_work\"", "\"work\"",
-         "summary.json: wall_work: found nothing, expected a number");
+         "summary.json:" + std::to_string(line) + ": invalid JSON");
+  breaks("summary.json", "\"wall_work\"", "\"work\"", "summary.json: wall_work: missing, expected a number");
   breaks("summary.json", "\"end_reason\": \"end_time\"", "\"end_reason\": 3",
          "end_reason: found 3, expected why the run ended");
   breaks("summary.json", "\"end_reason\": \"end_time\"", "\"end_reason\": \"bored\"",
@@ -277,8 +276,9 @@ TEST_F(Report, BrokenFilesAreToldByFileLineAndKey) {
   breaks("case.toml", "friction = 0.4", "friction = 0.5", "case.toml: found a case with digest ");
   breaks("case.toml", "friction = 0.4", "friction = ", "case.toml:");
   breaks("report/trends.csv", ",", ",what,", "trends.csv:2: found 4 fields, expected 5");
-  breaks("report/coverage.csv", "dose_per_area", "dose", "coverage.csv: found no column 'dose_per_area'");
-  breaks("report/animation.x3d", "</Scene>", "", "animation.x3d: found no valid XML");
+  breaks("report/coverage.csv", "dose_per_area", "dose",
+         "coverage.csv: the header has no column 'dose_per_area'");
+  breaks("report/animation.x3d", "</Scene>", "", "animation.x3d: invalid XML");
   breaks("report/animation.x3d", "\"vessel\"", "\"other\"", "animation.x3d: found X3D without moving vessel");
   breaks("report/animation.x3d", "DEF=\"ball_7_path\" key=\"", "DEF=\"ball_7_path\" key=\"0 ",
          "numbers in 'ball_7_path', expected 3 numbers for each key");
@@ -289,7 +289,7 @@ TEST_F(Report, BrokenFilesAreToldByFileLineAndKey) {
   fs::remove(folder / "case.toml");
   const auto done = edmill("report " + folder.string());
   EXPECT_EQ(done.code, 2);
-  EXPECT_NE(done.err.find("case.toml: found no readable file"), std::string::npos) << done.err;
+  EXPECT_NE(done.err.find("case.toml: no readable file"), std::string::npos) << done.err;
 }
 
 TEST_F(Report, IsMadeOfARunThatBeganFromASavedState) {

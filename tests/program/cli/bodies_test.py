@@ -40,17 +40,17 @@ TANK = dict(end="0.1 s", seed=1, mill='type = "chain"\njoint = [{ rotate = "y", 
             vessel='type = "cylinder"\ndiameter = "60 mm"\nheight = "60 mm"', restitution=0.6, friction=0.3, count=5, diameter=4)
 
 REFUSED = {  # bodies, and words of the one message
-    'size = ["0 mm", "0 mm", "0 mm"]': "a body without any size",
+    'size = ["0 mm", "0 mm", "0 mm"]': "a body without size",
     'size = ["-1 mm", "2 mm", "2 mm"]': "a negative length",
-    'rounding = "1 mm"': "'body.0.size': found nothing",
-    'type = "cylinder"\ndiameter = "5 mm"': "'body.0.height': found nothing",
+    'rounding = "1 mm"': "'body.0.size': missing",
+    'type = "cylinder"\ndiameter = "5 mm"': "'body.0.height': missing",
     'type = "cylinder"\nsize = ["5 mm", "5 mm", "5 mm"]\ndiameter = "5 mm"\nheight = "5 mm"': "a key of the other type",
     'size = ["6 mm", "6 mm", "4 mm"]\nrounding = "3 mm"': "at most half of each size",
     'type = "cone"\nsize = ["6 mm", "6 mm", "4 mm"]': "expected one of",
     'size = ["6 mm", "6 mm", "4 mm"]\njoint = [{ translate = ["80 mm", 0, 0] }]': "body 0 outside of the vessel at 0 s",
     'size = ["6 mm", "6 mm", "4 mm"]\njoint = [{ translate = "x", speed = "2 m/s" }]': "body 0 outside of the vessel at 0.0",
     'size = ["200 mm", "200 mm", "200 mm"]': "no room for a ball between the bodies",
-    'size = ["6 mm", "6 mm", "4 mm"]\nrepeat = 3': "no joint that rotates",
+    'size = ["6 mm", "6 mm", "4 mm"]\nrepeat = 3': "copies without a rotating joint",
     'size = ["6 mm", "6 mm", "4 mm"]\nrepeat = 24\njoint = [{ rotate = "y" }]\n[[body]]\nsize = ["6 mm", "6 mm", "4 mm"]\nrepeat = 24\n'
     'joint = [{ rotate = "y" }]': "walls and bodies, expected at most",
     'size = ["6 mm", "6 mm", "4 mm"]\nname = "pin"\n[[body]]\nsize = ["6 mm", "6 mm", "4 mm"]\nname = "pin"': "no other body has",

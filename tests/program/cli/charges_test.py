@@ -59,7 +59,7 @@ class Charges(unittest.TestCase):
             said(*words)
         made = case.read_text()
         case.write_text(made + "# mine\n")
-        self.assertIn(f'--out: found "{case}"', said(*words, code=2))
+        self.assertIn(f'--out: "{case}" exists', said(*words, code=2))
         self.assertEqual(case.read_text(), made + "# mine\n")
         said(*words, "--force")
         self.assertEqual(case.read_text(), made)
@@ -100,9 +100,9 @@ class Charges(unittest.TestCase):
         self.assertEqual(mixed.count("[[balls]]"), 2)
         for words, part in ((["--jar", "250"], "--jar"), (["--jar", "75x57"], "--jar"), (["--jar", "0ml"], "--jar"),
                             (["--fill", "130%"], "--fill"), (["--fill", "half"], "--fill"), (["--fill", "10%", "--balls", "3x5mm"], "alone"),
-                            (["--bpr", "-1"], "--bpr"), (["--balls", "5mm"], "how many"), (["--balls", "5mm", "--balls", "6mm", "--fill", "9%"], "how many"),
-                            (["--balls", "5mm", "--bpr", "10"], "how many"), (["--fill", "9%", "--bpr", "9", "--powder", "1g"], "two of the three"),
-                            (["--balls", "3x5mm", "--bpr", "9", "--powder", "1g"], "alone"), (["--fill", "100%"], "find room")):
+                            (["--bpr", "-1"], "--bpr"), (["--balls", "5mm"], "determine their number"), (["--balls", "5mm", "--balls", "6mm", "--fill", "9%"], "determine their number"),
+                            (["--balls", "5mm", "--bpr", "10"], "determine their number"), (["--fill", "9%", "--bpr", "9", "--powder", "1g"], "two of the three"),
+                            (["--balls", "3x5mm", "--bpr", "9", "--powder", "1g"], "alone"), (["--fill", "100%"], "only the first")):
             error = said("new", *words, code=2)
             self.assertIn(part, error)
             self.assertEqual(error.count("edmill: "), 1, error)
@@ -184,7 +184,7 @@ balls = [{ mass = "20 g", diameter = "12.7 mm", density = "8 g/cm3" }, { count =
     def test_no_balls_at_all_are_refused(self):
         case = self.new("case.toml", "--balls", "3x5mm")
         error = said("check", case, "--set", "balls.0.count=0", code=2)
-        self.assertIn("found no balls", error)
+        self.assertIn("found 0 in all entries", error)
         error = said("check", case, "--set", 'balls=[{count=2, mass="5 g", diameter="5 mm"}]', code=2)
         self.assertIn("both 'count' and 'mass'", error)
 

@@ -99,8 +99,8 @@ TEST_F(CompareCommand, BadInputIsExplained) {
     EXPECT_FALSE(std::filesystem::exists(scratch / "result.json"));
   };
   expect("good.csv bad.csv", "bad.csv:2: column 5 (approach_speed): found 'fast', expected a finite number");
-  expect("bad.csv other.csv", "other.csv:1: found no column 'time'", 6);
-  expect("good.csv missing.csv", "missing.csv: found no readable file");
+  expect("bad.csv other.csv", "other.csv:1: the header has no column 'time'", 6);
+  expect("good.csv missing.csv", "missing.csv: no readable file");
   expect("good.csv .", "type \"collisions\"");
   expect("good.csv later.csv", "time in common");
   expect("good.csv", "B is required");

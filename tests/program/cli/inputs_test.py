@@ -139,7 +139,7 @@ def damage(t, packed):
                 t.check(done.returncode == 2 and done.stderr.count("\n") >= 1 and name in done.stderr,
                         f"{name}, trial {trial} of seed {seed}: {done.returncode} {done.stderr}")
                 if trial % 2:
-                    t.refused(done, f"{name}, trial {trial}", "data", "expected a whole file")
+                    t.refused(done, f"{name}, trial {trial}", "data", "expected a complete file")
     t.check(found["refused"] > 100, f"damage is found: {found}")
 
 

@@ -19,7 +19,7 @@ COMMANDS = ("run case.toml --out out --quiet", "check case.toml",
             "certify case.toml --collisions 3 --out events.csv",
             "prove case.toml --collisions 3 --out events.csv", "run case.toml --out out --quiet --precision float128",
             "sweep my.sweep.toml --jobs 1 --out study --quiet")
-SENTENCE = f"found too little memory for {BALLS} balls"
+SENTENCE = f"not enough memory for {BALLS} balls"
 
 
 def limited(command, limit):
@@ -60,7 +60,7 @@ with Trials() as t:
             elif "balls" in done.stderr:
                 t.refused(done, what, SENTENCE, code=1)
             else:  # before the balls are known, or beside them
-                t.refused(done, what, "found too little memory, expected more", code=1)
+                t.refused(done, what, "not enough memory", code=1)
             t.no_partials(what)
     t.check(sum(short.values()) > 3, f"limits that are too small: {short}")
 print(f"{t.checks} checks of missing memory")

@@ -82,7 +82,7 @@ def one_command(t, name, command):
     t.refused(edmill(*command.split(), "/dev/full"), f"{name} to /dev/full", "/dev/full: could not be written", code=1)
     os.symlink("loop", "pool")
     os.symlink("pool", "loop")
-    t.refused(edmill(*command.split(), "loop"), f"{name} to a loop", "loop: found links that lead to each other")
+    t.refused(edmill(*command.split(), "loop"), f"{name} to a loop", "loop: found a circle of symbolic links")
     t.refused(edmill(*command.split(), "elsewhere"), f"{name} to a folder", "elsewhere: found a folder")
     t.refused(edmill(*command.split(), "/proc/nowhere/x"), f"{name} to nowhere", "/proc/nowhere")
     t.refused(edmill(*command.split(), "/dev/fd/77"), f"{name} to a closed descriptor", "/dev/fd/77")

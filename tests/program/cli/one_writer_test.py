@@ -39,7 +39,7 @@ def at_once(t, trial):
     won = [seed for seed, (_, code) in ends.items() if code == 0]
     t.check(len(won) == 1, f"trial {trial}: one run wins: {ends}")
     for seed, (error, code) in ends.items():
-        t.check(seed in won or (code == 2 and error.count("\n") == 1 and f"{place}: found another process" in error),
+        t.check(seed in won or (code == 2 and error.count("\n") == 1 and f"{place}: another process is writing there" in error),
                 f"trial {trial}: {error}")
     t.check(seed_of(place) == won[0], f"trial {trial}: files of one seed")
     t.no_partials(f"trial {trial}", place)
@@ -62,13 +62,13 @@ def every_writer_is_kept_out(t):
         lock = os.open(place, os.O_RDONLY)
         fcntl.flock(lock, fcntl.LOCK_EX)
         for command in [*writers(place), *([f"resume {place}"] if place == "interrupted" else [])]:
-            t.refused(edmill(*command.split()), command, f"{place}: found another process")
+            t.refused(edmill(*command.split()), command, f"{place}: another process is writing there")
             t.check(results(place) == before, f"{command}: files of the folder")
         os.close(lock)
     before = results("interrupted")
     for command in writers("interrupted")[:6]:
         if not command.startswith("report"):
-            t.refused(edmill(*command.split()), command, "interrupted/checkpoint: found the checkpoint of an unfinished run")
+            t.refused(edmill(*command.split()), command, "interrupted/checkpoint: this folder has an unfinished run")
             t.check(results("interrupted") == before, f"{command}: files beside a checkpoint")
     t.check(edmill("resume", "interrupted", "--quiet").returncode == 0, "the interrupted run resumes")
 
@@ -80,7 +80,7 @@ def file_systems_without_locks(t):
     os.mkdir("nfs")
     lock = os.open("nfs/.edmill-lock", os.O_RDWR | os.O_CREAT)
     fcntl.flock(lock, fcntl.LOCK_EX)
-    t.refused(limited("folders", "run", "case.toml", "--quiet", "--out", "nfs"), "NFS", "nfs: found another process")
+    t.refused(limited("folders", "run", "case.toml", "--quiet", "--out", "nfs"), "NFS", "nfs: another process is writing there")
     os.close(lock)
     done = limited("folders", "run", "case.toml", "--quiet", "--out", "nfs")
     t.check(done.returncode == 0 and done.stderr == "", f"NFS: {done.stderr}")

@@ -87,7 +87,7 @@ def descriptors(t):
         shell(f"edmill run outputs.toml --out closed {place}")
         t.check(same(results("closed"), results("expected")) == [], f"files of a run with {place}")
     done = shell("edmill check - <&-")
-    t.refused(done, "a closed standard input", "-: found no readable file")
+    t.refused(done, "a closed standard input", "-: no readable file")
 
 
 with Trials() as t:

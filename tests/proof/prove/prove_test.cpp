@@ -95,7 +95,7 @@ TEST_F(ProveTest, TwoContactsAtOnceOfDifferentBallsAreNotOrdered) {
                               "velocity = [\"1 m/s\", \"0 m/s\", \"0 m/s\"]\n"));
   const auto outcome = edmill("prove case.toml --collisions 2 --most-bits 512");
   EXPECT_EQ(outcome.code, 4);
-  EXPECT_NE(outcome.err.find("512 bits do not tell"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("512 bits do not decide"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("may be simultaneous"), std::string::npos) << outcome.err;
 }
 
@@ -122,7 +122,7 @@ TEST_F(ProveTest, WhatHasNoExactNumbersIsRefused) {
   refused(
       "--set contact.model=viscoelastic --set 'contact.effective_modulus=\"1 GPa\"' --set "
       "'contact.dissipative_time=\"1 us\"'",
-      "`prove` knows no others");
+      "`prove` supports no others");
 }
 
 }  // namespace

@@ -32,10 +32,11 @@ class StudyFile : public ProgramTest {
 TEST_F(StudyFile, BadSweepsAreNamedByLineAndKey) {
   const std::string head = "[sweep]\ncase = \"demo.toml\"\n";
   const std::pair<std::string, std::string> files[] = {
-      {"", "bad.toml:1: key 'sweep': found nothing, expected a section [sweep]"},
-      {"[sweep\n", "bad.toml:1: found no valid TOML"},
-      {"[sweep]\n", "bad.toml:1: key 'sweep.case': found nothing, expected a case file"},
-      {"[sweep]\ncase = \"other.toml\"\n", "bad.toml:2: key 'sweep.case': found no file 'other.toml'"},
+      {"", "bad.toml:1: key 'sweep': missing, expected a section [sweep]"},
+      {"[sweep\n", "bad.toml:1: invalid TOML"},
+      {"[sweep]\n", "bad.toml:1: key 'sweep.case': missing, expected a case file"},
+      {"[sweep]\ncase = \"other.toml\"\n",
+       "bad.toml:2: key 'sweep.case': found \"other.toml\", which cannot be read"},
       {"[sweep]\ncase = 5\n", "bad.toml:2: key 'sweep.case': found an integer, expected a text"},
       {head + "replicas = 0\n", "bad.toml:3: key 'sweep.replicas': found \"0\", expected a number from 1"},
       {head + "replicas = \"many\"\n",
@@ -51,10 +52,10 @@ TEST_F(StudyFile, BadSweepsAreNamedByLineAndKey) {
       {head + "[sweep.grid]\n\"balls.0.count\" = 5\n", "found an integer, expected an array of values"},
       {head + "[sweep.grid]\n\"balls.0.count\" = []\n", "found an empty array, expected an array of values"},
       {head + "[sweep.grid]\n\"balls.0.count\" = [5, 5]\n", "found \"5\" twice, expected each value once"},
-      {head + "[[sweep.point]]\nname = \"a\"\n", "key 'sweep.point.0.set': found nothing, expected a table"},
-      {head + "[[sweep.point]]\nset = { \"a.b\" = {} }\n", "found a table, expected a value of this key"},
+      {head + "[[sweep.point]]\nname = \"a\"\n", "key 'sweep.point.0.set': missing, expected a table"},
+      {head + "[[sweep.point]]\nset = { \"a.b\" = {} }\n", "found a table, expected a value for this key"},
       {head + "grid = { \"a.b\" = [1] }\n[[sweep.point]]\nset = { \"a.b\" = 1 }\n",
-       "found a key of [sweep.grid], expected a key in one of the two"},
+       "found a key of [sweep.grid], expected the key in only one of the two"},
       {head + "[sweep.grid]\n\"balls.0.cuont\" = [5]\n",
        "key 'balls.0.cuont': found an unknown key, expected 'count'"},
       {head + "[sweep.grid]\n\"charge_ratio\" = [-1]\n",
@@ -68,11 +69,11 @@ TEST_F(StudyFile, BadOptimisationsAreNamedByLineAndKey) {
                     entry = "[[optimize.variable]]\n";
   const std::string key = "key = \"balls.0.diameter\"\n";
   const std::pair<std::string, std::string> files[] = {
-      {head, "key 'optimize.variable': found nothing, expected 1 to 3 entries"},
+      {head, "key 'optimize.variable': missing, expected 1 to 3 entries"},
       {head + "objective = \"fun\"\n" + entry + key + "values = [\"2 mm\"]\n",
        "found \"fun\", expected one of"},
-      {head + entry + "values = [\"2 mm\"]\n", "key 'optimize.variable.0.key': found nothing"},
-      {head + entry + key + "low = \"2 mm\"\n", "key 'optimize.variable.0.high': found nothing"},
+      {head + entry + "values = [\"2 mm\"]\n", "key 'optimize.variable.0.key': missing"},
+      {head + entry + key + "low = \"2 mm\"\n", "key 'optimize.variable.0.high': missing"},
       {head + entry + key + "low = \"2 mm\"\nhigh = \"1 cm\"\n",
        "found \"1 cm\", expected the same unit as 'low'"},
       {head + entry + key + "low = \"2 mm\"\nhigh = \"1 mm\"\n",
@@ -81,7 +82,7 @@ TEST_F(StudyFile, BadOptimisationsAreNamedByLineAndKey) {
        "expected whole numbers for 'low' and 'high'"},
       {head + entry + key + "values = [1]\nlow = 1\n", "found both 'values' and 'low', expected one of them"},
       {"[optimize]\ncase = \"demo.toml\"\n" + entry + key + "values = [1]\n",
-       "key 'optimize.runs_max': found nothing"},
+       "key 'optimize.runs_max': missing"},
   };
   for (const auto& [text, message] : files) expect_problem("optimize", text, message);
 }

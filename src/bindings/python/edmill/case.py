@@ -63,8 +63,8 @@ class EditError(_edmill.InputError):
 
     def __init__(self, text: str):
         super().__init__(text)
-        found = re.finditer(r"key '([^']*)': found (.*?), expected (.*)", text)
-        self.problems = [{"key": m[1], "found": m[2], "expected": m[3]} for m in found]
+        found = re.finditer(r"key '([^']*)': (?:found (.*?)|missing), expected (.*)", text)
+        self.problems = [{"key": m[1], "found": m[2] or "nothing", "expected": m[3]} for m in found]
 
 
 class Case:

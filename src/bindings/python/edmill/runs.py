@@ -284,7 +284,7 @@ def read_run(folder: str | pathlib.Path) -> Run:
     try:
         summary, case, table = (file.read_text(encoding="utf-8") for file in files)
     except OSError as error:
-        raise _edmill.InputError(f"{error.filename}: found no readable file, expected one of a run's folder") from None
+        raise _edmill.InputError(f"{error.filename}: no readable file, expected one of a run's folder") from None
     facts = json.loads(summary)
     number = float if facts["precision"] == "double" else decimal.Decimal
     states = list(csv.DictReader(table.splitlines()))

@@ -49,7 +49,7 @@ def _read(file: pathlib.Path):
     reader.Update()
     data = reader.GetOutput()
     if data is None or not hasattr(data, "GetPoints") or data.GetPoints() is None:
-        raise BadFrame(f"{file}: found no points, expected a file of VTK with a point for each ball")
+        raise BadFrame(f"{file}: no points, expected a file of VTK with a point for each ball")
     points = data.GetPointData()
     arrays = {points.GetArrayName(k): vtk_to_numpy(points.GetArray(k)) for k in range(points.GetNumberOfArrays()) if points.GetArray(k)}
     fields = data.GetFieldData()
@@ -84,7 +84,7 @@ def _time_of(file: pathlib.Path, said: float | None, timestep: float | None) -> 
         return said
     numbers = re.findall(r"\d+", file.stem)
     if timestep is None or not numbers:
-        raise BadFrame(f"{file}: found no time, expected a field TimeValue, or a number in the name and --timestep")
+        raise BadFrame(f"{file}: no time: add a field TimeValue, or a number to the name and give --timestep")
     return int(numbers[-1]) * timestep
 
 

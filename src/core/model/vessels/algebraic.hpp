@@ -81,7 +81,8 @@ class AlgebraicVessel {
     if (walls.empty() || walls.size() > most_walls)
       throw InputError("vessel: found " + std::to_string(walls.size()) + " walls, expected 1 to 32");
     if (!(half_sizes.minCoeff() > 0))
-      throw InputError("vessel: found half_sizes that are not positive, expected a box about it");
+      throw InputError(
+          "vessel: found half_sizes that are not positive, expected those of a box around the vessel");
     auto shape = std::make_shared<Shape>();
     for (const auto& polynomial : walls) {
       AlgebraicForm<Real> gap;
@@ -97,9 +98,9 @@ class AlgebraicVessel {
     }
     shape->half_sizes = half_sizes;
     shape_ = shape;
-    if (reaches_out()) throw InputError("vessel: found walls that leave it open within half_sizes");
+    if (reaches_out()) throw InputError("vessel: the walls leave it open within half_sizes");
     const auto [widest, volume] = measures();
-    if (!(widest > 0)) throw InputError("vessel: found walls that leave no room within half_sizes");
+    if (!(widest > 0)) throw InputError("vessel: the walls leave no room within half_sizes");
     shape->widest = widest;
     shape->volume = volume;
   }

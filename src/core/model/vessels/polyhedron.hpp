@@ -149,7 +149,8 @@ class PolyhedronVessel {
     for (const auto& plane : planes) {
       const Real size = norm<Real>(plane.normal);
       if (!(size > 0) || !(plane.distance > 0))
-        return Problem{"a plane that has no normal or does not leave the origin inside", "the origin inside"};
+        return Problem{"a plane without a normal, or with the origin outside",
+                       "a normal, and the origin inside"};
       planes_.push_back({plane.normal / size, plane.distance});
     }
     for (std::size_t i = 0; i < planes_.size(); ++i)
@@ -163,7 +164,7 @@ class PolyhedronVessel {
     Real reach(0);
     for (std::size_t wall = 0; wall < faces.size(); ++wall) {
       if (faces[wall].size() < 3)
-        return Problem{"a plane " + std::to_string(wall) + " that is no wall of it", "walls only"};
+        return Problem{"a plane " + std::to_string(wall) + " that forms no wall", "planes that form walls"};
       for (const auto& corner : faces[wall]) {
         const Real size = norm<Real>(corner);
         reach = size > reach ? size : reach;

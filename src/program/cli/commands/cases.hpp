@@ -73,8 +73,8 @@ struct New {
     if (file_.empty() || file_ == "-")
       io::print("{}", text);
     else if (!force_ && std::filesystem::is_regular_file(file_) && io::content_of(file_) != text)
-      throw InputError(fmt::format(
-          "--out: found \"{}\", which has other contents, expected a new name, or --force", file_));
+      throw InputError(
+          fmt::format("--out: \"{}\" exists with other contents: give another name, or --force", file_));
     else
       io::NamedFile(file_).write(text);
     return ok;

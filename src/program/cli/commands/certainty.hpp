@@ -81,8 +81,7 @@ struct Prove : CaseCommand<app::ProveOptions> {
  private:
   int prove(const casefile::CaseSpec& spec, app::ProveOptions& options) const {
     if (options.collisions == 0)
-      throw InputError(
-          "prove: found neither --collisions nor --check, expected how many events, or a certificate");
+      throw InputError("prove: give --collisions, the number of events, or --check, a certificate");
     io::ProgressLine line(quiet_);
     options.progress = [&](long bits, std::size_t events) {
       if (events % 16 == 0)

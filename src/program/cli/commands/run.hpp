@@ -59,8 +59,8 @@ class RunCommand {
     if (estimate_) return print_estimate(spec, by_digits ? "" : scalar);
     if (by_digits && !shadow_.empty())
       throw InputError(
-          "--shadow: found digits that are asked for, expected a run in one precision: they are "
-          "verified by a wider run anyway");
+          "--shadow cannot be combined with --digits or run.digits: such a run is already checked against a "
+          "wider one");
     if (!shadow_.empty()) app::require_wider(scalar, shadow_, "option '--shadow'");
     auto options = options_of_run();
     if (by_digits) {
@@ -101,8 +101,7 @@ class RunCommand {
     options.begun = listen_for_signals;
     options.without_locks = [](const std::filesystem::path& place) {
       io::tell(
-          "edmill: {}: this file system has no locks; nothing but you keeps another process out of the "
-          "folder\n",
+          "edmill: {}: this file system has no locks: make sure that no other process writes to the folder\n",
           place.string());
     };
     return options;
@@ -327,7 +326,7 @@ struct Report {
       report::write_comparison(folders_, page);
     else if (!file_.empty())
       throw InputError(
-          "--out: found one run, whose page is report.html in its folder, expected several runs");
+          "--out needs several runs to compare: the page of one run is report.html in its folder");
     else
       page = report::write_report(folders_.front());
     if (!quiet_) io::print("The report is {}\n", page.string());
