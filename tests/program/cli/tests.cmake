@@ -23,6 +23,7 @@ foreach(name digits sensitivity charges one_writer kill kill_steps left_behind n
   edmill_script(${name}_test cli/${name}_test.py ${${name}_needs} TIMEOUT 600)
 endforeach()
 edmill_script(results_test cli/results_test.py $<TARGET_FILE:small_dem_dump> TIMEOUT 300)
+edmill_script(usage_test cli/usage_test.py LABELS fast)
 edmill_script(commands_test cli/commands_test.py $<TARGET_FILE:small_dem_dump> TIMEOUT 300 LABELS fast)
 edmill_script(digits_long cli/digits_test.py whole LONG 86400)
 edmill_script(sensitivity_long cli/sensitivity_test.py whole LONG 86400)
