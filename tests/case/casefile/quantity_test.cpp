@@ -177,7 +177,7 @@ TEST(Quantity, WhatIsNoQuantityIsNamed) {
   EXPECT_EQ(problem("4.76 mn", D::length), "\"4.76 mn\" (unknown unit 'mn')");
   EXPECT_EQ(problem("4.76", D::length), "\"4.76\" (no unit)");
   EXPECT_EQ(problem("4.76 kg", D::length), "\"4.76 kg\" (a mass)");
-  EXPECT_EQ(problem("4.76 MM", D::length), "\"4.76 MM\" (unknown unit 'MM': 'mm' is known)");
+  EXPECT_EQ(problem("4.76 MM", D::length), "\"4.76 MM\" (unknown unit 'MM', did you mean 'mm'?)");
   EXPECT_EQ(problem("0.5 m", D::none), "\"0.5 m\" (a length)");
   for (const auto* text : {"", " ", "mm", "nan mm", "inf m", "-inf m", "NaN", ". m", "+ m", "e5 m", "- 5 mm",
                            "--5 mm", "1e99999999 m"})

@@ -133,7 +133,7 @@ def imports():
     check(run("import", "right.dump.gz", "--case", CASE, "--deck", "deck.in", "--out", "packed.csv").returncode == 0
           and pathlib.Path("packed.csv").read_text().split("\n", 2)[2] == right, "a compressed dump")
     pathlib.Path("list.csv").write_text("particle_id,boundary_id,start_time,end_time,start_particle_velocity_x\n0,10,0.01,0.0101,0.5\n")
-    fails("no column id", "import", "list.csv", "--case", CASE)
+    fails("columns without id", "import", "list.csv", "--case", CASE)
     fails("without time", "import", "right.dump", "--case", CASE)
     check(not pathlib.Path("contacts.csv").exists(), "a log of a dump that was refused")
     fails("5 balls", "import", "right.dump", "--case", CASE, "--timestep", "1 us", "--set", "balls.0.count=6")

@@ -188,11 +188,11 @@ TEST_F(FrameReaderTest, Problems) {
   EXPECT_NE(problem(good + good).find("expected one after"), std::string::npos);
   EXPECT_NE(problem(std::string(head) + "ITEM: ATOMS id x y z vx vy vz\n1 0 0 0 0 0 0\n").find("omegax"),
             std::string::npos);
-  EXPECT_NE(problem("1,2,3\n").find("no column id"), std::string::npos);
+  EXPECT_NE(problem("1,2,3\n").find("columns without id"), std::string::npos);
   EXPECT_NE(problem("id,x,y,z,vx,vy,vz,wx,wy,wz\n").find("columns without time"), std::string::npos);
   EXPECT_EQ(problem(" \n"), "");
-  EXPECT_NE(problem(" \nI\n:M").find("no column id"), std::string::npos);
-  EXPECT_NE(problem(std::string(head) + "ITEM: ATOMS\n").find("no column id"), std::string::npos);
+  EXPECT_NE(problem(" \nI\n:M").find("columns without id"), std::string::npos);
+  EXPECT_NE(problem(std::string(head) + "ITEM: ATOMS\n").find("columns without id"), std::string::npos);
   EXPECT_NE(problem(good + "1 2 3\n").find("ITEM:"), std::string::npos);
   for (const auto* value : {"nan", "inf", "-1e160"})
     EXPECT_NE(problem(std::string(head) + columns + "1 0.1 0.2 0.3 1 " + value + " 3 4 5 6\n" + row_2)

@@ -64,7 +64,7 @@ TEST_F(LogReading, ManyDigitsAndTinyNumbersAreNumbers) {
 TEST_F(LogReading, EveryProblemOfAHeaderAtOnce) {
   const auto all = problems("time,ball,kind,partner,time,speed\n");
   ASSERT_EQ(all.size(), 3u);
-  EXPECT_EQ(all[0], "1: column 5: found 'time' again, expected it once");
+  EXPECT_EQ(all[0], "1: column 5: found 'time' a second time, expected it once");
   EXPECT_EQ(all[1], "1: the header has no column 'partner_kind'");
   EXPECT_EQ(all[2], "1: the header has no column 'approach_speed'");
   EXPECT_EQ(problems(""), (std::vector<std::string>{"1: found the end of the file, expected a header"}));
@@ -82,7 +82,7 @@ TEST_F(LogReading, BadLinesAreExplained) {
       {"1,0,wall,100,1", "column 4 (partner): found '100', expected the number of a wall"},
       {"1,5,ball,5,1", "column 4 (partner): found '5', expected another ball than the first"},
       {"0.1,0,wall,0,1",
-       "column 1 (time): found '0.1', expected no time before 0.5 s, that of the line above"},
+       "column 1 (time): found '0.1', expected a time not before 0.5 s, that of the line above"},
       {"1,0,wall,0", "found 4 fields, expected 5"},
       {"1,0,wall,0,1,", "found 6 fields, expected 5"},
   };
