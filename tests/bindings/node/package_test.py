@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The npm package: built by Emscripten, installed offline into an empty folder, and compared with the program: bits, texts, exit codes,
-JUnit, standard input, memory; its module; the script of docs/examples/ci. Debian: emscripten, nodejs, npm.
+JUnit, standard input, memory; its module; the script of docs/examples/ci. Needs Debian's emscripten and nodejs, and npm.
 
 usage: PYTHONPATH=tests/support python3 package_test.py EDMILL FOLDER [NODE...]
 FOLDER keeps the build and the package; NODE are further programs "node" to try
@@ -194,5 +194,8 @@ class Package(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    if not shutil.which("npm"):
+        print("skipped: needs npm")
+        sys.exit(77)
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     unittest.main(argv=sys.argv[:1])
