@@ -44,7 +44,7 @@ def facets():
         check(done.returncode == 0 and f'"facets":{expected},' in pathlib.Path("one.csv").read_text(), f"facets of {code}: {done.stderr}")
     for wrong in ("2", "-8", "many", "8.5", "99999999999999"):
         pathlib.Path("one.in").write_text(f"timestep 1e-6\n# facets {wrong}\n")
-        fails(f"one.in: found '{wrong}' facets, expected a number from 3 on", *words)
+        fails(f"one.in: found '{wrong}' facets, expected at least 3", *words)
     log = pathlib.Path("one.csv").read_text()
     for wrong in ("1", "-8", "8.5", "1e300"):
         pathlib.Path("wrong.csv").write_text(log.replace('"facets":0', f'"facets":{wrong}'))
