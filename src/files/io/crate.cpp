@@ -47,8 +47,9 @@ std::string crate_text(const Crate& crate) {
         others += fmt::format(", \"encodingFormat\": \"{}\"", kind.encoding);
     entities += entity(name, "File", others);
   }
-  const std::string about = fmt::format("Simulation of a ball mill by edmill {}, {}; case {}, digest {}",
-                                        version(), crate.precision, crate.case_file, crate.case_digest);
+  const std::string about =
+      fmt::format("Simulation of a ball mill by edmill {} in {}; case.toml has digest {}", version(),
+                  crate.precision, crate.case_digest);
   return "{\n  \"@context\": \"https://w3id.org/ro/crate/1.1/context\",\n  \"@graph\": [\n    "
          "{\"@id\": \"ro-crate-metadata.json\", \"@type\": \"CreativeWork\", \"about\": {\"@id\": \"./\"}, "
          "\"conformsTo\": {\"@id\": \"https://w3id.org/ro/crate/1.1\"}}" +
@@ -56,7 +57,8 @@ std::string crate_text(const Crate& crate) {
              "./", "Dataset",
              fmt::format("\"name\": {}, \"description\": {}, \"datePublished\": \"{}\", \"hasPart\": [{}], "
                          "\"mentions\": {{\"@id\": \"#run\"}}",
-                         JsonText::of("edmill: " + crate.case_file), JsonText::of(about), today(), parts)) +
+                         JsonText::of(std::string("Simulation of a ball mill")), JsonText::of(about), today(),
+                         parts)) +
          entity("#run", "CreateAction",
                 "\"name\": \"edmill run\", \"instrument\": " + id("#edmill") +
                     ", \"object\": " + id("case.toml") + ", \"result\": [" + parts + "]") +

@@ -10,7 +10,7 @@ namespace edmill::io {
 inline constexpr const char* crate_file = "ro-crate-metadata.json";
 
 struct Crate {
-  std::string case_file, case_digest, precision;
+  std::string case_digest, precision;
   std::vector<std::filesystem::path> files;  ///< relative to the folder of the run
 };
 

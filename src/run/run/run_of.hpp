@@ -440,10 +440,7 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
       io::write_final_state<Real>(out, saved_state(built_, driver_), clock);
     });
     folder_->write("case.toml", [&](std::ostream& out) { out << casefile::text_with_settings(*spec_); });
-    io::Crate crate{std::filesystem::path(spec_->file).filename().string(),
-                    spec_->digest,
-                    scalar_name<Real>(),
-                    {"case.toml", "summary.json", "final_state.csv"}};
+    io::Crate crate{spec_->digest, scalar_name<Real>(), {"case.toml", "summary.json", "final_state.csv"}};
     for (const auto* file : files) crate.files.push_back(file->place().lexically_proximate(folder_->place()));
     folder_->write(io::crate_file, [&](std::ostream& out) { out << io::crate_text(crate); });
     folder_->write("summary.json", [&](std::ostream& out) { out << summary_json(); });
