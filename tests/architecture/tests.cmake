@@ -31,8 +31,11 @@ add_test(NAME same_bits_long COMMAND ${architecture}/same_bits_test.sh $<TARGET_
 set_tests_properties(same_bits_test PROPERTIES TIMEOUT 1800 PROCESSORS 2)
 set_tests_properties(same_bits_long PROPERTIES LABELS long TIMEOUT 7200)
 
-# The README's commands on fresh releases of Debian.
+# The README's commands, and debian/, on fresh releases of Debian.
 foreach(release bookworm trixie)
   add_test(NAME debian_${release}_long COMMAND ${architecture}/debian_test.sh ${release} ${CMAKE_BINARY_DIR}/debian-${release} demo test)
-  set_tests_properties(debian_${release}_long PROPERTIES LABELS long TIMEOUT 14400 SKIP_RETURN_CODE 77)
+  add_test(NAME debian_package_${release}_long
+           COMMAND ${architecture}/debian_package_test.sh ${release} ${CMAKE_BINARY_DIR}/debian-package-${release})
+  set_tests_properties(debian_${release}_long debian_package_${release}_long
+                       PROPERTIES LABELS long TIMEOUT 14400 SKIP_RETURN_CODE 77)
 endforeach()
