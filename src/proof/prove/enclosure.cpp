@@ -1,5 +1,7 @@
 #include "prove/enclosure.hpp"
 
+#include <flint/fmpq.h>
+
 #include <algorithm>
 
 #include "casefile/rational.hpp"
