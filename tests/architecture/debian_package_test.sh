@@ -4,7 +4,7 @@
 # usage: debian_package_test.sh RELEASE FOLDER   e.g. debian_package_test.sh trixie /tmp/trixie
 set -euo pipefail
 . "$(dirname "$0")/fresh_debian.sh"
-fresh_debian "$1" "$2"
+fresh_debian
 cp -a --one-file-system "$folder/root" "$folder/bed"
 mv "$folder/bed" "$folder/root"
 version=$(sed -n '1s/.*(\(.*\)-.*/\1/p' "$folder/root/root/edmill/debian/changelog")

@@ -4,7 +4,7 @@
 #        RELEASE: bookworm, trixie, or noble (Ubuntu 24.04)
 set -euo pipefail
 . "$(dirname "$0")/fresh_debian.sh"
-fresh_debian "$1" "$2"
+fresh_debian
 for command in "${@:3}"; do
   step "$command" "./bootstrap.sh $command"
   # What packages say while they are installed is theirs.

@@ -1,10 +1,10 @@
-# Functions of the tests on a fresh Debian or Ubuntu. Needs root, debootstrap and a mirror.
+# Functions of the tests on a fresh Debian or Ubuntu, whose arguments begin with a release, bookworm, trixie or noble (Ubuntu
+# 24.04), and a folder.
+release=$1
+folder=$2
 
-# fresh_debian RELEASE FOLDER: a base system in FOLDER/root, with a clone of this project in /root/edmill and nothing else.
-# RELEASE: bookworm, trixie, or noble (Ubuntu 24.04).
+# The base system in $folder/root, with a clone of this project in /root/edmill and nothing else.
 fresh_debian() {
-  release=$1
-  folder=$2
   local mirror=http://deb.debian.org/debian options=() script=()
   if [ "$release" = noble ]; then
     # Debian's debootstrap has neither Ubuntu's keys nor a name for this release.
