@@ -28,7 +28,7 @@ test_packages=(
 )
 
 long_packages=(lammps python3-lammps liggghts "yade?" debootstrap python3-venv python3-pip patchelf
-  g++-aarch64-linux-gnu g++-riscv64-linux-gnu emscripten nodejs node-acorn debhelper lintian)
+  g++-aarch64-linux-gnu g++-riscv64-linux-gnu emscripten nodejs node-acorn debhelper dh-python lintian)
 
 say() { printf '\n== %s\n' "$*"; }
 
