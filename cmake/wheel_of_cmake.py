@@ -65,6 +65,7 @@ def _built(bundled):
     # Sweeps over several machines need the MPI of these machines.
     subprocess.check_call(["cmake", "-S", ROOT, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DEDMILL_TESTS=OFF",
                            "-DEDMILL_BENCHMARKS=OFF", "-DEDMILL_PYTHON=ON", f"-DPython_EXECUTABLE={sys.executable}",
+                           f"-DCMAKE_CXX_FLAGS=-ffile-prefix-map={ROOT}/=",  # the bytes do not depend on where the tree is
                            f"-DCMAKE_DISABLE_FIND_PACKAGE_MPI={'ON' if bundled else 'OFF'}"])
     subprocess.check_call(["cmake", "--build", folder, "--target", "edmill_python"])
     package = folder / "python" / "edmill"
