@@ -18,4 +18,4 @@ step build "dpkg-buildpackage -us -uc --post-clean"
 step lintian "lintian --fail-on error ../*.changes"
 cat "$folder/lintian.log"
 step autopkgtest "autopkgtest -B ../*.deb ./ -- chroot /bed"
-grep -E '^(program|library|python) +PASS' "$folder/autopkgtest.log"
+sed '1,/ summary$/d' "$folder/autopkgtest.log" | grep PASS
