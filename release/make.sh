@@ -38,7 +38,7 @@ python3 -m pip wheel --quiet --no-deps --no-build-isolation --config-settings=li
 
 say "packages of Debian"
 git clone -q . "$work/debian/edmill"
-(cd "$work/debian/edmill" && dpkg-buildpackage -us -uc -b >"$work/debian/log" 2>&1) || {
+(cd "$work/debian/edmill" && DEB_BUILD_OPTIONS=noautodbgsym dpkg-buildpackage -us -uc -b >"$work/debian/log" 2>&1) || {
   tail -30 "$work/debian/log" >&2
   exit 1
 }
