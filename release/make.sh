@@ -18,10 +18,8 @@ export SOURCE_DATE_EPOCH LC_ALL=C TZ=UTC
 say() { printf '== %s\n' "$*"; }
 
 say "npm package and page"
-release/npm.sh "$work/npm" >/dev/null
-cp "$work"/npm/edmill-*.tgz "$work/npm/edmill.html" "$folder"
-mkdir -p build/page
-cp "$work/npm/edmill.html" build/page # part of the manual and of the site
+release/npm.sh build/page >/dev/null # where the manual and the site look for the page
+cp build/page/edmill-*.tgz build/page/edmill.html "$folder"
 
 say "reference suite"
 release/suite.sh "$folder" >/dev/null

@@ -31,7 +31,7 @@ import tomllib
 
 SETUP = {  # commands that this test does not run: which test does
     "./bootstrap.sh *": ".ci/run", "apt-get install *": "packages_test", "python3 -m venv *": "python_wheel_test",
-    "venv/bin/pip install *": "python_wheel_test", "python3 -m pip wheel *": "python_wheel_test", "cmake --preset *": ".ci/run", "cmake -S . -B build/core *": "same_bits_long", "NODE_PATH=*": "browser_mill_long", "npx *": "npm_package_long", "npm *": "npm_package_long", "build/core/edmill-core *": "same_bits_long", "cmake --build *": ".ci/run",
+    "venv/bin/pip install *": "python_wheel_test", "python3 -m pip wheel *": "python_wheel_test", "cmake --preset *": ".ci/run", "cmake -S . -B build/core *": "same_bits_long", "NODE_PATH=*": "browser_mill_long", "npx *": "npm_package_long", "npm *": "npm_package_long", "release/npm.sh *": "npm_package_long", "build/core/edmill-core *": "same_bits_long", "cmake --build *": ".ci/run",
     "ctest *": ".ci/run", "cpack*": "packages_test", "tests/architecture/debian_test.sh *": "debian_bookworm_long and debian_trixie_long",
     "PYTHONPATH=tests/support python3 tests/pages/report/report_browser_test.py *": "report_browser_test",
 }

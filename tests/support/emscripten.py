@@ -1,18 +1,15 @@
-"""Builds a target of cmake/CoreAlone.cmake by Emscripten, as page_test.py and package_test.py need it."""
+"""The page of the mill and the npm package, made by release/npm.sh, and the digests that their runs must have."""
 import csv
-import os
 import subprocess
 
 from program import SOURCE
 
-TOOLCHAIN = "/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake"
 
-
-def build(folder, target):
-    subprocess.run(["cmake", "-S", SOURCE, "-B", folder, "-G", "Ninja", "-DEDMILL_CORE_ALONE=ON", "-DCMAKE_BUILD_TYPE=None",
-                    "-DCMAKE_CXX_FLAGS=-DNDEBUG -O2", f"-DCMAKE_TOOLCHAIN_FILE={TOOLCHAIN}"], check=True, stdout=subprocess.DEVNULL)
-    subprocess.run(["cmake", "--build", folder, "--target", target], check=True, stdout=subprocess.DEVNULL,
-                   env=dict(os.environ, NODE_PATH="/usr/share/nodejs"))
+def build(folder):
+    """@return the page and the npm package"""
+    subprocess.run([SOURCE / "release/npm.sh", folder], check=True, stdout=subprocess.DEVNULL)
+    tarball, = folder.glob("edmill-*.tgz")
+    return folder / "edmill.html", tarball
 
 
 def published(name):

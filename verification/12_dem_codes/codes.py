@@ -10,12 +10,11 @@ import pathlib
 import shutil
 import subprocess
 import sys
-import tempfile
 import time
 
 import dem_codes
 import study
-from dem_codes import CASE, PROGRAMS, SOURCE, audit, edmill, export, simulate
+from dem_codes import CASE, PROGRAMS, SOURCE, audit, edmill, export, own_folder, simulate
 
 SUITE = SOURCE / "regression/reference/suite"
 EVENTS = ["bouncing_ball", "newtons_cradle", "oblique_impact", "slipping_particle", "stacked_particles", "rolling_drum", "spex_1", "spex_3", "spex_28",
@@ -107,10 +106,6 @@ if __name__ == "__main__":
     dem_codes.EDMILL = str(pathlib.Path(sys.argv[1]).resolve())
     PLAIN_MILL = str(pathlib.Path(sys.argv[2]).resolve())
     target = pathlib.Path(sys.argv[3]).resolve() if len(sys.argv) > 3 else SOURCE / "docs/codes.md"
-    with tempfile.TemporaryDirectory() as folder:
-        os.chdir(folder)
-        library = next(pathlib.Path("/usr/lib").glob("*/liblammps.so.0"), None)
-        if library:
-            os.symlink(library, "liblammps.so")
+    with own_folder():
         text = page()
     target.write_text(text)

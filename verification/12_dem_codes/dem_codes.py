@@ -5,6 +5,7 @@
 usage: dem_codes.py EDMILL [decks] [mistakes] [frames] [vessels] [limit] [lammps] [liggghts] [yade]
        by default all parts but limit, with all codes
 """
+import contextlib
 import itertools
 import json
 import math
@@ -21,6 +22,17 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2]
 CASE = SOURCE / "docs/examples/vibrated_box.toml"
 PROGRAMS = {"lammps": "lmp", "liggghts": "liggghts", "yade": "yade"}
 failures = []
+
+
+@contextlib.contextmanager
+def own_folder():
+    """A temporary working folder in which LAMMPS finds its library."""
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        library = next(pathlib.Path("/usr/lib").glob("*/liblammps.so.0"), None)
+        if library:
+            os.symlink(library, "liblammps.so")
+        yield
 
 
 def check(good, text):
@@ -313,11 +325,7 @@ if __name__ == "__main__":
         print("skipped: needs LAMMPS, LIGGGHTS or YADE")
         sys.exit(77)
     parts = parts or ["decks", "mistakes", "frames", "vessels"]
-    with tempfile.TemporaryDirectory() as folder:
-        os.chdir(folder)
-        library = next(pathlib.Path("/usr/lib").glob("*/liblammps.so.0"), None)
-        if library:
-            os.symlink(library, "liblammps.so")
+    with own_folder():
         edmill("run", CASE, "--quiet", "--out", "run")
         for part in parts:
             {"decks": lambda: decks(present), "mistakes": lambda: mistakes(present), "frames": frames, "vessels": lambda: vessels(present),

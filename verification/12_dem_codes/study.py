@@ -11,10 +11,9 @@ import re
 import shutil
 import subprocess
 import sys
-import tempfile
 
 import dem_codes
-from dem_codes import CASE, PLANETARY, PROGRAMS, SOURCE, SPEX, audit, edmill, export, simulate
+from dem_codes import CASE, PLANETARY, PROGRAMS, SOURCE, SPEX, audit, edmill, export, own_folder, simulate
 
 #: Case, its text, and the time simulated by edmill, LAMMPS, LIGGGHTS and YADE [s].
 CASES = {"vibrated box, 5 balls": (CASE.read_text(), 400, {"lammps": 4, "liggghts": 4, "yade": 0.5}),
@@ -130,10 +129,6 @@ if __name__ == "__main__":
     dem_codes.EDMILL = str(pathlib.Path(sys.argv[1]).resolve())
     target = pathlib.Path(sys.argv[2]).resolve() if len(sys.argv) > 2 else SOURCE / "docs/dem_study.md"
     PRESENT = [code for code, program in PROGRAMS.items() if shutil.which(program)]
-    with tempfile.TemporaryDirectory() as folder:
-        os.chdir(folder)
-        library = next(pathlib.Path("/usr/lib").glob("*/liblammps.so.0"), None)
-        if library:
-            os.symlink(library, "liblammps.so")
+    with own_folder():
         text = page()
     target.write_text(text)

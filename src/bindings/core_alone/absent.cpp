@@ -1,6 +1,6 @@
 // Substitutes for functions that need libraries which the core-only build lacks: HDF5, pugixml, zlib and
 // zstd. A case that needs one of them is refused with a message that names it.
-#include "base/errors.hpp"
+#include "core_alone/missing_part.hpp"
 #include "io/input_file.hpp"
 #include "io/table_hdf5.hpp"
 #include "output/event_file.hpp"
@@ -8,12 +8,6 @@
 #include "report/report_page.hpp"
 
 namespace edmill {
-
-namespace {
-[[noreturn]] void refuse(const std::string& what, const std::string& library) {
-  throw InputError(what + " needs " + library + ", which this build of edmill does not contain");
-}
-}  // namespace
 
 namespace io {
 Table<double>::Cells stored(const std::vector<std::string>&) { refuse("a table as .h5", "HDF5"); }

@@ -4,16 +4,13 @@
 #include "app/judge.hpp"
 #include "app/study.hpp"
 #include "app/variations.hpp"
-#include "base/errors.hpp"
+#include "core_alone/missing_part.hpp"
 #include "report/report_page.hpp"
 #include "run/sensitivity.hpp"
 
 namespace edmill {
 
 namespace {
-[[noreturn]] void refuse(const std::string& what, const std::string& need) {
-  throw InputError(what + " needs " + need + ", which this build of edmill does not contain");
-}
 constexpr const char *mpfr = "MPFR", *arb = "Arb", *pages = "pugixml", *threads = "threads";
 }  // namespace
 

@@ -7,6 +7,7 @@
 #include "base/clean_text.hpp"
 #include "base/errors.hpp"
 #include "dem/contacts.hpp"
+#include "io/csv_reader.hpp"
 #include "io/input_file.hpp"
 #include "io/json_text.hpp"
 #include "logs/event_log.hpp"
@@ -56,8 +57,8 @@ class Problems {
   std::size_t count_ = 0;
 };
 
-/// The header of a table, with the version that a first line "# collision log 1" names.
-std::vector<std::string> header_of(const std::string& file) {
+/// @throws InputError when a comment before the header, "# collision log 2", names an unknown version
+void check_version(const std::string& file) {
   io::InputFile in(file, "a collision log");
   std::string line;
   const std::string mark = "# collision log ";
@@ -65,18 +66,11 @@ std::vector<std::string> header_of(const std::string& file) {
     if (line.starts_with(mark) && trimmed(line.substr(mark.size())) != std::to_string(version))
       throw InputError(fmt::format("{}: the log has version {}, this program reads version {}", file,
                                    clean_text(line.substr(mark.size())), version));
-  std::vector<std::string> names;
-  for (std::size_t begin = 0; begin <= line.size();) {
-    const auto end = std::min(line.find(',', begin), line.size());
-    names.emplace_back(trimmed(line.substr(begin, end - begin)));
-    begin = end + 1;
-  }
-  return names;
 }
 
 void take_columns(LogDescription& log, const std::string& file) {
   const auto& known = logs::column_names();
-  for (const auto& name : header_of(file))
+  for (const auto& name : io::CsvReader(file, "a collision log").header())
     if (log.kind == "contacts" || std::find(known.begin(), known.end(), name) != known.end())
       log.columns.push_back({name, unit_of(name)});
     else if (name != "index")
@@ -163,7 +157,7 @@ bool is_log(const std::string& file) try {
   std::string line;
   while (std::getline(in, line))
     if (const auto text = trimmed(line); !text.empty() && text[0] != '#')
-      return text.find(',') != text.npos && text.find('=') == text.npos;
+      return text[0] != '[' && text.find_first_of(",;\t") != text.npos && text.find('=') == text.npos;
   return false;
 } catch (const InputError&) {  // reading the case says why
   return false;
@@ -172,6 +166,7 @@ bool is_log(const std::string& file) try {
 LogDescription describe_log(const std::string& file) {
   LogDescription log;
   log.kind = dem::is_contact_log(file) ? "contacts" : "impacts";
+  check_version(file);
   take_columns(log, file);
   log.kind == "contacts" ? read_contacts(log, file) : read_impacts(log, file);
   return log;

@@ -28,17 +28,11 @@ from selenium.webdriver.support.ui import Select
 FOLDER = pathlib.Path(sys.argv[2]).resolve()
 
 
-def page():
-    build(FOLDER / "build", "page")
-    shutil.copy(FOLDER / "build/edmill.html", FOLDER)
-    return FOLDER / "edmill.html"
-
-
 class Page(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         FOLDER.mkdir(parents=True, exist_ok=True)
-        cls.page = page()
+        cls.page, _ = build(FOLDER)
         options = webdriver.ChromeOptions()
         options.binary_location = "/usr/bin/chromium"
         for flag in ("--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--no-first-run", "--disable-background-networking",

@@ -6,4 +6,5 @@ endif()
 edmill_script(browser_mill_long browser/page_test.py ${CMAKE_BINARY_DIR}/browser-mill LONG 3600)
 edmill_script(browser_assemble_test browser/assemble_test.py LABELS fast)
 # The npm package, by the same build.
-edmill_script(npm_package_long node/package_test.py ${CMAKE_BINARY_DIR}/npm-package LONG 3600)
+edmill_script(npm_package_long node/package_test.py ${CMAKE_BINARY_DIR}/browser-mill LONG 3600)
+set_tests_properties(browser_mill_long npm_package_long PROPERTIES RESOURCE_LOCK emscripten)

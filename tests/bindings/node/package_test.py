@@ -43,8 +43,7 @@ def words(line):
 class Package(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        build(FOLDER / "build", "npm")
-        cls.tarball, = (FOLDER / "build/npm").glob("edmill-*.tgz")
+        _, cls.tarball = build(FOLDER)
         cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="edmill-npm-"))
         os.chdir(cls.folder)
         subprocess.run(["npm", "install", "--offline", "--silent", "--no-audit", "--no-fund", cls.tarball], check=True)
@@ -91,6 +90,27 @@ class Package(unittest.TestCase):
             for node in (None, *NODES):
                 done = self.npx(*words(line), node=node)
                 self.assertEqual((done.returncode, done.stdout, done.stderr.replace(", certificate", "")), (own.returncode, own.stdout, own.stderr), f"{node} {line}")
+
+    def test_runs_of_all_examples_are_those_of_the_program(self):
+        compared = 0
+        for case in [*sorted(EXAMPLES.glob("*.toml")), *sorted((SOURCE / "regression/reference").glob("*.toml"))]:
+            options = ["run", case, "--quiet", "--set", "run.max_collisions=500", "--set", 'output=[{type="collisions",states=true},{type="spectra"}]']
+            own = subprocess.run([EDMILL, *options, "--out", "program"], capture_output=True, text=True)
+            done = self.npx(*options, "--out", "package", node="node")
+            self.assertEqual((done.returncode, done.stderr), (own.returncode, own.stderr), case)
+            if own.returncode == 0:
+                compared += 1
+                for name in ("collisions.csv", "final_state.csv", "spectra.csv", "case.toml"):
+                    self.assertEqual(pathlib.Path("package", name).read_bytes(), pathlib.Path("program", name).read_bytes(), f"{case} {name}")
+        print(compared, "cases have the same files")
+        self.assertGreater(compared, 18)
+
+    def test_two_at_once_and_a_full_disk(self):
+        running = [subprocess.Popen(["node", "node_modules/edmill/edmill.js", "run", "demo.toml", "--quiet", "--out", f"at-once-{k}"]) for k in range(3)]
+        self.assertEqual([process.wait() for process in running], [0, 0, 0])
+        self.assertEqual(len({pathlib.Path(f"at-once-{k}/final_state.csv").read_bytes() for k in range(3)}), 1)
+        done = subprocess.run("node node_modules/edmill/edmill.js check demo.toml > /dev/full", shell=True, capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
 
     def test_what_it_cannot_do_gets_one_sentence(self):
         pathlib.Path("a.toml").write_text('[sweep]\ncase = "demo.toml"\n')

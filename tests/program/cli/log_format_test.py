@@ -77,6 +77,20 @@ def check_faults(t, rng):
     t.check("version 2" in edmill("check", "bad.csv").stderr, "another version")
 
 
+def check_recognition(t, rng):
+    """Tables and cases are distinguished by their first line, whatever separates the columns."""
+    table = rows(rng)
+    for separator in ",;\t":
+        open("log", "w").write(text_of(table).replace(",", separator))
+        found = described(t, "log")
+        t.check(found["rows"] == len(table) and found["skipped"] == [] and len(found["columns"]) == 8, f"separator {separator!r}: {found}")
+    open("log", "w").write(text_of([row + ["7"] for row in table], HEADER + ',"impulse [N s], total"'))
+    t.check(described(t, "log")["skipped"] == ["impulse [N s], total"], "a quoted name of a further column")
+    for first in ("[run] # a case, and not a log; really", "# a, comment\n\n[run]", "run.seed = 1 # one, two", "run = { seed = 1, end_time = \"1 s\" }"):
+        open("case", "w").write(first + "\n")
+        t.check("column" not in edmill("check", "case").stderr, f"a case that begins with {first!r}")
+
+
 def check_crate(t):
     open("case.toml", "w").write(case("collisions", "spectra", "milling_dose", "paraview"))
     os.environ["SOURCE_DATE_EPOCH"] = "1300000000"
@@ -117,6 +131,7 @@ def main():
         t.check(done.returncode == 2 and "no column 'partner'" in done.stderr, "a table that is no log")
         t.check(edmill("check", "case.toml").stdout.startswith("case.toml is a valid case"), "a case")
         check_faults(t, rng)
+        check_recognition(t, rng)
         print(t.checks, "checks")
 
 
