@@ -70,7 +70,8 @@ void check_version(const std::string& file) {
 
 void take_columns(LogDescription& log, const std::string& file) {
   const auto& known = logs::column_names();
-  for (const auto& name : io::CsvReader(file, "a collision log").header())
+  const io::CsvReader csv(file, "a collision log");
+  for (const auto& name : csv.header())
     if (log.kind == "contacts" || std::find(known.begin(), known.end(), name) != known.end())
       log.columns.push_back({name, unit_of(name)});
     else if (name != "index")
