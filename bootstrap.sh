@@ -1,17 +1,20 @@
 #!/usr/bin/env bash
-# Sets edmill up on Debian 12 and 13 and on Ubuntu 24.04, and runs it. Every command can be repeated.
+# Sets edmill up on Debian 12 and 13 and on Ubuntu 24.04, and runs it. Every command can be
+# repeated.
 #
 #   ./bootstrap.sh demo    install what is missing, build, run the demo case
 #   ./bootstrap.sh test    install what is missing, build with tests, run all but the long studies
 #   ./bootstrap.sh test fast  the same, but of the tests those that together take a minute
 #   ./bootstrap.sh verify  the same set-up, LAMMPS, LIGGGHTS and YADE, then the long studies
-#   ./bootstrap.sh analyse the same set-up, then clang-tidy, and the tests with the checks of the standard library
+#   ./bootstrap.sh analyse the same set-up, then clang-tidy, and the tests with the checks of the
+#                          standard library
 #   ./bootstrap.sh build   install what is missing, build the program: build/release/edmill
 #   ./bootstrap.sh install release  install what release/make.sh needs
 set -euo pipefail
 cd "$(dirname "$0")"
 
-# "a|b": the first of these that the release has. "a?": left out where the release has none; tests that need it are skipped.
+# "a|b": the first of these that the release has. "a?": left out where the release has none; tests
+# that need it are skipped.
 program_packages=(
   g++ cmake ninja-build git ca-certificates
   "libboost1.81-dev|libboost-dev" libeigen3-dev libfmt-dev libcli11-dev libtomlplusplus-dev
@@ -42,7 +45,8 @@ has() {
   [[ $(LC_ALL=C apt-cache depends clang 2>/dev/null)$'\n' == *" clang-${BASH_REMATCH[1]}"$'\n'* ]]
 }
 
-# Of alternatives that are all missing: the first that the release has; else the first, or nothing for "a?".
+# Of alternatives that are all missing: the first that the release has; else the first, or nothing
+# for "a?".
 available() {
   local names one
   IFS='|' read -ra names <<<"${1%\?}"

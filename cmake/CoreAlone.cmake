@@ -1,6 +1,7 @@
-# The core alone: runs in double and float128 by the standard library and header files of Boost, Eigen, fmt and toml++, which any
-# compiler for any machine reads. cmake -DEDMILL_CORE_ALONE=ON [-DCMAKE_SYSTEM_NAME=Linux -DCMAKE_CXX_COMPILER=s390x-linux-gnu-g++]
-# By Emscripten it makes the page, too: the mill in a browser, in one file.
+# The core alone: runs in double and float128 by the standard library and header files of Boost,
+# Eigen, fmt and toml++, which any compiler for any machine reads. cmake -DEDMILL_CORE_ALONE=ON
+# [-DCMAKE_SYSTEM_NAME=Linux -DCMAKE_CXX_COMPILER=s390x-linux-gnu-g++] By Emscripten it makes the
+# page, too: the mill in a browser, in one file.
 
 # Links to these headers, so that nothing else of this machine is included.
 set(headers ${CMAKE_BINARY_DIR}/headers)
@@ -45,8 +46,9 @@ function(edmill_take_rooms target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${EDMILL_UNITY} UNITY_BUILD_MODE GROUP)
 endfunction()
 
-# Linkers keep the first copy of an inline function: that of double comes before those of wide scalars, which WebAssembly compiles
-# for size (functions of double that they share took three times as long).
+# Linkers keep the first copy of an inline function: that of double comes before those of wide
+# scalars, which WebAssembly compiles for size (functions of double that they share took three times
+# as long).
 set(double src/core/engine/double.cpp src/core/engine/double_other.cpp src/run/run/double.cpp src/run/output/double.cpp)
 set(wide src/core/engine/float128.cpp src/core/engine/mpfr50.cpp src/run/run/float128.cpp src/run/output/float128.cpp)
 if(EMSCRIPTEN)
@@ -72,7 +74,8 @@ if(EMSCRIPTEN)
   file(MAKE_DIRECTORY ${headers}/unsupported)
   edmill_take_headers(unsupported/Eigen/NonLinearOptimization)
   include(cmake/Embed.cmake)
-  # What judges logs, and the checker of certificates, which has no code of edmill: for the page and for node.
+  # What judges logs, and the checker of certificates, which has no code of edmill: for the page and
+  # for node.
   file(GLOB checker CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/verification/checker/*.cpp)
   list(FILTER checker EXCLUDE REGEX "/main.cpp$")
   set_source_files_properties(${checker} PROPERTIES UNITY_GROUP checker COMPILE_DEFINITIONS CHECKER_WITHOUT_ARB)
@@ -99,7 +102,8 @@ if(EMSCRIPTEN)
                      COMMAND ${PYTHON3} ${CMAKE_SOURCE_DIR}/cmake/assemble_page.py ${CMAKE_BINARY_DIR}/edmill_page ${page} VERBATIM)
   add_custom_target(page ALL DEPENDS ${page})
 
-  # The program for node: all its commands, of which those that need more than the core refuse to run.
+  # The program for node: all its commands, of which those that need more than the core refuse to
+  # run.
   edmill_take_headers(CLI/CLI.hpp)
   add_executable(edmill_node)
   target_link_libraries(edmill_node PRIVATE edmill_core edmill_judges)

@@ -1,8 +1,9 @@
 # Files that become part of the program.
 set(edmill_embed_script ${CMAKE_CURRENT_LIST_DIR}/WriteEmbedded.cmake)
 
-# edmill_embed(target file [name [room]]): room::name, of report unless it is given, holds the text of the file in the target; the name is that of the file, with
-# its dot as an underscore, unless it is given.
+# edmill_embed(target file [name [room]]): room::name, of report unless it is given, holds the text
+# of the file in the target; the name is that of the file, with its dot as an underscore, unless it
+# is given.
 function(edmill_embed target file)
   get_filename_component(name ${file} NAME)
   string(REPLACE "." "_" name ${name})

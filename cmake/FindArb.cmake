@@ -1,4 +1,5 @@
-# Arb::Arb, the library of ball arithmetic: Debian 12 packages it as libflint-arb-dev; FLINT 3, of Debian 13, has it in itself.
+# Arb::Arb, the library of ball arithmetic: Debian 12 packages it as libflint-arb-dev; FLINT 3, of
+# Debian 13, has it in itself.
 find_path(ARB_INCLUDE_DIR arb.h PATH_SUFFIXES flint)
 find_library(ARB_LIBRARY NAMES flint-arb arb flint)
 find_library(FLINT_LIBRARY flint)

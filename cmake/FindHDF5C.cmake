@@ -1,4 +1,5 @@
-# hdf5::hdf5, HDF5's library for C. CMake's own module compiles a program in C, which projects in C++ alone cannot.
+# hdf5::hdf5, HDF5's library for C. CMake's own module compiles a program in C, which projects in
+# C++ alone cannot.
 find_path(HDF5C_INCLUDE_DIR hdf5.h HINTS ${HDF5_ROOT} ENV HDF5_ROOT PATH_SUFFIXES include hdf5/serial)
 find_library(HDF5C_LIBRARY hdf5 HINTS ${HDF5_ROOT} ENV HDF5_ROOT PATH_SUFFIXES lib hdf5/serial)
 include(FindPackageHandleStandardArgs)

@@ -1,5 +1,6 @@
-# `cmake --install` puts the program, the headers of include/edmill and the library edmill::edmill in place; other projects find
-# it by find_package(edmill) or pkg-config. The components are packages of Debian: cmake/Packages.cmake.
+# `cmake --install` puts the program, the headers of include/edmill and the library edmill::edmill
+# in place; other projects find it by find_package(edmill) or pkg-config. The components are
+# packages of Debian: cmake/Packages.cmake.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 add_library(edmill INTERFACE)

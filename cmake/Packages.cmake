@@ -1,4 +1,5 @@
-# `cpack` in the build makes edmill, libedmill-dev, python3-edmill and edmill-doc, for the release of Debian that it runs on.
+# `cpack` in the build makes edmill, libedmill-dev, python3-edmill and edmill-doc, for the release
+# of Debian that it runs on.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME edmill)
 set(CPACK_PACKAGE_VENDOR edmill)

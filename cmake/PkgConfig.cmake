@@ -1,5 +1,5 @@
-# edmill.pc in EDMILL_PC, for any folder of libraries: its prefix counts from where the file is, so that what is installed can be
-# moved as a whole.
+# edmill.pc in EDMILL_PC, for any folder of libraries: its prefix counts from where the file is, so
+# that what is installed can be moved as a whole.
 file(RELATIVE_PATH pc_up "/prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig" /prefix)
 string(REGEX REPLACE "/$" "" pc_prefix "\${pcfiledir}/${pc_up}")
 if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}")

@@ -1,5 +1,6 @@
-# Headers of others that nearly every source includes, parsed once: more than half of the compile time went into them. Headers
-# of edmill stay out, so that a change of one compiles what includes it. A source includes what it uses all the same.
+# Headers of others that nearly every source includes, parsed once: more than half of the compile
+# time went into them. Headers of edmill stay out, so that a change of one compiles what includes
+# it. A source includes what it uses all the same.
 option(EDMILL_PRECOMPILED "parse the headers of Eigen, Boost and others once for all sources" ON)
 
 set(edmill_precompiled

@@ -1,4 +1,5 @@
-# The package edmill for Python, in python/edmill of the build: the extension module _edmill beside links to its Python sources.
+# The package edmill for Python, in python/edmill of the build: the extension module _edmill beside
+# links to its Python sources.
 if(NOT DEFINED Python_EXECUTABLE AND EXISTS /usr/bin/python3)
   set(Python_EXECUTABLE /usr/bin/python3) # Debian's, which pybind11 and NumPy are for
 endif()

@@ -1,7 +1,9 @@
-# Several sources in one compilation: most of the compile time of a small one goes into the headers that it shares with others.
+# Several sources in one compilation: most of the compile time of a small one goes into the headers
+# that it shares with others.
 option(EDMILL_UNITY "compile sources of a room several at a time" ON)
 
-# edmill_library(name room... LINK library...): a static library of these folders of src/<name>, and what it may include.
+# edmill_library(name room... LINK library...): a static library of these folders of src/<name>, and
+# what it may include.
 function(edmill_library name)
   cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
   set(library edmill_${name})
@@ -19,7 +21,8 @@ function(edmill_library name)
   edmill_reuse_precompiled(${library} edmill_precompiled)
 endfunction()
 
-# edmill_group(room source...): groups of eight, so that a change does not compile too many others again.
+# edmill_group(room source...): groups of eight, so that a change does not compile too many others
+# again.
 function(edmill_group room)
   set(count 0)
   foreach(source ${ARGN})
@@ -36,14 +39,16 @@ function(edmill_alone)
   endforeach()
 endfunction()
 
-# edmill_together(group source...): large sources that share most of their templates, in one compilation.
+# edmill_together(group source...): large sources that share most of their templates, in one
+# compilation.
 function(edmill_together group)
   foreach(source ${ARGN})
     set_property(SOURCE ${CMAKE_SOURCE_DIR}/${source} PROPERTY UNITY_GROUP ${group})
   endforeach()
 endfunction()
 
-# Sources with all optimisations, without a precompiled header: GCC compiles what follows one with the optimisations of the header.
+# Sources with all optimisations, without a precompiled header: GCC compiles what follows one with
+# the optimisations of the header.
 function(edmill_optimise)
   set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
   set_property(SOURCE ${ARGN} PROPERTY SKIP_PRECOMPILE_HEADERS ON)

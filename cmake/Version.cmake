@@ -1,5 +1,5 @@
-# Writes version.cpp with the present commit at every build, touching it only when it changes. The target's property PARTS lists
-# what is optional and was found.
+# Writes version.cpp with the present commit at every build, touching it only when it changes. The
+# target's property PARTS lists what is optional and was found.
 set(EDMILL_VERSION_SOURCE ${CMAKE_BINARY_DIR}/version.cpp)
 set(EDMILL_COMPILER "${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}, ${CMAKE_BUILD_TYPE}")
 add_custom_target(edmill_version

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""The npm package: the engine, its command and module, and the options of its commands, which it prints itself.
+"""The npm package: the engine, its command and module, and the options of its commands, which it
+prints itself.
 
-usage: assemble_package.py ENGINE FOLDER    where ENGINE.js and ENGINE.wasm are; makes FOLDER/edmill-VERSION.tgz
+usage: assemble_package.py ENGINE FOLDER    where ENGINE.js and ENGINE.wasm are; makes
+    FOLDER/edmill-VERSION.tgz
 """
 import gzip
 import io
@@ -21,7 +23,8 @@ FUNCTIONS = {"run": "Promise<Summary & Outcome>", "audit": "Promise<Judged & Out
 
 
 def options_of(program, command):
-    """What `edmill COMMAND --help` lists: its positionals and its options, with what each expects."""
+    """What `edmill COMMAND --help` lists: its positionals and its options, with what each
+    expects."""
     text = subprocess.run(["node", program, command, "--help"], check=True, capture_output=True, text=True).stdout
     entries = re.findall(r"^  (\S.*?)(?: {2,}|\n {10,})(.*(?:\n {20,}.*)*)", text, re.M)
     places, options = [], {}

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""One file of the page: its text, style and scripts, the engine compressed within it, and the cases of docs/examples.
+"""One file of the page: its text, style and scripts, the engine compressed within it, and the cases
+of docs/examples.
 
 usage: assemble_page.py ENGINE PAGE.html   where ENGINE.js and ENGINE.wasm are
 """

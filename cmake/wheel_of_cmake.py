@@ -1,7 +1,9 @@
-"""`pip install .`: builds the package with CMake into a wheel. (PEP 517, PEP 427; needs neither network nor setuptools)
+"""`pip install .`: builds the package with CMake into a wheel. (PEP 517, PEP 427; needs neither
+network nor setuptools)
 
-With `--config-settings=libraries=bundled` the wheel holds the shared libraries that it needs, by patchelf, and can be
-installed where neither a compiler nor they are: on Linux with the C library of this machine or a newer one (PEP 600).
+With `--config-settings=libraries=bundled` the wheel holds the shared libraries that it needs, by
+patchelf, and can be installed where neither a compiler nor they are: on Linux with the C library of
+this machine or a newer one (PEP 600).
 """
 import base64
 import hashlib
@@ -44,7 +46,8 @@ def _metadata():
 
 
 def _with_libraries(module):
-    """The extension module, and the shared libraries that it needs, which find each other in edmill.libs."""
+    """The extension module, and the shared libraries that it needs, which find each other in
+    edmill.libs."""
     lines = subprocess.run(["ldd", module], check=True, capture_output=True, text=True).stdout
     needed = {name: pathlib.Path(place) for name, place in re.findall(r"(\S+) => (/\S+)", lines) if not OF_THE_SYSTEM.match(name)}
     files = {}

@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
-# Writes the address of the project into all files that name it, in place of the placeholder or of the address before.
-# usage: addresses.sh HOME [REPOSITORY]    e.g. addresses.sh https://edmill.example https://edmill.example/edmill.git
+# Writes the address of the project into all files that name it, in place of the placeholder or of
+# the address before.
+# usage: addresses.sh HOME [REPOSITORY]    e.g. addresses.sh https://edmill.example
+#     https://edmill.example/edmill.git
 set -euo pipefail
 cd "$(dirname "$0")/.."
 new=${1:?usage: addresses.sh HOME [REPOSITORY]}

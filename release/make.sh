@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Makes everything that a release consists of, with the same bytes each time from the same commit: packages of Debian, a wheel for
-# Python, the npm package, the page of the mill, the reference suite, the manual and the site. Needs `./bootstrap.sh install release`.
+# Makes everything that a release consists of, with the same bytes each time from the same commit:
+# packages of Debian, a wheel for Python, the npm package, the page of the mill, the reference
+# suite, the manual and the site. Needs `./bootstrap.sh install release`.
 # usage: make.sh FOLDER    about half an hour on two cores
 set -euo pipefail
 source_folder=$(cd "$(dirname "$0")/.." && pwd)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# One folder for any web server: a start page, the manual, the pages of docs/samples, and the mill in a browser where it has been
-# built (docs/portability.md).
+# One folder for any web server: a start page, the manual, the pages of docs/samples, and the mill
+# in a browser where it has been built (docs/portability.md).
 # usage: make.sh FOLDER [MANUAL]    MANUAL: what docs/sphinx/make.sh has made, else it is made
 set -euo pipefail
 docs=$(cd "$(dirname "$0")/.." && pwd)

@@ -56,8 +56,8 @@ def linked(text, folder, docs):
 
 
 def page_of_paper(text, bib):
-    """The paper, in the form of the Journal of Open Source Software, as a page: its title is the heading, its citations lead to the
-    references of paper.bib."""
+    """The paper, in the form of the Journal of Open Source Software, as a page: its title is the
+    heading, its citations lead to the references of paper.bib."""
     header, text = re.match(r"---\n(.*?)\n---\n(.*)", text, re.S).groups()
     title = re.search(r"^title: '(.*)'$", header, re.M).group(1)
     works = {key: dict(re.findall(r"^  (\w+) = \{(.*)\},?$", fields, re.M))

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Figures of docs/mills.md that published ones stand beside: impact speeds in the SPEX, energies and friction's part in a
-planetary mill.
+"""Figures of docs/mills.md that published ones stand beside: impact speeds in the SPEX, energies
+and friction's part in a planetary mill.
 
 usage: peers.py EDMILL
 

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""All impacts of docs/examples/demo.toml, ten seconds, certified to 25 digits: their digest, every 1000th of them and statistics.
+"""All impacts of docs/examples/demo.toml, ten seconds, certified to 25 digits: their digest, every
+1000th of them and statistics.
 
 usage: whole_demo.py EDMILL [--events FILE] [--write]
 
-Certifies the case, which takes 11 minutes of processor time, or takes the FILE of `edmill certify docs/examples/demo.toml --out FILE`,
-and compares with whole_demo.csv and whole_demo.json beside this script; --write makes these anew.
+Certifies the case, which takes 11 minutes of processor time, or takes the FILE of `edmill certify
+docs/examples/demo.toml --out FILE`, and compares with whole_demo.csv and whole_demo.json beside
+this script; --write makes these anew.
 """
 import argparse
 import hashlib
@@ -28,7 +30,8 @@ def certified(edmill, folder):
 
 
 def summary_of(file):
-    """The lines to keep, and the statistics. The digest is of bodies and times to 18 digits, which every certified run has."""
+    """The lines to keep, and the statistics. The digest is of bodies and times to 18 digits, which
+    every certified run has."""
     digest = hashlib.sha256()
     kept, evidence = [], []
     count = {"wall": 0, "ball": 0}

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Chapter 4 of the thesis: one ball of 9.52 mm for 120 s. Dose and impacts by wall and approach speed, by the thesis and by edmill with
-three friction laws.
+"""Chapter 4 of the thesis: one ball of 9.52 mm for 120 s. Dose and impacts by wall and approach
+speed, by the thesis and by edmill with three friction laws.
 
 usage: chapter_4.py EDMILL > chapter_4.csv    half a minute of one core
 """
@@ -19,12 +19,14 @@ import variants
 SECONDS = 120
 SPEEDS = range(7)  # classes of 1 m/s
 WALLS = "cap 0", "cap 1", "cylinder"
-# Sections 4.3.3 to 4.3.5: dose in all, and by wall the impacts, their mean dose, and those from 0 to 1 m/s, ..., from 5 to 6 m/s.
+# Sections 4.3.3 to 4.3.5: dose in all, and by wall the impacts, their mean dose, and those from 0
+# to 1 m/s, ..., from 5 to 6 m/s.
 DOSE = 124.1
 THESIS = (("cap 0", 4579, 0.010, (1765, 523, 275, 434, 844, 276)),
           ("cap 1", 4286, 0.011, (1809, 493, 243, 394, 857, 306)),
           ("cylinder", 46694, 0.001, (41209, 2831, 1072, 376, 100, 9)))
-# Section 4.3.7: time [s], work of the wall [J], dose [J] of five impacts with the cylinder that follow each other.
+# Section 4.3.7: time [s], work of the wall [J], dose [J] of five impacts with the cylinder that
+# follow each other.
 LOG = ((30.0003, 0.0030, 1.427e-05), (30.0009, -0.0024, 2.283e-05), (30.0020, 0.0058, 1.592e-05), (30.0027, -0.0048, 2.564e-05),
        (30.0039, 0.0094, 1.946e-05))
 LAWS = "as_it_is", "always_reversed", "inverted_ratio"
@@ -36,8 +38,9 @@ RESTITUTION, FRICTION = 0.5, 0.4
 
 
 def largest_work(time, dose):
-    """Of an impact of this dose with the cylinder, by the printed laws (2.23) and (2.24): the wall's largest speed times the largest impulse.
-    The approach loses no more than the dose, and the tangential impulse is at most mu times the normal one. [J]"""
+    """Of an impact of this dose with the cylinder, by the printed laws (2.23) and (2.24): the
+    wall's largest speed times the largest impulse. The approach loses no more than the dose, and
+    the tangential impulse is at most mu times the normal one. [J]"""
     turns, swing = 1054 / 60 * time, math.radians(15)
     theta_rate = 2 * math.pi * 1054 / 60 * swing * abs(math.sin(2 * math.pi * turns))
     gamma_rate = 2 * math.pi * 1054 / 60 * swing * abs(math.cos(2 * math.pi * turns))

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""The effect of finite time resolution on the dose rate, by stepped/stepped_mill.cpp: all cases with exact search, with a
-collapse time of 0.5 ms and with impacts within 0.5 ms of the last that lose nothing; four cases of the 5 g sample also with other collapse times, with edmill's rule (a control), with
-losses of quick impacts left out, and with stepped search.
+"""The effect of finite time resolution on the dose rate, by stepped/stepped_mill.cpp: all cases
+with exact search, with a collapse time of 0.5 ms and with impacts within 0.5 ms of the last that
+lose nothing; four cases of the 5 g sample also with other collapse times, with edmill's rule (a
+control), with losses of quick impacts left out, and with stepped search.
 
 usage: emulation.py STEPPED_MILL FOLDER [JOBS] > emulation.csv    FOLDER keeps what is done
 """
@@ -38,8 +39,9 @@ NOT_OF_MANY_BALLS = ("passed_through", "lossless_1e-3", "stepped")  # the progra
 
 
 def times_of(case):
-    """Start, end and batch of a run's statistics [s]: the mean over many balls settles quickly, and they cost more. Short runs are whole
-    drive periods long, since where in a period they end would show."""
+    """Start, end and batch of a run's statistics [s]: the mean over many balls settles quickly, and
+    they cost more. Short runs are whole drive periods long, since where in a period they end would
+    show."""
     if case.count < 20:
         return 1, 21, 0.5
     if case.count < 60:

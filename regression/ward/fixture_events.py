@@ -86,7 +86,8 @@ def mpfr50_problems(root, edmill):
 
 
 def difference(name, wanted, found):
-    """The first event that differs: bodies, or a value by more than 1e-25 of the largest of its kind."""
+    """The first event that differs: bodies, or a value by more than 1e-25 of the largest of its
+    kind."""
     if len(wanted) != len(found):
         return [f"{name}: {len(found)} events in mpfr50, not {len(wanted)}"]
     limits = {key: max(abs(Decimal(row[key])) for row in wanted) * Decimal(10) ** -DIGITS for key in VALUES}

@@ -1,5 +1,6 @@
-"""UPDATES.jsonl: one line for each update of the fixtures, with the hashes of all of them, of the line before, and of itself.
-The hashes find what was changed by mistake or in haste; whoever wants to deceive is stopped by review, not by them."""
+"""UPDATES.jsonl: one line for each update of the fixtures, with the hashes of all of them, of the
+line before, and of itself. The hashes find what was changed by mistake or in haste; whoever wants
+to deceive is stopped by review, not by them."""
 import datetime
 import hashlib
 import json

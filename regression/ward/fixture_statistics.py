@@ -15,8 +15,9 @@ SINGLE_BALL = "2g_2_5_9_52mm"  # ill-conditioned: docs/theory.md, section 6
 # Compared; by symmetry the caps have equal rates, but each is checked.
 QUANTITIES = ("milling_dose_rate", "collision_rate_wall_0", "collision_rate_wall_1", "collision_rate_wall_2",
               "collision_rate_ball_ball")
-# Times the root of the sum of squares of both 95 % intervals: about 3.9 standard errors, which of the short check's 50 and
-# the full one's 115 comparisons of good runs less than one in a hundred times any exceeds.
+# Times the root of the sum of squares of both 95 % intervals: about 3.9 standard errors, which of
+# the short check's 50 and the full one's 115 comparisons of good runs less than one in a hundred
+# times any exceeds.
 ALLOWED = 2.0
 
 

@@ -26,7 +26,8 @@ def expect(what, good, output=""):
 
 
 class Copy:
-    """The fixtures and their tool in a repository of their own, with a program whose physics can be altered."""
+    """The fixtures and their tool in a repository of their own, with a program whose physics can be
+    altered."""
 
     def __init__(self, folder, edmill, ward_batches, stepped_mill):
         self.root = pathlib.Path(folder) / "project"

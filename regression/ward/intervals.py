@@ -1,4 +1,5 @@
-"""Means of correlated data with 95 % intervals, from the distributions of Student and Fisher. Standard library only."""
+"""Means of correlated data with 95 % intervals, from the distributions of Student and Fisher.
+Standard library only."""
 import math
 import statistics
 
@@ -48,8 +49,9 @@ def half_width(values):
 def estimate(replicas):
     """Mean of batches of equal length, in replicas of equally many.
 
-    @return mean; half the width of its 95 % interval, the wider one of Student's over the replicas' means and over all
-    batches; probability that means of replicas scatter so much beyond their batches by chance (analysis of variance)
+    @return mean; half the width of its 95 % interval, the wider one of Student's over the replicas'
+    means and over all batches; probability that means of replicas scatter so much beyond their
+    batches by chance (analysis of variance)
     """
     batches = [value for replica in replicas for value in replica]
     means = [statistics.fmean(replica) for replica in replicas]

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""intervals.py against printed tables: Abramowitz and Stegun, tables 26.10 (Student) and 26.9 (Fisher, 5 %)."""
+"""intervals.py against printed tables: Abramowitz and Stegun, tables 26.10 (Student) and 26.9
+(Fisher, 5 %)."""
 import random
 
 import intervals
@@ -13,8 +14,9 @@ for (one, two), ratio in FISHER.items():
     found = intervals.fisher_probability(ratio, one, two)
     assert abs(found - 0.05) < 1e-3, (one, two, found)
 
-# When batches are not correlated, the interval holds the mean in about 95 % of trials (a little more: the wider of two is
-# taken), and replicas look alike in 95 %. Replicas of different means do not.
+# When batches are not correlated, the interval holds the mean in about 95 % of trials (a little
+# more: the wider of two is taken), and replicas look alike in 95 %. Replicas of different means do
+# not.
 random.seed(20110101)
 print("seed 20110101")
 held = alike = found = 0

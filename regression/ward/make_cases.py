@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""Writes the 24 cases of tables.py: regression/ward/cases/*.toml, and docs/examples/ward.sweep.toml over ward.toml.
+"""Writes the 24 cases of tables.py: regression/ward/cases/*.toml, and docs/examples/ward.sweep.toml
+over ward.toml.
 
-usage: make_cases.py [--check]    --check writes nothing and fails when a file is not what it would write
+usage: make_cases.py [--check]    --check writes nothing and fails when a file is not what it would
+    write
 """
 import pathlib
 import sys

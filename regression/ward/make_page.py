@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Writes docs/ward.md and its figures from the fixtures.
 
-usage: make_page.py [--check]    --check writes nothing and fails when a file is not what it would write
+usage: make_page.py [--check]    --check writes nothing and fails when a file is not what it would
+    write
 """
 import csv
 import json
@@ -125,7 +126,8 @@ def percents(data, chosen):
 
 
 def rule_table(data):
-    """Each rule over all rows: thesis over computed, by diameter; and how many rows are within 3 %."""
+    """Each rule over all rows: thesis over computed, by diameter; and how many rows are within 3
+    %."""
     rows = []
     for method, words in RULES:
         near = [case for case in data.many() if abs(case.thesis_inverse / data.inverse(case, method)[0] - 1) <= 0.03]

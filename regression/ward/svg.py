@@ -1,4 +1,5 @@
-"""Line plots as SVG, written directly: axes with units, error bars, a legend. Readable on light and on dark ground."""
+"""Line plots as SVG, written directly: axes with units, error bars, a legend. Readable on light and
+on dark ground."""
 import math
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7")  # Okabe and Ito: distinguishable for colour-blind readers
@@ -11,7 +12,8 @@ PANEL_WIDTH, PANEL_HEIGHT, LEFT, TOP, BOTTOM, GAP = 330, 300, 75, 45, 60, 90
 
 
 class Panel:
-    """A plot: series of (x, y, half width of the error bar) with linear x and linear or logarithmic y."""
+    """A plot: series of (x, y, half width of the error bar) with linear x and linear or logarithmic
+    y."""
 
     def __init__(self, title, x_label, y_label, x_ticks, y_ticks, logarithmic=False):
         self.title, self.x_label, self.y_label = title, x_label, y_label

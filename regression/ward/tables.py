@@ -1,5 +1,6 @@
-"""Tables 5.1 to 5.6 of J. Barahona, Simulation and Optimization of Mechanical Alloying using the Event-Driven method,
-University of Ottawa, 2011: the mill of Ward et al. (2005) with 24 charges. Their numbers are in thesis.csv."""
+"""Tables 5.1 to 5.6 of J. Barahona, Simulation and Optimization of Mechanical Alloying using the
+Event-Driven method, University of Ottawa, 2011: the mill of Ward et al. (2005) with 24 charges.
+Their numbers are in thesis.csv."""
 import csv
 import pathlib
 from collections import namedtuple

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""The dose rates of all cases of table 5.5 but the single ball, with one thing changed in each: other numbers of the mill and the
-contacts, other friction laws, and of the second program (stepped/stepped_mill.cpp) the rule that impacts within 0.5 ms of the last one lose
-nothing. What could explain the thesis's numbers?
+"""The dose rates of all cases of table 5.5 but the single ball, with one thing changed in each:
+other numbers of the mill and the contacts, other friction laws, and of the second program
+(stepped/stepped_mill.cpp) the rule that impacts within 0.5 ms of the last one lose nothing. What
+could explain the thesis's numbers?
 
-usage: variants.py EDMILL STEPPED_MILL FOLDER > variants.csv    half an hour of one core; FOLDER keeps edmill's runs
+usage: variants.py EDMILL STEPPED_MILL FOLDER > variants.csv    half an hour of one core; FOLDER
+    keeps edmill's runs
 """
 import csv
 import pathlib
@@ -18,7 +20,8 @@ FRICTION, COMPLIANCE = 0.4, 3.5  # of the cases: mu, and 1 + 1/J of a solid ball
 
 
 def inverted_ratio(case):
-    """e_t = max(-1, 1 - mu (1 + 1/J) (1 + e) |g_t| / |g_n|): (2.24) with the ratio of the speeds inverted."""
+    """e_t = max(-1, 1 - mu (1 + 1/J) (1 + e) |g_t| / |g_n|): (2.24) with the ratio of the speeds
+    inverted."""
     ratio = 2 / (FRICTION * COMPLIANCE * (1 + float(case.restitution)))  # of slip to approach, where e_t is -1
     return {"contact.model": "restitution-by-slip", "contact.tangential_by_slip": [[0, 1], [ratio, -1], [1e9, -1]]}
 
@@ -41,7 +44,8 @@ def settings_of(variant, case):
 
 
 def times_of(case):
-    """Start and end of the statistics [s], whole drive periods: the mean over many balls settles quickly, and they cost more."""
+    """Start and end of the statistics [s], whole drive periods: the mean over many balls settles
+    quickly, and they cost more."""
     period, start, periods = 60 / 1054, 1, 360 if case.count < 60 else 90 if case.count < 200 else 36
     return {"run.start_time": f"{start} s", "run.end_time": f"{start + periods * period} s"}
 

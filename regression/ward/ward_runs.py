@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""Runs the 24 cases in replicas over seeds; each run leaves OUT/<case>-<seed>.json. Runs that are there already, of the
-same case by a program with the same core, are kept, so it can be stopped and started again.
+"""Runs the 24 cases in replicas over seeds; each run leaves OUT/<case>-<seed>.json. Runs that are
+there already, of the same case by a program with the same core, are kept, so it can be stopped and
+started again.
 
-usage: ward_runs.py WARD_BATCHES --out OUT [--jobs N] [--short]    --short: 3 seeds, 1 s to 5.1 s, of the cases below 60 balls
+usage: ward_runs.py WARD_BATCHES --out OUT [--jobs N] [--short]    --short: 3 seeds, 1 s to 5.1 s,
+    of the cases below 60 balls
 """
 import argparse
 import concurrent.futures
@@ -21,8 +23,9 @@ CASES = pathlib.Path(__file__).resolve().parent / "cases"
 
 
 def plan(case, short=False):
-    """Seeds, start, end and batch of a case's runs [s]. The thesis leaves out 30 s of 150 s. Many balls are steady
-    within half a second (thesis, chapter 5), and their mean settles quickly: short runs are enough."""
+    """Seeds, start, end and batch of a case's runs [s]. The thesis leaves out 30 s of 150 s. Many
+    balls are steady within half a second (thesis, chapter 5), and their mean settles quickly: short
+    runs are enough."""
     if short:
         return range(1, 4 if case.count < 60 else 1), 1, 5.1, 0.512334
     if case.count < 60:

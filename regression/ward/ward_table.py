@@ -1,4 +1,5 @@
-"""Tables of the runs that ward_runs.py leaves: means with 95 % intervals of each case, and the single runs."""
+"""Tables of the runs that ward_runs.py leaves: means with 95 % intervals of each case, and the
+single runs."""
 import csv
 import io
 import json
@@ -26,13 +27,15 @@ def read_runs(folder, case, short=False):
 
 
 def summary(runs):
-    """Estimates of a case: {quantity: (mean, half width, probability that its replicas are alike)}."""
+    """Estimates of a case: {quantity: (mean, half width, probability that its replicas are
+    alike)}."""
     result = {}
     for name in ("milling_dose", *PARTNERS, "total"):
         key = "milling_dose_rate" if name == "milling_dose" else f"collision_rate_{name}"
         result[key] = intervals.estimate([run["batches"][name] for run in runs])
     mean, half, alike = result["milling_dose_rate"]
-    # A small relative error is the same of a rate and of its inverse; a large one, of the single ball, has no meaning.
+    # A small relative error is the same of a rate and of its inverse; a large one, of the single
+    # ball, has no meaning.
     result["inverse_milling_dose_rate"] = (1 / mean, half / mean**2, alike) if mean > 0 else (math.inf, math.inf, alike)
     return result
 
@@ -80,7 +83,8 @@ def replicas_csv(folder):
 
 
 def provenance(folder):
-    """Commits, compiler and processor time of the runs; one compiler, and commits with the same core."""
+    """Commits, compiler and processor time of the runs; one compiler, and commits with the same
+    core."""
     runs = [run for case in tables.cases() for run in read_runs(folder, case)]
     commits, compilers = {run["commit"] for run in runs}, {run["compiler"] for run in runs}
     if len(compilers) != 1 or not all(ward_runs.same_core(min(commits), commit) for commit in commits):

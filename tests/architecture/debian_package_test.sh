@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# debian/ makes packages on a fresh Debian that lintian finds without errors, and that pass debian/tests on another one that has
-# only these packages. Needs root, debootstrap and a mirror.
+# debian/ makes packages on a fresh Debian that lintian finds without errors, and that pass
+# debian/tests on another one that has only these packages. Needs root, debootstrap and a mirror.
 # usage: debian_package_test.sh RELEASE FOLDER   e.g. debian_package_test.sh trixie /tmp/trixie
 set -euo pipefail
 . "$(dirname "$0")/fresh_debian.sh"

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# The README's commands on a fresh Debian or Ubuntu: its base system, a clone, and nothing else. Needs root, debootstrap and a mirror.
+# The README's commands on a fresh Debian or Ubuntu: its base system, a clone, and nothing else.
+# Needs root, debootstrap and a mirror.
 # usage: debian_test.sh RELEASE FOLDER COMMAND...   e.g. debian_test.sh trixie /tmp/trixie demo test
 #        RELEASE: bookworm, trixie, or noble (Ubuntu 24.04)
 set -euo pipefail

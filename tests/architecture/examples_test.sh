@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# The programs of docs/examples build against the installed package and run; so does one when the package has been moved, found by
-# CMake from a project in C++ alone and by pkg-config, for any folder of libraries.
+# The programs of docs/examples build against the installed package and run; so does one when the
+# package has been moved, found by CMake from a project in C++ alone and by pkg-config, for any
+# folder of libraries.
 # usage: examples_test.sh BUILD FOLDER COMPILER
 set -euo pipefail
 cd "$(dirname "$0")/../.."

@@ -26,7 +26,8 @@ changes "$folder/change.diff"
 (cd "$folder" && patch -p1 --forward --fuzz=0 <change.diff)
 [ -n "$compiler" ] || exit 0
 
-# A command and a Python function take the program's libraries as they are: only what these sections change is compiled.
+# A command and a Python function take the program's libraries as they are: only what these sections
+# change is compiled.
 tools=$folder/tools
 mkdir "$tools"
 cp -r src include "$tools"

@@ -1,5 +1,5 @@
-# Functions of the tests on a fresh Debian or Ubuntu, whose arguments begin with a release, bookworm, trixie or noble (Ubuntu
-# 24.04), and a folder.
+# Functions of the tests on a fresh Debian or Ubuntu, whose arguments begin with a release,
+# bookworm, trixie or noble (Ubuntu 24.04), and a folder.
 release=$1
 folder=$2
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Every header that users include compiles on its own, needs no header of src/, and states its subject in the first line; together they
-# compile without extensions of the language, too. With clang++, which has no quadmath.h, edmill.hpp compiles as well.
+# Every header that users include compiles on its own, needs no header of src/, and states its
+# subject in the first line; together they compile without extensions of the language, too. With
+# clang++, which has no quadmath.h, edmill.hpp compiles as well.
 # usage: headers_test.sh COMPILER
 set -euo pipefail
 cd "$(dirname "$0")/../.."

@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
-# A run that is killed on one machine goes on on the other from its checkpoint, with the bits of a run that was not.
+# A run that is killed on one machine goes on on the other from its checkpoint, with the bits of a
+# run that was not.
 # usage: moved_run.sh FOLDER PROGRAM COMMAND...
-# PROGRAM is edmill; COMMAND is edmill-core after what runs it: qemu-s390x edmill-core. Each begins what the other ends.
+# PROGRAM is edmill; COMMAND is edmill-core after what runs it: qemu-s390x edmill-core. Each begins
+# what the other ends.
 set -euo pipefail
 mkdir -p "$1"
 folder=$(realpath "$1")

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""The Python that users run, modules, scripts, notebooks and pages, keeps to the oldest Python that pyproject.toml declares: to its grammar,
-and to what it has when a module is imported or a function called.
+"""The Python that users run, modules, scripts, notebooks and pages, keeps to the oldest Python that
+pyproject.toml declares: to its grammar, and to what it has when a module is imported or a function
+called.
 
 usage: oldest_python_test.py SOURCE"""
 import ast
@@ -10,7 +11,8 @@ import re
 import sys
 
 source = pathlib.Path(sys.argv[1])
-# What is newer than 3.9: modules, names of builtins, what modules and objects have, and keywords of calls.
+# What is newer than 3.9: modules, names of builtins, what modules and objects have, and keywords of
+# calls.
 MODULES = {"tomllib": 11}
 NAMES = {"aiter": 10, "anext": 10, "EncodingWarning": 10, "ExceptionGroup": 11, "BaseExceptionGroup": 11}
 MEMBERS = {
@@ -71,7 +73,8 @@ def problems_of(text, oldest):
 
 
 def oldest_of(file):
-    """The tools of the project itself run with the Python of Debian 12; the suite is for users of other codes."""
+    """The tools of the project itself run with the Python of Debian 12; the suite is for users of
+    other codes."""
     own = file.relative_to(source).parts[0] in ("regression", "verification") and not file.name.startswith("compare")
     return 11 if own else declared
 

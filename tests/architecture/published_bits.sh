@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # A program's logs have the published digests: regression/reference/bits.tsv.
 # usage: published_bits.sh [--write | --every N] FOLDER COMMAND...
-# COMMAND is edmill, or edmill-core after what runs it: qemu-s390x edmill-core. --write publishes its digests, --every tries one log
-# in N.
+# COMMAND is edmill, or edmill-core after what runs it: qemu-s390x edmill-core. --write publishes
+# its digests, --every tries one log in N.
 set -euo pipefail
 write= every=1
 case $1 in

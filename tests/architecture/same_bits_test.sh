@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
-# Runs in double and in float128 give the same bits from the program, and from the core alone as other compilers, optimisations and
-# processors make it: regression/reference/bits.tsv. Foreign programs run under qemu-user, WebAssembly in node; what is not
-# installed is told and left out. Runs also move from each of them to the program and back (moved_run.sh).
-# usage: same_bits_test.sh PROGRAM FOLDER [--every N] MACHINE...    N: one log in N from the core alone
+# Runs in double and in float128 give the same bits from the program, and from the core alone as
+# other compilers, optimisations and processors make it: regression/reference/bits.tsv. Foreign
+# programs run under qemu-user, WebAssembly in node; what is not installed is told and left out.
+# Runs also move from each of them to the program and back (moved_run.sh).
+# usage: same_bits_test.sh PROGRAM FOLDER [--every N] MACHINE...    N: one log in N from the core
+#     alone
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 program=$1
@@ -28,7 +30,8 @@ describe() { # machine: compiler, flags, options, runner, suffix
       compiler=em++ flags=-O2 suffix=.js
       options=(-DCMAKE_TOOLCHAIN_FILE=/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake)
       runner=(node --no-experimental-fetch)
-      # Debian keeps acorn, which the linker needs, where node looks itself and Emscripten's node does not.
+      # Debian keeps acorn, which the linker needs, where node looks itself and Emscripten's node
+      # does not.
       export NODE_PATH=/usr/share/nodejs
       ;;
     *) echo "found machine '$1', expected g++-O0, g++-native, clang++, aarch64, riscv64, s390x or wasm32" >&2 && exit 2 ;;

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""What the sources of src/ have in common: no header includes itself by way of others; a room has its own namespace, and adds to
-others only what it declares of them; rooms of the page in the browser keep to the library that it is built with; judges do without
-the engine. Prose of the manual, of READMEs and of the changelog has lines of at most 100 columns. Files of more than 400 lines, functions of more than 60 and six equal lines in two places are listed for a reader to
-judge, and fail nothing.
+"""What the sources of src/ have in common: no header includes itself by way of others; a room has
+its own namespace, and adds to others only what it declares of them; rooms of the page in the
+browser keep to the library that it is built with; judges do without the engine. Prose of the
+manual, of READMEs and of the changelog has lines of at most 100 columns. Files of more than 400
+lines, functions of more than 60 and six equal lines in two places are listed for a reader to judge,
+and fail nothing.
 
 usage: source_test.py SOURCE"""
 import collections
@@ -37,7 +39,8 @@ def find_cycles():
 
 
 def find_long(name, lines):
-    """Functions by their indent: from the line that opens the body to the brace below its first column."""
+    """Functions by their indent: from the line that opens the body to the brace below its first
+    column."""
     if len(lines) > 400:
         to_judge.append(f"{name}: {len(lines)} lines")
     for k, line in enumerate(lines):
@@ -53,7 +56,8 @@ def find_long(name, lines):
 
 
 def find_ranges(name, text):
-    """The page of the browser and the npm package have these rooms, and Emscripten's library of Debian 12 no algorithms of std::ranges."""
+    """The page of the browser and the npm package have these rooms, and Emscripten's library of
+    Debian 12 no algorithms of std::ranges."""
     if name.split("/")[0] in {"base", "model", "dynamics", "engine", "casefile", "io", "run", "tangent", "output", "core_alone",
                               "browser", "node", "audit", "compare", "identify", "dem", "logs", "decks", "machines", "cli"} and "std::ranges::" in text:
         problems.append(f"{name}: std::ranges, which the page and the npm package cannot have")
@@ -100,7 +104,8 @@ def own_namespaces(room):
 def find_foreign_namespaces(name, text):
     own = own_namespaces(name.split("/")[0])
     for block in re.finditer(r"^namespace (edmill[\w:]*) \{\n(.*?)^\}  // namespace \1$", text, re.M | re.S):
-        # The registry defines what casefile declares, the types of outputs; the core alone, the page and the npm package stand for what they leave out.
+        # The registry defines what casefile declares, the types of outputs; the core alone, the
+        # page and the npm package stand for what they leave out.
         if block.group(1) in own or name == "output/registry.cpp" or name.startswith(("core_alone/", "browser/make_source", "node/")):
             continue
         declared = re.sub(r"//.*|extern template [^;]*;|template <[^>]*>|(class|struct) \w+;|namespace \w+ \{|\}", "", block.group(2))
@@ -109,7 +114,8 @@ def find_foreign_namespaces(name, text):
 
 
 def find_engine(name, text):
-    """A judge that shares the engine's code proves nothing; the engine tells a proof only where to look."""
+    """A judge that shares the engine's code proves nothing; the engine tells a proof only where to
+    look."""
     room = name.split("/")[0]
     for other, judges in (("engine", {"audit", "compare", "identify", "dem", "prove"}), ("run", {"audit", "compare", "dem"})):
         if room in judges and f'#include "{other}/' in text:

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Workflows of continuous integration, the action and the snippets of docs/examples/ci: their structure, their steps and the scripts
-that these call. A step is a script of the tree or a command that any system has; other tests and studies run the scripts.
+"""Workflows of continuous integration, the action and the snippets of docs/examples/ci: their
+structure, their steps and the scripts that these call. A step is a script of the tree or a command
+that any system has; other tests and studies run the scripts.
 
 usage: workflows_test.py SOURCE
 """
@@ -77,7 +78,8 @@ def check_action():
 
 
 def check_shell():
-    """Scripts that workflows and releases use, by shellcheck where it is installed, else by bash itself."""
+    """Scripts that workflows and releases use, by shellcheck where it is installed, else by bash
+    itself."""
     scripts = [*sorted((SOURCE / "release").glob("*.sh")), *sorted((SOURCE / "docs/examples/ci").glob("*.sh"))]
     for script in scripts:
         done = subprocess.run(["bash", "-n", script], capture_output=True, text=True)

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# docs/sphinx/make.sh names each program and package that is missing, with the command that installs it, and touches no folder.
+# docs/sphinx/make.sh names each program and package that is missing, with the command that installs
+# it, and touches no folder.
 # usage: missing_test.sh FOLDER
 set -euo pipefail
 make=$(cd "$(dirname "$0")/../.." && pwd)/docs/sphinx/make.sh

@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
 """Runs the code blocks of a page of the manual, in their order, in an empty folder.
 
-    console     lines after "$ " are commands, the others what they print; "..." stands for anything, in a line of its own for any lines
-    sh          commands; they must succeed
+    console     lines after "$ " are commands, the others what they print; "..." stands for
+    anything, in a line of its own for any lines sh          commands; they must succeed
     sh setup    commands that prepare a machine: other tests run them (see SETUP)
     sh long     commands of long studies: run with --long only
-    python      Python, with the package edmill; blocks of a page share their variables. A comment with a number behind what prints, up to a
-                colon, is what it prints: "# 5.8 ± 0.1: with its interval"
-    toml        with "# NAME.toml" as first line, a file; otherwise sections of a case, which must be valid
-    cpp         with "// NAME.cpp" as first line, the end of docs/examples/NAME.cpp
-    cmake, diff, text, {directive}   not run here: an own test reads them, or they are no code
+    python      Python, with the package edmill; blocks of a page share their variables. A comment
+                with a number behind what prints, up to a colon, is what it prints: "# 5.8 ± 0.1:
+                with its interval"
+    toml        with "# NAME.toml" as first line, a file; otherwise sections of a case, which must
+    be valid cpp         with "// NAME.cpp" as first line, the end of docs/examples/NAME.cpp cmake,
+    diff, text, {directive}   not run here: an own test reads them, or they are no code
 
 usage: pages_test.py EDMILL PYTHON_PACKAGE SOURCES FOLDER PAGE [--long] [--update]
 --update writes what the commands print into the console blocks of the page."""
@@ -136,7 +137,8 @@ class Page:
             self.problem(place, f"exit code {done.returncode}:\n{command}\n{done.stdout[-1500:]}{done.stderr[-1500:]}")
 
     def console(self, lines, place):
-        """Runs the commands; what they print must be there. Returns the block with what they print."""
+        """Runs the commands; what they print must be there. Returns the block with what they
+        print."""
         shown, k = [], 0
         while k < len(lines):
             if not lines[k].startswith("$ "):
@@ -190,7 +192,8 @@ class Page:
 
     @staticmethod
     def is_output(comment, printed):
-        """Whether a comment with numbers, up to a colon, is what the line prints: the same words, and numbers to the comment's digits."""
+        """Whether a comment with numbers, up to a colon, is what the line prints: the same words,
+        and numbers to the comment's digits."""
         pairs = list(itertools.zip_longest(comment.split(), printed.split(), fillvalue=""))
         number = re.compile(r"-?\d+(\.\d*)?(e-?\d+)?")
         return all(abs(float(a) - float(b)) <= 0.501 * 10 ** decimal.Decimal(a).as_tuple().exponent if number.fullmatch(a) and number.fullmatch(b) else a == b

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The pages of docs/samples are those that docs/samples/make.sh makes, of at most 600 kB each, and every link of the start page of
-# docs/site leads somewhere.
+# The pages of docs/samples are those that docs/samples/make.sh makes, of at most 600 kB each, and
+# every link of the start page of docs/site leads somewhere.
 # usage: site_test.sh EDMILL MANUAL FOLDER
 set -euo pipefail
 docs=$(cd "$(dirname "$0")/../../docs" && pwd)

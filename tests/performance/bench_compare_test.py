@@ -112,7 +112,8 @@ class Compare(unittest.TestCase):
         self.assertEqual(self.compare(figures(x=(False, [1.0, 1.0, 1.0])), good).returncode, 2)
 
 
-# Replaces a benchmark program. With PARTY set, each process waits until that many processes of a case exist.
+# Replaces a benchmark program. With PARTY set, each process waits until that many processes of a
+# case exist.
 PROGRAM = r"""#!/usr/bin/env python3
 import glob, json, os, re, sys, time
 names = ["edmill/a/1/iterations:3", "minimal/a/1", "edmill/b", "operation/c"]

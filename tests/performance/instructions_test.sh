@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# The count of instructions of a fixed short run is the recorded one within 2 %. Unlike a time it has no noise.
+# The count of instructions of a fixed short run is the recorded one within 2 %. Unlike a time it
+# has no noise.
 # usage: instructions_test.sh EDMILL [--update]
 # The figure holds for g++ 12 in a Release build; anything else is skipped (exit code 77).
 set -euo pipefail

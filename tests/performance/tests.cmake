@@ -1,4 +1,5 @@
-# The reference implementations, the comparison of figures and the recorded count of instructions; times are not tested.
+# The reference implementations, the comparison of figures and the recorded count of instructions;
+# times are not tested.
 set(benchmarks ${CMAKE_SOURCE_DIR}/verification/performance)
 edmill_test(reference_loops_test performance/reference_loops_test.cpp)
 target_sources(performance_tests PRIVATE ${benchmarks}/minimal_loop.cpp ${benchmarks}/peer_loop.cpp

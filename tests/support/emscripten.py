@@ -1,4 +1,5 @@
-"""The page of the mill and the npm package, made by release/npm.sh, and the digests that their runs must have."""
+"""The page of the mill and the npm package, made by release/npm.sh, and the digests that their runs
+must have."""
 import csv
 import subprocess
 

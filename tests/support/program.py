@@ -1,5 +1,7 @@
-"""What tests share that run the program: calls of it, a folder of their own, small cases, and readers of its files. The first argument of
-each is the program. CTest tells Python where this module is; by hand: PYTHONPATH=tests/support python3 tests/program/cli/signals_test.py build/ci/edmill
+"""What tests share that run the program: calls of it, a folder of their own, small cases, and
+readers of its files. The first argument of each is the program. CTest tells Python where this
+module is; by hand: PYTHONPATH=tests/support python3 tests/program/cli/signals_test.py
+build/ci/edmill
 """
 import csv
 import json
@@ -128,7 +130,8 @@ def shell(command, **options):
 
 
 def results(place, without=("case_file",)):
-    """Every file below a folder with its bytes, but without what times of the CPU change, and these keys of summaries."""
+    """Every file below a folder with its bytes, but without what times of the CPU change, and these
+    keys of summaries."""
     found = {}
     for path in sorted(pathlib.Path(place).rglob("*")):
         if not path.is_file():

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Prints the seconds until the program is linked again after a change of one line, for each of some sources.
+# Prints the seconds until the program is linked again after a change of one line, for each of some
+# sources.
 #
 # usage: rebuild_times.sh BUILD SOURCE...    BUILD is complete; every source is as it was afterwards
 set -euo pipefail

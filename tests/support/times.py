@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes docs/test-times.md: the seconds of each test in the last `ctest --preset ci`, which keeps them in tests.xml of its build.
+"""Writes docs/test-times.md: the seconds of each test in the last `ctest --preset ci`, which keeps
+them in tests.xml of its build.
 
 usage: times.py [BUILD]    (default: build/ci)
 """

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""Writes docs/codes.md: which code passes which test. The codes are those of Debian (LAMMPS, LIGGGHTS, YADE, as far as they are
-installed), edmill, and plain_mill, the second event-driven program of verification/plain.
+"""Writes docs/codes.md: which code passes which test. The codes are those of Debian (LAMMPS,
+LIGGGHTS, YADE, as far as they are installed), edmill, and plain_mill, the second event-driven
+program of verification/plain.
 
 usage: codes.py EDMILL PLAIN_MILL [PAGE]     some ten minutes of one core
 """

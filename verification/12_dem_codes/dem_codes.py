@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""The claim of README.md: decks of `edmill export` in LAMMPS, LIGGGHTS and YADE, their dumps by `edmill import`, and the verdicts of
-`edmill audit`; mistakes in decks; frames far apart; the limit of contacts of no duration.
+"""The claim of README.md: decks of `edmill export` in LAMMPS, LIGGGHTS and YADE, their dumps by
+`edmill import`, and the verdicts of `edmill audit`; mistakes in decks; frames far apart; the limit
+of contacts of no duration.
 
 usage: dem_codes.py EDMILL [decks] [mistakes] [frames] [vessels] [limit] [lammps] [liggghts] [yade]
        by default all parts but limit, with all codes
@@ -54,7 +55,8 @@ def export(code, name, *options, case=CASE):
 
 
 def simulate(command, name, case=CASE):
-    """Runs a deck while its dump is read from a pipe; gives the log of contacts and the processor time of the code."""
+    """Runs a deck while its dump is read from a pipe; gives the log of contacts and the processor
+    time of the code."""
     deck = command[-1]
     dump, log = f"{name}.dump", f"{name}.csv"
     os.mkfifo(dump)
@@ -134,7 +136,8 @@ def in_line(line, change):
     return changed
 
 
-#: For each code: mistake, its change of a deck, the value or cause that names it (or the second), and its truth where it is known.
+#: For each code: mistake, its change of a deck, the value or cause that names it (or the second),
+#and its truth where it is known.
 MISTAKES = {
     "lammps": {
         "damping tsuji 0.6 as documented": (scaled(MATERIAL, 0.6 / 0.437993257), E, 0.716),
@@ -188,10 +191,11 @@ MISTAKES = {
         "amplitude 5 % too small": (replaced("0.011*sin", "0.01045*sin"), ("mill.amplitude.y", VELOCITY), 0.01045),
     },
 }
-#: It changes the dose rate by 2.5 +- 2.1 % in LAMMPS and by -3.1 +- 2.5 % in LIGGGHTS (60 s and 40 s of each deck, contacts of 300 us),
-#: and no restitution: short logs may not show it.
+#: It changes the dose rate by 2.5 +- 2.1 % in LAMMPS and by -3.1 +- 2.5 % in LIGGGHTS (60 s and 40
+#s of each deck, contacts of 300 us), : and no restitution: short logs may not show it.
 SLIGHT = "tangential damping left on"
-#: The time that each code simulates [s], by contact time [us]: short contacts need short steps, and YADE is slow.
+#: The time that each code simulates [s], by contact time [us]: short contacts need short steps, and
+#YADE is slow.
 RUNS = {"lammps": {20: 0.5, 50: 1, 100: 1, 200: 2, 300: 2},
         "liggghts": {20: 0.5, 50: 1, 100: 1, 200: 1, 300: 2},
         "yade": {20: 0.25, 50: 0.5, 100: 0.5, 200: 1, 300: 1}}
@@ -277,7 +281,8 @@ density = "7.8 g/cm3"
 
 
 def vessels(codes):
-    """Vessels that turn: in LAMMPS in the vessel's frame, in the others as prisms. Contacts of 100 us; YADE is slow."""
+    """Vessels that turn: in LAMMPS in the vessel's frame, in the others as prisms. Contacts of 100
+    us; YADE is slow."""
     for mill, text, restitution in (("SPEX", SPEX, 0.52), ("planetary", PLANETARY, 0.6)):
         case = pathlib.Path(f"{mill}.toml")
         case.write_text(text)
@@ -294,7 +299,8 @@ def vessels(codes):
 
 
 def limit():
-    """The stiffest contacts decide the limit: theirs is the longest run. 20 steps in a contact at 4 m/s, as usual in this box."""
+    """The stiffest contacts decide the limit: theirs is the longest run. 20 steps in a contact at 4
+    m/s, as usual in this box."""
     logs = []
     for us, duration in ((300, 300), (150, 300), (75, 1000)):
         log, cpu = simulate(export("lammps", f"limit{us}", "--contact-time", f"{us} us", "--contact-speed", "4 m/s", "--steps", "20",
@@ -302,7 +308,8 @@ def limit():
         print(f"        contacts of {us} us, {duration} s: {cpu:.0f} s of processor time", flush=True)
         logs.append(log)
     slips = audit(logs[-1])[1]["slips"]
-    # A contact of LAMMPS can turn the slip by a little more than all of it, as it takes from the approach too; a law cannot.
+    # A contact of LAMMPS can turn the slip by a little more than all of it, as it takes from the
+    # approach too; a law cannot.
     law = {body: [[float(ratio), max(-1.0, bin[body])] for ratio, bin in slips.items() if body in bin] for body in ("walls", "balls")}
     own = ['contact.model="restitution-by-slip"', f"contact.ball_wall.tangential_by_slip={law['walls']}",
            f"contact.ball_ball.tangential_by_slip={law['balls']}", 'run.end_time="3001 s"']

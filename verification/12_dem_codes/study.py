@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Writes docs/dem_study.md: edmill, LAMMPS, LIGGGHTS and YADE on three cases: values at a contact time, processor time for a dose rate
-within 1 %, and what a code cannot express.
+"""Writes docs/dem_study.md: edmill, LAMMPS, LIGGGHTS and YADE on three cases: values at a contact
+time, processor time for a dose rate within 1 %, and what a code cannot express.
 
 usage: study.py EDMILL [PAGE]     some twenty minutes of one core
 """
@@ -51,7 +51,8 @@ def of_edmill(name, case, seconds):
 
 
 def rates(run, log):
-    """Dose rates of a run and a log with their intervals, by `edmill compare`; none where the log has no time after the case's start_time."""
+    """Dose rates of a run and a log with their intervals, by `edmill compare`; none where the log
+    has no time after the case's start_time."""
     pathlib.Path("rates.json").unlink(missing_ok=True)
     if edmill("compare", run, log, "--json", "rates.json", "--quiet").returncode not in (0, 6):
         return None
@@ -76,7 +77,8 @@ def rows_of(title, text, durations):
         result, found = audit(log, case)
         both = rates("own", log)
         if needed is None:
-            # The interval shrinks with the root of the time; the motion, not the code, decides how fast.
+            # The interval shrinks with the root of the time; the motion, not the code, decides how
+            # fast.
             half_width = both["a"]["milling_dose_rate_half_width"] / both["a"]["milling_dose_rate"]
             needed = (both["a"]["until"] - both["a"]["from"]) * (half_width / 0.01) ** 2
             rows.append(f"| edmill | {own_seconds} s | exact | exact | {both['a']['milling_dose_rate']:.2f} W ± {half_width:.1%} | "

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Random charges of mills that people have, eight seeds each: how many pairs of seeds have dose rates that differ by more than their joined
-intervals, and how many of these have no word about it in either run.
+"""Random charges of mills that people have, eight seeds each: how many pairs of seeds have dose
+rates that differ by more than their joined intervals, and how many of these have no word about it
+in either run.
 
 usage: charges.py EDMILL [CHARGES] [SEED]    by default 100 charges; an hour of one core
 """
@@ -39,7 +40,8 @@ def charge(random_):
 
 
 def run(edmill, file, settings, seed, folder):
-    """Dose rate, its half-width, and whether the run has a word about it; nothing where the run takes too long or has no interval."""
+    """Dose rate, its half-width, and whether the run has a word about it; nothing where the run
+    takes too long or has no interval."""
     command = [edmill, "run", file, "--quiet", "--out", folder, f"--set=run.seed={seed}", *(f"--set={one}" for one in settings)]
     try:
         done = subprocess.run(command, capture_output=True, text=True, timeout=MOST_SECONDS)

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""Claim 14: the Lyapunov exponents of a gas of hard spheres, elastic and smooth, between flat walls, which stretch nothing. By kinetic
-theory the sum of the positive ones over the collisions of balls grows with the logarithm of the density n: a collision stretches two
-directions by the free path over the diameter, so that per ball and collision of a ball it is -ln n + a constant in the dilute limit.
-The largest one is that of kinetic_theory.py, at the density that the centres of the balls have between the walls.
+"""Claim 14: the Lyapunov exponents of a gas of hard spheres, elastic and smooth, between flat
+walls, which stretch nothing. By kinetic theory the sum of the positive ones over the collisions of
+balls grows with the logarithm of the density n: a collision stretches two directions by the free
+path over the diameter, so that per ball and collision of a ball it is -ln n + a constant in the
+dilute limit. The largest one is that of kinetic_theory.py, at the density that the centres of the
+balls have between the walls.
 
 usage: PYTHONPATH=tests/support python3 hard_spheres.py EDMILL
 """
@@ -44,7 +46,8 @@ velocity = ["{v[0]} m/s", "{v[1]} m/s", "{v[2]} m/s"]
 
 
 def case(density, end, seed):
-    """Balls on a lattice with normal velocities; all exponents that are not negative, spins aside."""
+    """Balls on a lattice with normal velocities; all exponents that are not negative, spins
+    aside."""
     draws = random.Random(seed)
     edge = (BALLS * DIAMETER**3 / density) ** (1 / 3)
     side = math.ceil(BALLS ** (1 / 3))
@@ -59,7 +62,8 @@ def case(density, end, seed):
 
 
 def of_a_run(folder, density, end, seed):
-    """Of the exponents: the sum, per ball, and the largest; over the collisions of a ball with others in a second."""
+    """Of the exponents: the sum, per ball, and the largest; over the collisions of a ball with
+    others in a second."""
     (folder / "case.toml").write_text(case(density, end, seed))
     edmill("run", "case.toml", "--out", "out", "--quiet", cwd=folder, code=0)
     with open(folder / "out/lyapunov.csv") as file:

@@ -1,6 +1,7 @@
-"""The largest Lyapunov exponent of a gas of hard spheres by kinetic theory: Boltzmann's equation by direct simulation (Bird), in which
-balls have velocities and no places, with a direction of the tangent space that flies and collides (Ch. Dellago and H. A. Posch, Physica
-A 240, 68, 1997, simulate so, too). It has no code of edmill. Diameter and mass are 1."""
+"""The largest Lyapunov exponent of a gas of hard spheres by kinetic theory: Boltzmann's equation by
+direct simulation (Bird), in which balls have velocities and no places, with a direction of the
+tangent space that flies and collides (Ch. Dellago and H. A. Posch, Physica A 240, 68, 1997,
+simulate so, too). It has no code of edmill. Diameter and mass are 1."""
 import math
 import random
 
@@ -20,12 +21,14 @@ class Gas:
         self.v = [self.vector() for _ in range(balls)]
         drift = [sum(v[c] for v in self.v) / balls for c in range(3)]
         self.v = [plus(v, -1, drift) for v in self.v]
-        # A direction nearby: of places and of velocities, each place at the time of its ball's last collision.
+        # A direction nearby: of places and of velocities, each place at the time of its ball's last
+        # collision.
         self.of_place = [self.vector() for _ in range(balls)]
         self.of_velocity = [self.vector() for _ in range(balls)]
         self.at = [0.0] * balls
         self.time = 0.0
-        # Pairs are proposed at the rate of this relative speed, which none exceeds, and collide by their own.
+        # Pairs are proposed at the rate of this relative speed, which none exceeds, and collide by
+        # their own.
         self.fastest = 8 * math.sqrt(sum(dot(v, v) for v in self.v) / (3 * balls))
         self.rate = (balls - 1) / 2 * math.pi * density * self.fastest
 
@@ -47,7 +50,8 @@ class Gas:
                 return self.impact(i, j, g, speed)
 
     def normal(self, g, speed):
-        """From one ball to the other where they touch: the point is uniform on the disc that a beam sees."""
+        """From one ball to the other where they touch: the point is uniform on the disc that a beam
+        sees."""
         along = [x / speed for x in g]
         across = self.vector()
         across = plus(across, -dot(across, along), along)
@@ -78,7 +82,8 @@ class Gas:
 
 
 def largest_exponent(balls, density, collisions, seed):
-    """Over the collisions of a ball, of which those of a first tenth are left out. @param density  balls per cubed diameter"""
+    """Over the collisions of a ball, of which those of a first tenth are left out. @param density
+    balls per cubed diameter"""
     gas, sum_of, every = Gas(balls, density, seed), 0, 50
     for k in range(collisions // every):
         for _ in range(every):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Claim 14: derivatives of runs. Against central differences of runs in 150 digits, and a ball on an oscillating table, whose
-orbit of one period has multipliers in closed form.
+"""Claim 14: derivatives of runs. Against central differences of runs in 150 digits, and a ball on
+an oscillating table, whose orbit of one period has multipliers in closed form.
 
 usage: PYTHONPATH=tests/support python3 tangent.py EDMILL
 """
@@ -121,8 +121,8 @@ class Derivatives(unittest.TestCase):
         return rows(self.folder / "run" / "collisions.csv")
 
     def case_from_state(self, text):
-        """The case from a state after its 6th impact: numbers of the case do not move it, nor, in the first drive period, its
-        instant."""
+        """The case from a state after its 6th impact: numbers of the case do not move it, nor, in
+        the first drive period, its instant."""
         first = self.folder / "first.toml"
         first.write_text(text + BALLS)
         self.log(first, 6)
@@ -187,10 +187,11 @@ class Derivatives(unittest.TestCase):
 
 
 class Table(unittest.TestCase):
-    """A ball on a table A sin(w t) that it meets once a period T, at the phase p, with restitution e. There the table has
-    the speed u = A w cos p = (g T / 2) (1 - e) / (1 + e) and the acceleration a = -A w^2 sin p. Instants t of successive
-    impacts then differ, in motions nearby, by d'' = (1 + e^2 + (1 + e)^2 a / g) d' - e^2 d: the multipliers of the orbit are
-    the roots of m^2 - (1 + e^2 + (1 + e)^2 a / g) m + e^2."""
+    """A ball on a table A sin(w t) that it meets once a period T, at the phase p, with restitution
+    e. There the table has the speed u = A w cos p = (g T / 2) (1 - e) / (1 + e) and the
+    acceleration a = -A w^2 sin p. Instants t of successive impacts then differ, in motions nearby,
+    by d'' = (1 + e^2 + (1 + e)^2 a / g) d' - e^2 d: the multipliers of the orbit are the roots of
+    m^2 - (1 + e^2 + (1 + e)^2 a / g) m + e^2."""
 
     G = Decimal("9.8")
     T = Decimal("0.05")
@@ -248,12 +249,14 @@ position = [0, "{height:.100f} m", 0]
                         self.assertLessEqual(abs(d[k + 2] - expected), Decimal("1e-20") * max(map(abs, d)), (e, phase, k))
 
     def test_the_phase_at_which_the_period_doubles(self):
-        """A multiplier is -1 where a = -2 g (1 + e^2) / (1 + e)^2: tan p = (2 / pi) (1 + e^2) / (1 - e^2)."""
+        """A multiplier is -1 where a = -2 g (1 + e^2) / (1 + e)^2: tan p = (2 / pi) (1 + e^2) / (1
+        - e^2)."""
         for e in map(Decimal, ("0.3", "0.5", "0.7", "0.9")):
             phase = Decimal(repr(math.atan(2 / math.pi * float((1 + e * e) / (1 - e * e)))))
             trace, (d, _) = self.derivatives(e, phase)
             self.assertAlmostEqual(float(trace), -1 - float(e * e), delta=1e-12)
-            # What is left when the other multiplier, -e^2, has died away changes its sign at each impact.
+            # What is left when the other multiplier, -e^2, has died away changes its sign at each
+            # impact.
             rest = [d[k + 1] + e * e * d[k] for k in range(len(d) - 1)]
             for one, other in zip(rest, rest[1:]):
                 self.assertAlmostEqual(float(other / one), -1, delta=1e-9)

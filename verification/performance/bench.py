@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 """Runs the benchmarks into JSON files and compares such files.
 
-  bench.py run --binary BENCH --out A.json [--binary BENCH2 --out B.json] [--rounds 5] [--filter REGEX] [--core N]
-  bench.py compare A.json B.json [--least 0.02]
+  bench.py run --binary BENCH --out A.json [--binary BENCH2 --out B.json] [--rounds 5] [--filter
+  REGEX] [--core N] bench.py compare A.json B.json [--least 0.02]
   bench.py ratios A.json
 
-`run` with several binaries runs them in turn, round by round, so that a slow hour of the machine hits all of
-them alike. With --core edmill and the reference implementations of a case run simultaneously on that core, those of all binaries,
-where a slow minute hits them alike, too; CPU times then count the caches that they take from each other. `compare`
-exits with 1 when a figure of B is slower than in A, with 2 on bad input.
+`run` with several binaries runs them in turn, round by round, so that a slow hour of the machine
+hits all of them alike. With --core edmill and the reference implementations of a case run
+simultaneously on that core, those of all binaries, where a slow minute hits them alike, too; CPU
+times then count the caches that they take from each other. `compare` exits with 1 when a figure of
+B is slower than in A, with 2 on bad input.
 """
 import argparse
 import datetime
@@ -172,8 +173,9 @@ def relative_error(values):
 
 
 def bounds(statistic, samples):
-    """The statistic of the samples with the bounds of its bootstrapped 99 % interval. When values repeat or are
-    few the bootstrap is too sure of itself, so the interval is never narrower than the MADs allow."""
+    """The statistic of the samples with the bounds of its bootstrapped 99 % interval. When values
+    repeat or are few the bootstrap is too sure of itself, so the interval is never narrower than
+    the MADs allow."""
     draw = random.Random(20110101)
     drawn = sorted(statistic(*(draw.choices(v, k=len(v)) for v in samples)) for _ in range(DRAWS))
     found, low, high = statistic(*samples), drawn[DRAWS // 200], drawn[DRAWS - 1 - DRAWS // 200]
@@ -203,7 +205,8 @@ def paired_range(a, b):
 
 
 def verdict(a, b, paired, least):
-    """What figure b is beside a: faster, slower or no different; differences below `least` count for none."""
+    """What figure b is beside a: faster, slower or no different; differences below `least` count
+    for none."""
     if min(len(a["values"]), len(b["values"])) < FEWEST:
         return "too few values", None
     found = (paired_interval if paired else interval)(a["values"], b["values"])
@@ -252,7 +255,8 @@ def print_figures(result):
 
 
 def print_ratios(result):
-    """edmill over each reference implementation, from the same run and at equal numbers of balls."""
+    """edmill over each reference implementation, from the same run and at equal numbers of
+    balls."""
     for reference in ("minimal", "peer"):
         lines = []
         for name, figure in result["figures"].items():

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""CPU time for a collision with bodies inside the vessel over that without: eight bars in a shaken cylinder; and the growth of the cost from 400
-to 4000 balls around a rotor with four blades.
+"""CPU time for a collision with bodies inside the vessel over that without: eight bars in a shaken
+cylinder; and the growth of the cost from 400 to 4000 balls around a rotor with four blades.
 
 usage: body_costs.py EDMILL [--rounds 5]
 
@@ -77,7 +77,8 @@ def shaken(count, bodies=""):
 
 
 def rotor(count, fill):
-    """The vessel and all of the rotor grow with the volume of the balls; the tips of the blades keep their speed."""
+    """The vessel and all of the rotor grow with the volume of the balls; the tips of the blades
+    keep their speed."""
     diameter = (count * math.pi / 6 * 5 ** 3 / fill * 4 / math.pi / 1.2) ** (1 / 3)
     return ROTOR.format(time=0.5 if count < 1000 else 0.2, D=diameter, H=1.2 * diameter, shaft=0.12 * diameter, rpm=36000 / diameter,
                         width=0.25 * diameter, height=1.08 * diameter, thick=0.04 * diameter, place=0.2 * diameter, count=count)

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""CPU time for a collision in other mills and vessels over that in the SPEX with its cylinder: 28 balls of 4.76 mm, e 0.53, mu 0.4.
+"""CPU time for a collision in other mills and vessels over that in the SPEX with its cylinder: 28
+balls of 4.76 mm, e 0.53, mu 0.4.
 
 usage: mill_costs.py EDMILL [--rounds 9] [--collisions 300000]
 
-Every round runs all mills one after the other; the ratios are of one round, the table has their medians and ranges."""
+Every round runs all mills one after the other; the ratios are of one round, the table has their
+medians and ranges."""
 import argparse
 import json
 import pathlib

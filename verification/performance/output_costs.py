@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """What outputs cost on the demo case: the table of docs/performance.md.
 
-Instructions of the first simulated second by callgrind, CPU time of the whole case as the median ratio of alternated runs, and bytes an
-event of the HDF5 logs.
+Instructions of the first simulated second by callgrind, CPU time of the whole case as the median
+ratio of alternated runs, and bytes an event of the HDF5 logs.
 
 usage: output_costs.py EDMILL
 """

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""CPU time of a run in Python, with its events as a NumPy array, over that of `edmill run` with the same log in HDF5.
+"""CPU time of a run in Python, with its events as a NumPy array, over that of `edmill run` with the
+same log in HDF5.
 
 usage: PYTHONPATH=build/ci/python python_costs.py EDMILL [--rounds 9] [--collisions 1000000]
 
-The demo case. Each process is measured whole, its start and its imports included; every round runs one after the other, and the
-ratios are of one round."""
+The demo case. Each process is measured whole, its start and its imports included; every round runs
+one after the other, and the ratios are of one round."""
 import argparse
 import os
 import pathlib

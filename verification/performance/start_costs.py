@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Impacts per CPU second from the start of a run on, where balls at rest share the ends of their wall searches: four impacts a ball.
+"""Impacts per CPU second from the start of a run on, where balls at rest share the ends of their
+wall searches: four impacts a ball.
 
 usage: start_costs.py EDMILL [COUNT...]
 """

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""`edmill audit --identify` on logs of plain_mill, which shares no code with edmill, with mistakes planted in its equations, in some of
-its impacts, and in the columns of its log: each is named with its value, and nothing else is.
+"""`edmill audit --identify` on logs of plain_mill, which shares no code with edmill, with mistakes
+planted in its equations, in some of its impacts, and in the columns of its log: each is named with
+its value, and nothing else is.
 
-usage: PYTHONPATH=tests/support python3 faults_test.py EDMILL PLAIN_MILL [--every K] [--thin K] [--clean N]     K: one in K faults, for a quick run
+usage: PYTHONPATH=tests/support python3 faults_test.py EDMILL PLAIN_MILL [--every K] [--thin K]
+    [--clean N]     K: one in K faults, for a quick run
 """
 import argparse
 import csv
@@ -136,7 +138,8 @@ def check(good, name, text):
 
 
 def named(causes, wanted):
-    """Whether the first cause is what is wanted, {key: value}, each value within its interval, or the log cannot tell it from that."""
+    """Whether the first cause is what is wanted, {key: value}, each value within its interval, or
+    the log cannot tell it from that."""
     if not causes:
         return False
     first = causes["1"]
@@ -145,13 +148,15 @@ def named(causes, wanted):
     return any(all(key in text for key in wanted) for text in first["alike"].values())
 
 
-#: A number of the case that says the same as a term, or half of what a number of both kinds of contact says.
+#: A number of the case that says the same as a term, or half of what a number of both kinds of
+#contact says.
 INSTEAD = {"gravity in flights": ("run.gravity", 9.8), "contact.friction": ("contact.ball_ball.friction", 1),
            "c - 1 in the limit of sliding": ("contact.friction", None)}
 
 
 def false_names(wanted):
-    """Of the single causes that the audit names without a search for several those that are not wanted, {key: value}."""
+    """Of the single causes that the audit names without a search for several those that are not
+    wanted, {key: value}."""
     values = dict(wanted)
     for key, value in wanted.items():
         other, factor = INSTEAD.get(key, (key, 1))
@@ -185,7 +190,8 @@ SUMS = ("approach_speed", "slip_speed", "milling_dose", "wall_work")
 #: Logs that begin late or have few columns.
 THIN = {"late": lambda rows: rows[2 * len(rows) // 5:], "states alone": lambda rows: without(rows, lambda key: key in SUMS),
         "the ball alone": lambda rows: without(rows, lambda key: key.startswith("partner_") and key != "partner_kind")}
-#: What such a log cannot show: terms of columns that it lacks, and what concerns pairs of balls where only one is known.
+#: What such a log cannot show: terms of columns that it lacks, and what concerns pairs of balls
+#where only one is known.
 OF_SUMS = {"dose", "spin_in_dose", "work_in_dose", "supply_in_dose", "wall_work", "approach_speed", "slip_speed"}
 
 

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""Random mills with bodies inside the vessel: certified sequences of edmill against plain_bodies, the same events and every value to 31 digits.
+"""Random mills with bodies inside the vessel: certified sequences of edmill against plain_bodies,
+the same events and every value to 31 digits.
 
-usage: PYTHONPATH=tests/support python3 plain_bodies_test.py EDMILL PLAIN_BODIES [MILLS] [SEED] [EVENTS]
+usage: PYTHONPATH=tests/support python3 plain_bodies_test.py EDMILL PLAIN_BODIES [MILLS] [SEED]
+    [EVENTS]
 """
 import os
 import pathlib
@@ -21,7 +23,8 @@ AXES = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
 
 
 class Joint:
-    """A joint as both programs read it, and the largest speed that it gives to any point (6 cm away at most from the axis)."""
+    """A joint as both programs read it, and the largest speed that it gives to any point (6 cm away
+    at most from the axis)."""
 
     def __init__(self, turns, axis, angle=0, speed=0, shift=(0, 0, 0), swing=None):
         number = lambda values: "[" + ", ".join(f'"{value} mm"' for value in values) + "]"

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Certified sequences of edmill against plain_mill: the same events, every value to 25 digits.
 
-usage: PYTHONPATH=tests/support python3 plain_mill_test.py EDMILL PLAIN_MILL [--digits N] [--events N]
+usage: PYTHONPATH=tests/support python3 plain_mill_test.py EDMILL PLAIN_MILL [--digits N] [--events
+    N]
 """
 import argparse
 import csv
@@ -41,7 +42,8 @@ def contents(rows, restitution):
 
 
 def compare(reference, rows, limit):
-    """Events in common, events before the first value beyond the limit, worst difference of the events in common."""
+    """Events in common, events before the first value beyond the limit, worst difference of the
+    events in common."""
     largest = {name: max(abs(row[name]) for row in reference) for name in VALUES}
     common, good, worst = 0, None, (Decimal(0), "")
     for wanted, row in zip(reference, rows):

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""When the single ball of thesis chapter 4 is captured on the cylinder, and its dose rate while it is free.
+"""When the single ball of thesis chapter 4 is captured on the cylinder, and its dose rate while it
+is free.
 
-A ball is captured from the end of the last interval of 0.05 s on in which it touched a cap; one that touched a cap in the
-last 2 s of the run, 35 drive periods, was not captured by the end.
+A ball is captured from the end of the last interval of 0.05 s on in which it touched a cap; one
+that touched a cap in the last 2 s of the run, 35 drive periods, was not captured by the end.
 
-usage: capture.py EDMILL [--seeds 200] [--end "150 s"] [--jobs 2] [--least-separation "1 cm/s"] [--table FILE]
+usage: capture.py EDMILL [--seeds 200] [--end "150 s"] [--jobs 2] [--least-separation "1 cm/s"]
+    [--table FILE]
 """
 import argparse
 import concurrent.futures
@@ -66,7 +68,8 @@ def share_interval(count, of):
 
 
 def inverse_rate(runs):
-    """Free time over dose of all runs together, with its 95 % interval by the scatter of the runs."""
+    """Free time over dose of all runs together, with its 95 % interval by the scatter of the
+    runs."""
     times, doses = [run[2] for run in runs], [run[3] for run in runs]
     mean = sum(times) / sum(doses)
     off = sum((t - mean * d) ** 2 for t, d in zip(times, doses))

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Judges a collision log by the npm package: installs it, audits the log, compares it with a reference if there is one.
-# Writes audit.xml and compare.xml (JUnit) and, on GitHub, annotations. Settings are environment variables:
+# Judges a collision log by the npm package: installs it, audits the log, compares it with a
+# reference if there is one. Writes audit.xml and compare.xml (JUnit) and, on GitHub, annotations.
+# Settings are environment variables:
 #   EDMILL_CASE, EDMILL_LOG   case file and log
 #   EDMILL_OPTIONS            of edmill audit (default: --gap-tolerance 1e-4)
 #   EDMILL_REFERENCE          a log or the folder of a run to compare with (default: none)

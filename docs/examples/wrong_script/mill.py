@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Three balls in the SPEX 8000, in small time steps, with five mistakes; docs/reference-data.md audits it.
+"""Three balls in the SPEX 8000, in small time steps, with five mistakes; docs/reference-data.md
+audits it.
 
 usage: mill.py LOG.csv [--fix NAME ...] [--step 1e-5] [--end 0.2]
 """

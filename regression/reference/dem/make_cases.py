@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Makes the YAML files beside it: published tests of DEM codes with the values that a right code finds, from closed forms.
+"""Makes the YAML files beside it: published tests of DEM codes with the values that a right code
+finds, from closed forms.
 
 usage: make_cases.py [FOLDER]     this folder unless given
 """
@@ -13,10 +14,12 @@ def sphere_mass(radius, density):
 
 
 def hertz(mass, radius, modulus, speed):
-    """Elastic contact: largest overlap, largest force, duration. mass, radius, modulus are the effective ones."""
+    """Elastic contact: largest overlap, largest force, duration. mass, radius, modulus are the
+    effective ones."""
     overlap = (15 * mass * speed ** 2 / (16 * math.sqrt(radius) * modulus)) ** 0.4
     force = 4 / 3 * modulus * math.sqrt(radius) * overlap ** 1.5
-    # The integral of dx / sqrt(1 - x^2.5) from 0 to 1, twice: 4/5 sqrt(pi) gamma(2/5) / gamma(9/10).
+    # The integral of dx / sqrt(1 - x^2.5) from 0 to 1, twice: 4/5 sqrt(pi) gamma(2/5) /
+    # gamma(9/10).
     duration = 0.8 * math.sqrt(math.pi) * math.gamma(0.4) / math.gamma(0.9) * overlap / speed
     return overlap, force, duration
 
@@ -114,7 +117,8 @@ def chung_ooi_5():
 
 
 def spun(source, what, name, material, spins, second_mass=None, second_radius=None):
-    """Impact of a sphere that spins: what friction gives it while it slides throughout, by its share of the impulse."""
+    """Impact of a sphere that spins: what friction gives it while it slides throughout, by its
+    share of the impulse."""
     density, young, poisson = material
     radius, speed, friction, restitution = 0.1, 0.2, 0.4, 0.5
     case = Case(name, source, what)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""stepped_mill with exact search and edmill's least separation speed gives the statistics of edmill; with lossless impacts within 0.5 ms it does not.
+"""stepped_mill with exact search and edmill's least separation speed gives the statistics of
+edmill; with lossless impacts within 0.5 ms it does not.
 
 usage: control_test.py STEPPED_MILL
 """

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The page is assembled from the files that it names, here with nothing for an engine; and the wheel finds the source.
+"""The page is assembled from the files that it names, here with nothing for an engine; and the
+wheel finds the source.
 
 usage: PYTHONPATH=tests/support python3 assemble_test.py EDMILL
 """

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""The mill in a browser: the page is built by Emscripten, then used in headless Chromium as a reader would: a run to 20 000 impacts has the
-published digest, impacts one by one, wrong cases, a log with a mistake and one without, two widths, light and dark, no request, an
-empty console. Debian: emscripten, node-acorn, chromium-driver, python3-selenium.
+"""The mill in a browser: the page is built by Emscripten, then used in headless Chromium as a
+reader would: a run to 20 000 impacts has the published digest, impacts one by one, wrong cases, a
+log with a mistake and one without, two widths, light and dark, no request, an empty console.
+Debian: emscripten, node-acorn, chromium-driver, python3-selenium.
 
 usage: PYTHONPATH=tests/support python3 page_test.py EDMILL FOLDER
 FOLDER keeps the build, the page edmill.html and screenshots

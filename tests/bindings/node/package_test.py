@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""The npm package: built by Emscripten, installed offline into an empty folder, and compared with the program: bits, texts, exit codes,
-JUnit, standard input, memory; its module; the script of docs/examples/ci. Needs Debian's emscripten and nodejs, and npm.
+"""The npm package: built by Emscripten, installed offline into an empty folder, and compared with
+the program: bits, texts, exit codes, JUnit, standard input, memory; its module; the script of
+docs/examples/ci. Needs Debian's emscripten and nodejs, and npm.
 
 usage: PYTHONPATH=tests/support python3 package_test.py EDMILL FOLDER [NODE...]
 FOLDER keeps the build and the package; NODE are further programs "node" to try

@@ -1,4 +1,5 @@
-"""Every argument of every public function, with values of wrong types: one error that names it, and no run."""
+"""Every argument of every public function, with values of wrong types: one error that names it, and
+no run."""
 import decimal
 
 import numpy as np

@@ -1,4 +1,5 @@
-"""Python ends normally while daemon threads are in edmill: computing, in callbacks, and waiting for Python's lock."""
+"""Python ends normally while daemon threads are in edmill: computing, in callbacks, and waiting for
+Python's lock."""
 import subprocess
 import sys
 

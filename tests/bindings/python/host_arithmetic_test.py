@@ -1,4 +1,5 @@
-"""A Python that rounds otherwise, or flushes subnormal numbers, gets the same results, and its own arithmetic back."""
+"""A Python that rounds otherwise, or flushes subnormal numbers, gets the same results, and its own
+arithmetic back."""
 import os
 import pathlib
 import subprocess

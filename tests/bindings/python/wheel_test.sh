@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# `pip install .` from a clone, without a package index, into an environment of its own; and a wheel that holds the
-# libraries that it needs, installed for an interpreter that is not Debian's, if there is one of the same version, and in a
-# Debian that has only Python and NumPy (needs root, debootstrap and a mirror).
+# `pip install .` from a clone, without a package index, into an environment of its own; and a wheel
+# that holds the libraries that it needs, installed for an interpreter that is not Debian's, if
+# there is one of the same version, and in a Debian that has only Python and NumPy (needs root,
+# debootstrap and a mirror).
 # usage: wheel_test.sh FOLDER
 set -euo pipefail
 folder=$1

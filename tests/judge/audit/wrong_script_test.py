@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The wrong script of docs/reference-data.md: the audit finds exactly its mistakes, and each fix removes its finding
-away.
+"""The wrong script of docs/reference-data.md: the audit finds exactly its mistakes, and each fix
+removes its finding away.
 
 usage: PYTHONPATH=tests/support python3 wrong_script_test.py EDMILL
 """

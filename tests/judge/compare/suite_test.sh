@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# The suite of reference cases: its closed forms can be made again, edmill agrees with the events and the statistics of
-# every case, and the comparison programs accept what is right and reject what is changed.
+# The suite of reference cases: its closed forms can be made again, edmill agrees with the events
+# and the statistics of every case, and the comparison programs accept what is right and reject what
+# is changed.
 # usage: suite_test.sh EDMILL PYTHON FOLDER
 set -euo pipefail
 export PYTHONDONTWRITEBYTECODE=1
@@ -37,7 +38,8 @@ in_python() { # name of the case, file
   "$python" "$suite/check.py" "$suite/$1" "$2"
 }
 
-# A run of edmill, then logs with one event left out, two swapped, a time off by a thousandth, another partner.
+# A run of edmill, then logs with one event left out, two swapped, a time off by a thousandth,
+# another partner.
 events_agree() { # name, events, settings
   local name=$1 events=$suite/$1/$2 log=$1/collisions.csv count tolerance
   count=$(field "$name" agree) tolerance=$(field "$name" tolerance)
@@ -65,7 +67,8 @@ events_agree() { # name, events, settings
   done
 }
 
-# Short runs of edmill; then all values just within, and all just outside, tolerance and 3 standard uncertainties.
+# Short runs of edmill; then all values just within, and all just outside, tolerance and 3 standard
+# uncertainties.
 statistics_agree() { # name, statistics
   local name=$1 table=$suite/$1/$2 share code differ
   "$python" "$suite/edmill_statistics.py" "$edmill" "$name" found.csv --short
@@ -102,7 +105,8 @@ done
 [ $cases -ge 14 ] && [ $statistics -ge 6 ] || fail "found $cases cases, $statistics with statistics"
 # A least separation speed makes the same hops at any restitution.
 events_agree slipping_particle events.csv --set contact.restitution=0.5 --set 'contact.least_separation="9.8 mm/s"'
-# The theory beside the statistics of the gas is that of closed_forms.py; what is exact is within 3 standard uncertainties.
+# The theory beside the statistics of the gas is that of closed_forms.py; what is exact is within 3
+# standard uncertainties.
 "$python" - "$suite" <<'END' || fail "elastic_gas: theory"
 import csv, sys
 sys.path.insert(0, sys.argv[1])

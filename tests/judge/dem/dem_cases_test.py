@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""The files of regression/reference/dem are those that make_cases.py writes, and a contact integrated step by step has their values."""
+"""The files of regression/reference/dem are those that make_cases.py writes, and a contact
+integrated step by step has their values."""
 import importlib.util
 import math
 import pathlib
@@ -84,8 +85,9 @@ for file in sorted(FOLDER.glob("chung_ooi_4_*.yaml")):
 
 
 def sliding(speed, along, spin, radius, friction, restitution, second_mass=math.inf, second_radius=1.0, second_spin=0.0, steps=20000):
-    """Speeds and spin after a contact of a sphere of mass 1, integrated: a spring that is stiffer when it unloads, and Coulomb's friction.
-    Positive slip is that of the sphere's surface along x; the other body has `second_mass` and, with the same sense of spin, rubs too."""
+    """Speeds and spin after a contact of a sphere of mass 1, integrated: a spring that is stiffer
+    when it unloads, and Coulomb's friction. Positive slip is that of the sphere's surface along x;
+    the other body has `second_mass` and, with the same sense of spin, rubs too."""
     stiffness = 1e6
     effective = 1 / (1 + 1 / second_mass)
     step = math.pi / 2 * math.sqrt(effective / stiffness) / steps

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""`export`, `import`, `audit`, `compare` and `limit` as a user calls them, with the small DEM code of this folder; and their errors.
+"""`export`, `import`, `audit`, `compare` and `limit` as a user calls them, with the small DEM code
+of this folder; and their errors.
 usage: PYTHONPATH=tests/support python3 dem_commands_test.py EDMILL SMALL_DEM_DUMP"""
 import gzip
 import json

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""A dump of 5 GB through a pipe needs no more memory than one of 0.2 GB. Twenty balls fly to and fro between two walls, each in a
-lane of its own, so that the contacts are known: two for each ball and period.
+"""A dump of 5 GB through a pipe needs no more memory than one of 0.2 GB. Twenty balls fly to and
+fro between two walls, each in a lane of its own, so that the contacts are known: two for each ball
+and period.
 
 usage: large_dump_test.py EDMILL [GIGABYTES]
 """

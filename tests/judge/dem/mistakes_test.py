@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""A DEM code that is right agrees with the case, and each of a table of mistakes differs, by its name.
+"""A DEM code that is right agrees with the case, and each of a table of mistakes differs, by its
+name.
 
 usage: PYTHONPATH=tests/support python3 mistakes_test.py EDMILL SPRING_DEM [--all]
        --all: contact times of 20 to 300 us; else a part of the table, once
@@ -47,7 +48,8 @@ MISTAKES = {
     "restitution_by_speed=0.1": "restitution of fast contacts at walls", "mixed_restitution=0.03": "spread of the restitution at walls",
     "radius_of_last=0.9": "diameter over the case's", "density_of_last=0.8": "density over the case's",
 }
-#: What differs as well: friction goes on while bodies attract each other; spins have another sign in a mirror.
+#: What differs as well: friction goes on while bodies attract each other; spins have another sign
+#in a mirror.
 BESIDE = {"attraction=1": {"friction"}, "exchanged_axes=1": {"spin"}}
 #: Laws of codes that are right.
 RIGHT = ({}, {"restitution": 0.3}, {"restitution": 0.85, "friction": 0.1})
@@ -58,7 +60,8 @@ RUNS = ((20, 1), (50, 2), (100, 3), (200, 1), (200, 2), (300, 2), (300, 3)) if A
 
 
 def judged(options, time, seed, case=(), reading=()):
-    """The exit code and the document of an audit; the code and message of an import that is refused."""
+    """The exit code and the document of an audit; the code and message of an import that is
+    refused."""
     with open("frames.dump", "wb") as out:
         subprocess.run([DEM, f"contact_time={time}e-6", f"seed={seed}", *options], stdout=out, check=True)
     done = edmill("import", "frames.dump", "--case", CASE, "--timestep", f"{time / 50} us", "--out", "contacts.csv", "--quiet", *case, *reading)

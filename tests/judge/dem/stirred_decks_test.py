@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Decks of cases with bodies in the vessel, run by the DEM codes that are installed: balls leave their flights at the walls and bodies of the
-case, no contact is missed, and the restitution at the bodies is that of the case. Skipped without any of the codes.
+"""Decks of cases with bodies in the vessel, run by the DEM codes that are installed: balls leave
+their flights at the walls and bodies of the case, no contact is missed, and the restitution at the
+bodies is that of the case. Skipped without any of the codes.
 
 usage: PYTHONPATH=tests/support python3 stirred_decks_test.py EDMILL
 """

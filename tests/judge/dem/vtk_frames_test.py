@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Frames in VTK's formats: two of LIGGGHTS 3.8 (dump custom/vtk of the vibrated box), and a .pvd with two parts, as Lethe writes it.
+"""Frames in VTK's formats: two of LIGGGHTS 3.8 (dump custom/vtk of the vibrated box), and a .pvd
+with two parts, as Lethe writes it.
 
 usage: vtk_frames_test.py
 """

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""`edmill audit --identify` where there is little to go by: few lines, lines that cannot be read, balls that come to rest, a log that
-begins at a saved state, numbers far off, other laws, joints that are ahead of others, and a signal.
+"""`edmill audit --identify` where there is little to go by: few lines, lines that cannot be read,
+balls that come to rest, a log that begins at a saved state, numbers far off, other laws, joints
+that are ahead of others, and a signal.
 
-usage: PYTHONPATH=tests/support python3 cases.py EDMILL [EVERY]    EVERY: one pair of a mill and a vessel in so many (default: all)"""
+usage: PYTHONPATH=tests/support python3 cases.py EDMILL [EVERY]    EVERY: one pair of a mill and a
+    vessel in so many (default: all)"""
 import csv
 import itertools
 import json
@@ -114,7 +116,8 @@ def saved_state():
 
 
 def other_vessels():
-    """Each mill and vessel against a log of another speed, diameter or size: an assumption may have other walls than the log."""
+    """Each mill and vessel against a log of another speed, diameter or size: an assumption may have
+    other walls than the log."""
     vessels = {'type = "rounded_cylinder"\ndiameter = "40 mm"\nheight = "40 mm"\nedge_radius = "8 mm"': 'vessel.edge_radius="7 mm"',
                'type = "capsule"\ndiameter = "38 mm"\nheight = "60 mm"': 'vessel.height="61 mm"',
                'type = "box"\nsize = ["40 mm", "50 mm", "60 mm"]': 'vessel.size=["40 mm", "50.2 mm", "60 mm"]',
@@ -161,7 +164,8 @@ def is_named(causes, key, value):
 
 
 def numbers_far_off():
-    """A number of the log that the case has far from it, or not at all: (setting of the log, of the case, key, value in SI)."""
+    """A number of the log that the case has far from it, or not at all: (setting of the log, of the
+    case, key, value in SI)."""
     rpm = math.pi / 30
     wrong = (('mill.arm="130 mm"', None, "mill.arm", 0.13), ('mill.speed="2108 rpm"', None, "mill.speed", 2108 * rpm),
              ('mill.speed="600 rpm"', None, "mill.speed", 600 * rpm), ('mill.speed="1500 rpm"', None, "mill.speed", 1500 * rpm),
@@ -176,7 +180,8 @@ def numbers_far_off():
 
 
 def other_laws():
-    """Logs made with another contact law than the case's, of all contacts or of one kind, with random numbers: the law and its number."""
+    """Logs made with another contact law than the case's, of all contacts or of one kind, with
+    random numbers: the law and its number."""
     seed = 20261127
     numbers = random.Random(seed)
     laws = {"constant": ("restitution_tangential", "", lambda: numbers.uniform(-0.9, 0.9), "restitution = 0.53"),
@@ -264,7 +269,8 @@ def density_of_equal_balls():
 
 
 def parts_of_the_log():
-    """A restitution of 0.6 in a part of the contacts: at walls of one material, at flat walls, at one wall, in impacts of one entry."""
+    """A restitution of 0.6 in a part of the contacts: at walls of one material, at flat walls, at
+    one wall, in impacts of one entry."""
     materials = '[[material]]\nname = "steel"\ndensity = "8 g/cm3"\n[[material]]\nname = "liner"\n'
     box = DEMO.replace('type = "cylinder"\ndiameter = "38 mm"\nheight = "57 mm"', 'type = "box"\nsize = ["38 mm", "57 mm", "40 mm"]')
     balls = 'count = 28\ndiameter = "4.76 mm"\n'

@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
-"""`edmill audit --identify` in random trials: logs of cases with one value or mistake other than the audited case's, with two, with
-none, and with rounding alone. The right cause must come first, with its value within its interval.
+"""`edmill audit --identify` in random trials: logs of cases with one value or mistake other than
+the audited case's, with two, with none, and with rounding alone. The right cause must come first,
+with its value within its interval.
 
-usage: PYTHONPATH=tests/support python3 trials.py EDMILL FOLDER [--trials N] [--pairs N] [--clean N] [--jobs J] [--only TEXT] [--every K] [--seed S]
-N trials of each parameter, by 0.1 % and by 5 %, of each mistake, and of logs with `time, ball, partner` alone; N trials of two at
-once; N clean and N rounded logs. A log that does not tell a change from others is drawn again."""
+usage: PYTHONPATH=tests/support python3 trials.py EDMILL FOLDER [--trials N] [--pairs N] [--clean N]
+    [--jobs J] [--only TEXT] [--every K] [--seed S]
+N trials of each parameter, by 0.1 % and by 5 %, of each mistake, and of logs with `time, ball,
+partner` alone; N trials of two at once; N clean and N rounded logs. A log that does not tell a
+change from others is drawn again."""
 import argparse
 import concurrent.futures
 import csv
@@ -102,7 +105,8 @@ states = true
 
 
 def changed_log(file, how, random_numbers):
-    """The log as another code would write it: other units, other columns, other numbers, fewer digits."""
+    """The log as another code would write it: other units, other columns, other numbers, fewer
+    digits."""
     rows = list(csv.reader(file.open()))
     header, rows = rows[0], rows[1:]
     at = {name: k for k, name in enumerate(header)}
@@ -198,7 +202,8 @@ def other_value(key, share):
 
 
 def shows(found):
-    """Whether the log has impacts that tell the change from others: none does where no two balls meet slowly, for one."""
+    """Whether the log has impacts that tell the change from others: none does where no two balls
+    meet slowly, for one."""
     told = not any(cause["alike"] for cause in found["causes"].values())
     return found["violations"] > 0 and told and all(n > 0 for n in found.get("without", {}).values())
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The pages of a run, a comparison, a sweep and an optimisation judged by axe-core against WCAG 2.2 AA, at two widths,
-light and dark. axe-core is not part of Debian: its path is an argument.
+"""The pages of a run, a comparison, a sweep and an optimisation judged by axe-core against WCAG 2.2
+AA, at two widths, light and dark. axe-core is not part of Debian: its path is an argument.
 
 usage: PYTHONPATH=tests/support python3 accessibility_test.py EDMILL AXE.MIN.JS [FOLDER]
 FOLDER keeps the pages and a screenshot of each. Without axe.min.js the exit code is 77.

@@ -1,4 +1,5 @@
-"""Mills and vessels whose reports a browser shows: every motion and shape, large and tiny, with many, few and no impacts."""
+"""Mills and vessels whose reports a browser shows: every motion and shape, large and tiny, with
+many, few and no impacts."""
 SPEX = 'type = "spex8000"'
 STILL = 'type = "still"'
 CYLINDER = 'diameter = "38 mm"\nheight = "57 mm"'

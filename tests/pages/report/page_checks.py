@@ -18,7 +18,8 @@ BAD_LABELS = """
     }
     return bad"""
 
-# How far balls and corners of the vessel get from the middle of the canvas in any frame: 1 is its edge.
+# How far balls and corners of the vessel get from the middle of the canvas in any frame: 1 is its
+# edge.
 FARTHEST = """
     const mill = JSON.parse(document.getElementById('frames').textContent);
     const canvas = document.querySelector('.stage canvas'), high = Math.tan(0.3), wide = high * canvas.clientWidth / canvas.clientHeight;

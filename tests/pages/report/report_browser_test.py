@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""A report in headless Chromium: no message on the console, no request, axes with units, a scene that moves, a phone's width,
-dark colours; reports of every motion and vessel; and how fast a report of 908 balls opens. Debian: chromium, chromium-driver,
-python3-selenium.
+"""A report in headless Chromium: no message on the console, no request, axes with units, a scene
+that moves, a phone's width, dark colours; reports of every motion and vessel; and how fast a report
+of 908 balls opens. Debian: chromium, chromium-driver, python3-selenium.
 
 usage: PYTHONPATH=tests/support python3 report_browser_test.py EDMILL [FOLDER] [--long]
-FOLDER keeps the runs and the screenshots; with --long only the reports of all mills and of docs/examples
+FOLDER keeps the runs and the screenshots; with --long only the reports of all mills and of
+docs/examples
 """
 import base64
 import json

@@ -33,7 +33,8 @@ def floats(text):
 
 
 def discs(animation, fraction, width, height):
-    """Circles (x, y, radius) in pixels where the balls of an X3D animation are seen at a fraction of its playback."""
+    """Circles (x, y, radius) in pixels where the balls of an X3D animation are seen at a fraction
+    of its playback."""
     scene = ElementTree.parse(animation).getroot().find("Scene")
     paths = {node.get("DEF"): node for node in scene.iter("PositionInterpolator")}
     eye = floats(scene.find("Viewpoint").get("position"))  # looks along -Z
@@ -99,8 +100,9 @@ class OpenReport(unittest.TestCase):
         time.sleep(0.3)
 
     def ball_pixels(self, circles):
-        """Counts pixels of the scene's picture: of balls in the circles, in the circles, of balls anywhere. Balls are blue, the
-        vessel is yellow and the page white, so that balls alone have little red, behind the vessel's walls too."""
+        """Counts pixels of the scene's picture: of balls in the circles, in the circles, of balls
+        anywhere. Balls are blue, the vessel is yellow and the page white, so that balls alone have
+        little red, behind the vessel's walls too."""
         return self.browser.execute_async_script("""
             const [png, circles, done] = arguments, image = new Image();
             image.onload = () => {

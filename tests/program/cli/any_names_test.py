@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Names of any bytes, in paths, labels, materials and points of sweeps, give files of each kind that every reader reads: JSON, XML, CSV and
-HTML, of every command that writes any.
+"""Names of any bytes, in paths, labels, materials and points of sweeps, give files of each kind
+that every reader reads: JSON, XML, CSV and HTML, of every command that writes any.
 
 usage: PYTHONPATH=tests/support python3 any_names_test.py EDMILL SMALL_DEM_DUMP
 """
@@ -126,7 +126,8 @@ def case_of(text):
 
 
 def make(t, text, path):
-    """Every command with these names. @return what the readers find in each file, by its place in the table"""
+    """Every command with these names. @return what the readers find in each file, by its place in
+    the table"""
     name = os.fsdecode(path)
     folder = pathlib.Path(name)
     folder.mkdir()

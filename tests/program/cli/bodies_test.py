@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Bodies inside the vessel: what is refused, outputs and derivatives, judges, random mills with bodies of all kinds, and the same events in
-three scalars.
+"""Bodies inside the vessel: what is refused, outputs and derivatives, judges, random mills with
+bodies of all kinds, and the same events in three scalars.
 
 usage: PYTHONPATH=tests/support python3 bodies_test.py EDMILL [MILLS] [SEED] [CHARGES]
 """
@@ -74,7 +74,8 @@ def table(file):
 
 
 def outputs(t):
-    """Maps hold all the dose of a body; derivatives by a body's numbers are those of runs beside it."""
+    """Maps hold all the dose of a body; derivatives by a body's numbers are those of runs beside
+    it."""
     text = REFERENCE.read_text().replace('end_time = "10 s"', 'end_time = "0.15 s"')
     for kind, keys in (("coverage", ""), ("bodies", ""), ("treatment", "share_per_impact = 0.001\n"), ("lyapunov", "")):
         text += f'[[output]]\ntype = "{kind}"\n{keys}'
@@ -107,7 +108,8 @@ def outputs(t):
 
 
 def judges(t):
-    """A log of a case with bodies is clean; that of another body names it; one without its impacts misses them."""
+    """A log of a case with bodies is clean; that of another body names it; one without its impacts
+    misses them."""
     text = (EXAMPLES / "stirred.toml").read_text().replace("count = 150", "count = 60").replace('end_time = "3 s"', 'end_time = "0.7 s"')
     pathlib.Path("stirred.toml").write_text(text + '[[output]]\ntype = "collisions"\nstates = true\n')
     said("run", "stirred.toml", "--quiet", "--out", "right")
@@ -168,7 +170,8 @@ def random_mill(t, trial):
 
 
 def borders(t):
-    """A body far faster than the clock of its mill crosses the borders of its regions within a rounding of the clock."""
+    """A body far faster than the clock of its mill crosses the borders of its regions within a
+    rounding of the clock."""
     pathlib.Path("slow.toml").write_text(CASE.format(bodies='[[body]]\nsize = ["20 mm", "8 mm", "4 mm"]\non = "ground"\n'
                                                      'joint = [{ rotate = "y", speed = "1000 rpm" }]',
                                                      **TANK | {"mill": 'type = "chain"\njoint = [{ rotate = "y", speed = "0.1 rpm" }]', "count": 20}))

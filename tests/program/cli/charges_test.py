@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""What a person at the mill asks, by the program: new cases of all mills, wrong wishes, charges compared in a sweep and on a page, milling
-times, runs until a precision, how evenly powder is treated.
+"""What a person at the mill asks, by the program: new cases of all mills, wrong wishes, charges
+compared in a sweep and on a page, milling times, runs until a precision, how evenly powder is
+treated.
 
 usage: PYTHONPATH=tests/support python3 charges_test.py EDMILL
 """

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Each command of the program does once what it is for: a small run of each, and a fact about its result.
+"""Each command of the program does once what it is for: a small run of each, and a fact about its
+result.
 
 usage: PYTHONPATH=tests/support python3 commands_test.py EDMILL SMALL_DEM_DUMP
 """

@@ -179,7 +179,8 @@ def test_certify_to_the_end(t):
 
 
 def test_bifurcation(t):
-    """A ball that a table throws once a period has one phase up to where its period doubles: e = 0.46551 for 1 mm."""
+    """A ball that a table throws once a period has one phase up to where its period doubles: e =
+    0.46551 for 1 mm."""
     table = EXAMPLES / "oscillating_table.toml"
     for low, high in (("0.06", "0.9"), ("0.1", "0.7"), ("0.3", "0.8"), ("1e-3", "0.123456789012")):
         done = edmill("bifurcation", table, "--over", "contact.restitution", "--from", low, "--to", high, "--steps", "3", "--skip", "0", "--keep", "1",
@@ -201,7 +202,8 @@ def test_bifurcation(t):
 
 
 def test_other_ends(t):
-    """What ends a run ends those that find its digits; a folder that cannot be used is told before they begin."""
+    """What ends a run ends those that find its digits; a folder that cannot be used is told before
+    they begin."""
     long = re.sub(r"end_time.*", 'end_time = "1000 s"', CASES["demo"], count=1)
     for name, rule, events in (("collisions", "max_collisions = 300", 300), ("dose", 'max_milling_dose = "20 mJ"', None)):
         for end in (long, long.replace('end_time = "1000 s"', "")):

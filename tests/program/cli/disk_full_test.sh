@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
-# On a full disk: one clear error, exit code 1, earlier files as they were, nothing partial left behind.
+# On a full disk: one clear error, exit code 1, earlier files as they were, nothing partial left
+# behind.
 # usage: disk_full_test.sh EDMILL
-# First with a limit on the size of files, which needs no privileges; then on a small tmpfs where that can be mounted.
+# First with a limit on the size of files, which needs no privileges; then on a small tmpfs where
+# that can be mounted.
 set -euo pipefail
 program=$(realpath "$1")
 demo=$(realpath "$(dirname "$0")/../../../docs/examples/demo.toml")
@@ -15,7 +17,8 @@ fail() {
 }
 files() { (cd "$1" && find . -type f -exec sha256sum {} + | sort); }
 
-# expect_full NAME OUT [MESSAGE]: OUT was as in OUT.before, the run's code and error are in the files code and error.
+# expect_full NAME OUT [MESSAGE]: OUT was as in OUT.before, the run's code and error are in the
+# files code and error.
 expect_full() {
   [ "$(cat code)" = 1 ] || fail "$1: exit code $(cat code): $(cat error)"
   grep -q "${3:-the disk may be full}" error || fail "$1: no clear message: $(cat error)"
@@ -45,7 +48,8 @@ expect_full "final_state.csv" out "$limit"
 limited 4 run --checkpoint "0.1 s simulated"
 expect_full "the first checkpoint" out "$limit"
 
-# The disk fills as the log grows: the last checkpoint is kept, and the run resumes when there is space.
+# The disk fills as the log grows: the last checkpoint is kept, and the run resumes when there is
+# space.
 run --set "$all" && files out >whole
 rm -r out && run --set run.seed=2 --set "$all" && files out >before
 limited 1000 run --set "$all" --checkpoint "0.1 s simulated"

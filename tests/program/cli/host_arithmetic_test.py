@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""A host that rounds otherwise, flushes subnormal numbers or traps gets the same files from each command.
+"""A host that rounds otherwise, flushes subnormal numbers or traps gets the same files from each
+command.
 
-usage: PYTHONPATH=tests/support python3 host_arithmetic_test.py EDMILL HOST_ARITHMETIC    a library that sets the mode before the program runs
+usage: PYTHONPATH=tests/support python3 host_arithmetic_test.py EDMILL HOST_ARITHMETIC    a library
+    that sets the mode before the program runs
 """
 import hashlib
 import os

@@ -119,7 +119,8 @@ def logs(t):
 
 
 def damage(t, packed):
-    """Whatever bit is wrong and wherever the data end: one message, or, where the damage is in no data, the same events."""
+    """Whatever bit is wrong and wherever the data end: one message, or, where the damage is in no
+    data, the same events."""
     found = {"refused": 0, "read": 0}
     for name in ("log.gz", "log.zst"):
         whole = packed[name]

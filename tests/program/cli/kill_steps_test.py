@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A run that is killed before any of its changes to names of files, and once more while it is resumed, ends like one that was not.
+"""A run that is killed before any of its changes to names of files, and once more while it is
+resumed, ends like one that was not.
 
 usage: PYTHONPATH=tests/support python3 kill_steps_test.py EDMILL DIES_AT    the library that kills
 """
@@ -53,6 +54,7 @@ with Trials() as t:
         t.check(same(results("once"), expected) == [], f"step {step}, seed {seed}: {same(results('once'), expected)}")
         t.no_partials(f"step {step}, seed {seed}", "once")
         step += 1
-    # A run of this case changes 37 names; files that were moved into place are not removed once more.
+    # A run of this case changes 37 names; files that were moved into place are not removed once
+    # more.
     t.check(step > 30, f"only {step - 1} steps")
     print(f"{step - 1} steps: each run ended like one that was not killed")

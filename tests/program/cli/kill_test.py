@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Runs with checkpoints and a report that are killed, interrupted and resumed end like an uninterrupted run; so do studies and
-reports.
+"""Runs with checkpoints and a report that are killed, interrupted and resumed end like an
+uninterrupted run; so do studies and reports.
 
-usage: PYTHONPATH=tests/support python3 kill_test.py EDMILL [KILLS]    of runs (default: 6), and a third of that of studies and of reports each
+usage: PYTHONPATH=tests/support python3 kill_test.py EDMILL [KILLS]    of runs (default: 6), and a
+    third of that of studies and of reports each
 Moments are drawn with a fixed seed, but the machine's load decides what a moment hits.
 """
 import os
@@ -205,7 +206,8 @@ def interrupts_of_runs():
             if code == 128 + number and is_there(place, "summary.json"):
                 said, found = summary(place), results(place, without=())
                 t.check(said["end_reason"] == "interrupted", said["end_reason"])
-                # Whole lines of the undisturbed run, up to the interrupt; nothing yet after another run's rows.
+                # Whole lines of the undisturbed run, up to the interrupt; nothing yet after another
+                # run's rows.
                 log = found["collisions.csv"]
                 t.check(len(log) > 0 and expected["collisions.csv"].startswith(log) and log.endswith(b"\n"), "collisions.csv of an interrupted run")
                 t.check(log.count(b"\n") == said["impacts_since_start"] + 1, "rows of an interrupted run")

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""A run over the folder of an earlier one leaves what it would have left in an empty folder, and the user's files. One that
-fails leaves everything as it was.
+"""A run over the folder of an earlier one leaves what it would have left in an empty folder, and
+the user's files. One that fails leaves everything as it was.
 
-usage: PYTHONPATH=tests/support python3 left_behind_test.py EDMILL [TRIALS]    random pairs of cases (default: 12)
+usage: PYTHONPATH=tests/support python3 left_behind_test.py EDMILL [TRIALS]    random pairs of cases
+    (default: 12)
 """
 import pathlib
 import random
@@ -59,7 +60,8 @@ def one_after_the_other(t, trial):
 
 
 def failures(t):
-    """What can end a run before its results are in place, each over the folder of an earlier run."""
+    """What can end a run before its results are in place, each over the folder of an earlier
+    run."""
     run("old", case("collisions", "events", "paraview", "snapshot"), ["--report"])
     before = results("old")
     text = case("collisions", "spectra", "trends", "paraview", "milling_dose", end="2 s")
@@ -81,7 +83,8 @@ def failures(t):
         done = edmill("run", "case.toml", *out, preexec_fn=lambda: small_files(size))
         t.refused(done, f"files of {size} bytes", "file size limit", code=1)
         as_before(f"files of {size} bytes")
-    # Room for some of its files, not for all: the last ones are the tables that are written at the end.
+    # Room for some of its files, not for all: the last ones are the tables that are written at the
+    # end.
     fresh = [f'output=[{{type="spectra"}},{{type="trends",interval="1 ms",columns=[{{variable="milling_dose",statistics=["sum"]}}]}}]']
     done = edmill("run", "case.toml", *out, "--set", *fresh, preexec_fn=lambda: small_files(30000))
     t.refused(done, "the second output does not fit", "file size limit", code=1)
@@ -108,7 +111,8 @@ def failures(t):
 
 
 def foreign(t):
-    """A file of the user with a name that a run or a study needs, and the folder of a study, are refused."""
+    """A file of the user with a name that a run or a study needs, and the folder of a study, are
+    refused."""
     pathlib.Path("case.toml").write_text(case("collisions"))
     sweep = '[sweep]\ncase = "case.toml"\n[sweep.grid]\n"contact.restitution" = [0.5, 2, 0.6]\n'
     pathlib.Path("my.sweep.toml").write_text(sweep)

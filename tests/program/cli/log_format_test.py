@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""docs/log-format.md: `edmill check` accepts the examples and what edmill writes, its description is that of the schema, the page
-lists the columns of the program, and each fault of a log is named with its line. Then ro-crate-metadata.json of a run.
+"""docs/log-format.md: `edmill check` accepts the examples and what edmill writes, its description
+is that of the schema, the page lists the columns of the program, and each fault of a log is named
+with its line. Then ro-crate-metadata.json of a run.
 
 usage: PYTHONPATH=tests/support python3 log_format_test.py EDMILL
 """

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""What a user names as a place for a result: devices, pipes and links are written through, files are replaced whole.
+"""What a user names as a place for a result: devices, pipes and links are written through, files
+are replaced whole.
 
 usage: PYTHONPATH=tests/support python3 named_files_test.py EDMILL
 """

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""A folder has one writer at a time: of several runs that start at once one wins, and the others are refused.
+"""A folder has one writer at a time: of several runs that start at once one wins, and the others
+are refused.
 
-usage: PYTHONPATH=tests/support python3 one_writer_test.py EDMILL NO_LOCKS [TRIALS]    NO_LOCKS is a library that takes locks from file systems
+usage: PYTHONPATH=tests/support python3 one_writer_test.py EDMILL NO_LOCKS [TRIALS]    NO_LOCKS is a
+    library that takes locks from file systems
 """
 import fcntl
 import os
@@ -74,7 +76,8 @@ def every_writer_is_kept_out(t):
 
 
 def file_systems_without_locks(t):
-    """NFS has no locks of folders, but of files; some file systems have none at all, which is said."""
+    """NFS has no locks of folders, but of files; some file systems have none at all, which is
+    said."""
     def limited(what, *arguments):
         return edmill(*arguments, env=dict(os.environ, LD_PRELOAD=no_locks, NO_LOCKS=what))
     os.mkdir("nfs")

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Charges as people have them, of 1 to 60 balls in twelve motions and six vessels: each run comes to its end, and a rule orders few
-of its impacts.
+"""Charges as people have them, of 1 to 60 balls in twelve motions and six vessels: each run comes
+to its end, and a rule orders few of its impacts.
 
 usage: PYTHONPATH=tests/support python3 ordinary_charges_test.py EDMILL [COUNT]
 """

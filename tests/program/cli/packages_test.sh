@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The packages install and run in a Debian that has nothing else, of the release on which they are made. Needs root, debootstrap
-# and a mirror.
+# The packages install and run in a Debian that has nothing else, of the release on which they are
+# made. Needs root, debootstrap and a mirror.
 # usage: packages_test.sh BUILD FOLDER
 set -euo pipefail
 build=$(realpath "$1")

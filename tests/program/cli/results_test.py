@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""The JSON and the tables of studies that users parse have the keys, the order and the numbers that they had: regression fixtures in the folder
-`results`, made by the program itself at commit 94b38a97, `audit.json` again when
+"""The JSON and the tables of studies that users parse have the keys, the order and the numbers that
+they had: regression fixtures in the folder `results`, made by the program itself at commit
+94b38a97, `audit.json` again when
 the audit gave up its own list of mistakes.
 
 usage: PYTHONPATH=tests/support python3 results_test.py EDMILL SMALL_DEM_DUMP [--update]
---update makes the fixtures again. They are without times of the CPU, version, commit and compiler."""
+--update makes the fixtures again. They are without times of the CPU, version, commit and
+compiler."""
 import difflib
 import os
 import pathlib

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""The derivative with respect to any number of a case is the difference of two runs divided by that of the number, for numbers of every
-kind: of tables and lists, set by an option, zero, at an end of their range, and those that place the balls or begin the run.
+"""The derivative with respect to any number of a case is the difference of two runs divided by that
+of the number, for numbers of every kind: of tables and lists, set by an option, zero, at an end of
+their range, and those that place the balls or begin the run.
 
 usage: PYTHONPATH=tests/support python3 sensitivity_test.py EDMILL [whole]
 """

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Standard streams that are full or closed, and pipes that nobody reads: exit codes, messages and files.
+"""Standard streams that are full or closed, and pipes that nobody reads: exit codes, messages and
+files.
 
 usage: PYTHONPATH=tests/support python3 standard_streams_test.py EDMILL
 """

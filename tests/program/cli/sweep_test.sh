@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Sweeps: the same tables from any number of threads and ranks, finished runs are kept after a kill, a failing point
-# does not stop the others, and bad sweep files are explained.
+# Sweeps: the same tables from any number of threads and ranks, finished runs are kept after a kill,
+# a failing point does not stop the others, and bad sweep files are explained.
 # usage: sweep_test.sh EDMILL
 set -euo pipefail
 edmill=$1
@@ -41,7 +41,8 @@ else
   echo "skipped: mpirun is not installed"
 fi
 
-# Mean and half-width of the first point, recomputed: three runs of 12 degrees of freedom and their scatter, pooled; Student's t of 12 and of 38.
+# Mean and half-width of the first point, recomputed: three runs of 12 degrees of freedom and their
+# scatter, pooled; Student's t of 12 and of 38.
 check "the confidence interval pools the runs' own and their scatter" python3 - <<'EOF'
 import csv, math, statistics
 runs = [r for r in csv.DictReader(open("one/runs.csv")) if r["point"] == "1"]

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A resumed run ends as if nothing had happened, or is refused: whatever was done to the files that it goes on from.
+"""A resumed run ends as if nothing had happened, or is refused: whatever was done to the files that
+it goes on from.
 
 usage: PYTHONPATH=tests/support python3 tampered_test.py EDMILL [TRIALS]    (default: 16)
 """
@@ -22,7 +23,8 @@ APPENDED = '[[output]]\ntype = "collisions"\nfile = "all.csv"\nappend = true\n'
 
 
 def files_of(place):
-    """Files that hold what the run has written: all but the checkpoint and those of no use to it."""
+    """Files that hold what the run has written: all but the checkpoint and those of no use to
+    it."""
     return [p for p in sorted(pathlib.Path(place).rglob("*")) if p.is_file() and not p.is_symlink() and p.stat().st_size > 0
             and p.name not in ("checkpoint", "summary.json", "case.toml", "final_state.csv", ".edmill-files")]
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# What the program says of itself: the manual page, the completion of bash, the reference, and the demo that needs no file.
+# What the program says of itself: the manual page, the completion of bash, the reference, and the
+# demo that needs no file.
 # usage: texts_test.sh EDMILL FOLDER
 set -euo pipefail
 edmill=$1

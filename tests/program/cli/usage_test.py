@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The synopsis of docs/usage.md has each command of the program, with the options that its --help lists, and no others.
+"""The synopsis of docs/usage.md has each command of the program, with the options that its --help
+lists, and no others.
 
 usage: PYTHONPATH=tests/support python3 usage_test.py EDMILL
 """
@@ -18,7 +19,8 @@ def helped():
 
 
 def synopsis():
-    """The same of the page; a command may have several lines, and a line that is indented continues the one before."""
+    """The same of the page; a command may have several lines, and a line that is indented continues
+    the one before."""
     block = (SOURCE / "docs/usage.md").read_text(encoding="utf-8").split("```")[1]
     found, commands = collections.defaultdict(set), []
     for line in block.splitlines()[1:]:

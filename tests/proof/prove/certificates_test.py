@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""Proofs and their certificates: short proofs are made and checked by the independent checker, which must reject every kind of
-tampering; the certificates that are shipped are checked. With --all the shipped ones are made again and must be the same.
+"""Proofs and their certificates: short proofs are made and checked by the independent checker,
+which must reject every kind of tampering; the certificates that are shipped are checked. With --all
+the shipped ones are made again and must be the same.
 
-usage: PYTHONPATH=tests/support python3 certificates_test.py EDMILL CHECKER REFERENCE FOLDER [--all | --without-arb]
+usage: PYTHONPATH=tests/support python3 certificates_test.py EDMILL CHECKER REFERENCE FOLDER [--all
+    | --without-arb]
 --without-arb: CHECKER has the arithmetic by integers of its own"""
 import copy
 import hashlib

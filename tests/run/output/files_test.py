@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""What other tools read from the files of a run: h5py, VTK, view3dscene, xmllint, and the Python of docs/files.md.
+"""What other tools read from the files of a run: h5py, VTK, view3dscene, xmllint, and the Python of
+docs/files.md.
 
 usage: PYTHONPATH=tests/support python3 files_test.py EDMILL
 """
@@ -91,7 +92,8 @@ class Run(unittest.TestCase):
         cls.scratch.cleanup()
 
     def last_impact(self, ball, time):
-        """State after the ball's last impact up to a time, or nothing: (time, position, velocity, spin)."""
+        """State after the ball's last impact up to a time, or nothing: (time, position, velocity,
+        spin)."""
         e = self.events
         mine = [(e["ball"] == ball, "ball_"), ((e["partner"] == ball) & (e["with_wall"] == 0), "partner_")]
         found = max(((np.flatnonzero(rows & (e["time"] <= time)).max(initial=-1), body) for rows, body in mine))
@@ -277,8 +279,8 @@ class X3d(Run):
                 self.assertEqual(result.returncode, 0, result.stderr.decode())
 
     def loaded(self, page):
-        """What an X3D program makes of a page: it writes it down again, in single precision. Debian 12 has it in view3dscene, Debian 13 in
-        castle-model-viewer."""
+        """What an X3D program makes of a page: it writes it down again, in single precision. Debian
+        12 has it in view3dscene, Debian 13 in castle-model-viewer."""
         command = ["tovrmlx3d", page] if shutil.which("tovrmlx3d") else ["castle-model-converter", page, "-", "--stdout-url=page.x3dv"]
         return subprocess.run(command, capture_output=True, text=True, check=False)
 
