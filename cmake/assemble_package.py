@@ -17,15 +17,19 @@ import tarfile
 
 SOURCE = pathlib.Path(__file__).resolve().parents[1]
 PARTS = SOURCE / "src/bindings/node"
-VERSION = re.search(r"project\(edmill VERSION (\S+)", (SOURCE / "CMakeLists.txt").read_text(encoding="utf-8")).group(1)
-FUNCTIONS = {"run": "Promise<Summary & Outcome>", "audit": "Promise<Judged & Outcome>", "compare": "Promise<Judged & Outcome>",
-             "check": "Promise<string>"}
+VERSION = re.search(r"project\(edmill VERSION (\S+)",
+                    (SOURCE / "CMakeLists.txt").read_text(encoding="utf-8")).group(1)
+FUNCTIONS = {
+    "run": "Promise<Summary & Outcome>", "audit": "Promise<Judged & Outcome>",
+    "compare": "Promise<Judged & Outcome>", "check": "Promise<string>"
+}
 
 
 def options_of(program, command):
     """What `edmill COMMAND --help` lists: its positionals and its options, with what each
     expects."""
-    text = subprocess.run(["node", program, command, "--help"], check=True, capture_output=True, text=True).stdout
+    text = subprocess.run(["node", program, command, "--help"], check=True, capture_output=True,
+                          text=True).stdout
     entries = re.findall(r"^  (\S.*?)(?: {2,}|\n {10,})(.*(?:\n {20,}.*)*)", text, re.M)
     places, options = [], {}
     for words, meaning in entries:
@@ -44,20 +48,27 @@ def type_of(option):
 
 
 def declarations(commands):
-    lines = ["export interface Process { input?: string | Uint8Array; cwd?: string }",
-             "/** Its exit code, and what it printed. */", "export interface Outcome { code: number; text: string }",
-             "/** summary.json: docs/files.md */", "export interface Summary { [name: string]: any; milling_dose_rate: number }",
-             "/** The result of --json: docs/audit.md */", "export interface Judged { [name: string]: any; verdict: string }",
-             "export class EdmillError extends Error { code: number }",
-             "export function edmill(words: string[], process?: Process): Promise<{code: number; stdout: string; stderr: string}>;",
-             "export function certificate(file: string, process?: Process): Promise<{accepted: boolean; text: string}>;"]
+    lines = [
+        "export interface Process { input?: string | Uint8Array; cwd?: string }",
+        "/** Its exit code, and what it printed. */",
+        "export interface Outcome { code: number; text: string }",
+        "/** summary.json: docs/files.md */",
+        "export interface Summary { [name: string]: any; milling_dose_rate: number }",
+        "/** The result of --json: docs/audit.md */",
+        "export interface Judged { [name: string]: any; verdict: string }",
+        "export class EdmillError extends Error { code: number }",
+        "export function edmill(words: string[], process?: Process): Promise<{code: number; stdout: string; stderr: string}>;",
+        "export function certificate(file: string, process?: Process): Promise<{accepted: boolean; text: string}>;"
+    ]
     for name, result in FUNCTIONS.items():
         options = f"{name.capitalize()}Options"
         lines.append(f"export interface {options} extends Process {{")
         for option, what in commands[name]["options"].items():
             camel = re.sub("-(.)", lambda match: match.group(1).upper(), option)
             lines += [f"  /** {what['meaning']} */", f"  {camel}?: {type_of(what)};"]
-        places = ", ".join(f"{place.lower()}: string" for place in commands[name]["places"]).replace("case:", "file:")
+        places = ", ".join(
+            f"{place.lower()}: string" for place in commands[name]["places"]).replace(
+                "case:", "file:")
         lines += ["}", f"export function {name}({places}, options?: {options}): {result};"]
     return "\n".join(lines) + "\n"
 
@@ -68,7 +79,8 @@ def pack(folder, place):
     with tarfile.open(fileobj=tar, mode="w", format=tarfile.USTAR_FORMAT) as archive:
         for file in sorted(folder.iterdir()):
             entry = tarfile.TarInfo(f"package/{file.name}")
-            entry.size, entry.mode, entry.mtime = file.stat().st_size, 0o755 if file.name == "edmill.js" else 0o644, 499162500
+            entry.size, entry.mode, entry.mtime = file.stat(
+            ).st_size, 0o755 if file.name == "edmill.js" else 0o644, 499162500
             archive.addfile(entry, file.open("rb"))
     place.write_bytes(gzip.compress(tar.getvalue(), 9, mtime=0))
 
@@ -82,10 +94,13 @@ def main(engine, target):
     for file in (PARTS / "edmill.js", PARTS / "index.mjs", PARTS / "README.md", SOURCE / "LICENSE"):
         shutil.copyfile(file, folder / file.name)
     about = json.loads((PARTS / "package.json").read_text(encoding="utf-8"))
-    (folder / "package.json").write_text(json.dumps({**about, "version": VERSION}, indent=2) + "\n", encoding="utf-8")
+    (folder / "package.json").write_text(
+        json.dumps({**about, "version": VERSION}, indent=2) + "\n", encoding="utf-8")
     program = folder / "edmill.js"
-    listed = subprocess.run(["node", program, "--help"], check=True, capture_output=True, text=True).stdout
-    names = re.findall(r"^  ([a-z]+) {2,}", listed[listed.index("Subcommands:"):listed.index("Exit codes")], re.M)
+    listed = subprocess.run(["node", program, "--help"], check=True, capture_output=True,
+                            text=True).stdout
+    names = re.findall(r"^  ([a-z]+) {2,}",
+                       listed[listed.index("Subcommands:"):listed.index("Exit codes")], re.M)
     commands = {name: options_of(program, name) for name in names}
     (folder / "commands.json").write_text(json.dumps(commands, indent=1) + "\n", encoding="utf-8")
     (folder / "index.d.ts").write_text(declarations(commands), encoding="utf-8")

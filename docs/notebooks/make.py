@@ -16,11 +16,13 @@ def executed(file):
     """The notebook with its outputs, run in an empty folder."""
     book = nbformat.read(file, as_version=4)
     with tempfile.TemporaryDirectory() as folder:
-        NotebookClient(book, timeout=300, kernel_name="python3", resources={"metadata": {"path": folder}}).execute()
+        NotebookClient(book, timeout=300, kernel_name="python3",
+                       resources={"metadata": {"path": folder}}).execute()
     for cell in book.cells:
         cell.metadata.pop("execution", None)
         for output in cell.get("outputs", []):
-            if "text/plain" in output.get("data", {}) and "<iframe" in output["data"].get("text/html", ""):
+            if "text/plain" in output.get("data", {}) and "<iframe" in output["data"].get(
+                    "text/html", ""):
                 del output["data"]["text/html"]
     return book
 

@@ -8,13 +8,16 @@ from mdit_py_plugins.anchors.index import slugify
 root = pathlib.Path(__file__).resolve().parents[2]
 project = "edmill"
 author = copyright = "the edmill authors"
-release = re.search(r"project\(edmill VERSION ([0-9.]+)", (root / "CMakeLists.txt").read_text()).group(1)
+release = re.search(r"project\(edmill VERSION ([0-9.]+)",
+                    (root / "CMakeLists.txt").read_text()).group(1)
 
 extensions = ["myst_parser", "breathe"]
 myst_heading_anchors = 4
 source_suffix = {".md": "markdown"}
 exclude_patterns = ["notebooks", "sphinx", "examples"]
-breathe_projects = {"edmill": os.environ.get("EDMILL_DOXYGEN_XML", str(root / "build/manual/doxygen/xml"))}
+breathe_projects = {
+    "edmill": os.environ.get("EDMILL_DOXYGEN_XML", str(root / "build/manual/doxygen/xml"))
+}
 breathe_default_members = ("members",)
 
 html_theme = "furo"
@@ -65,15 +68,21 @@ def page_of_paper(text, bib):
 
     def cited(match):
         keys = re.findall(r"@(\w+)", match.group(0))
-        return "(" + ", ".join(f"[{re.match('[A-Za-z]+', key).group()} {works[key]['year']}](#references)" for key in keys) + ")"
+        return "(" + ", ".join(
+            f"[{re.match('[A-Za-z]+', key).group()} {works[key]['year']}](#references)"
+            for key in keys) + ")"
 
     def reference(work):
-        venue = next(work[key] for key in ("journal", "booktitle", "publisher", "howpublished") if key in work)
+        venue = next(work[key] for key in ("journal", "booktitle", "publisher", "howpublished")
+                     if key in work)
         place = " ".join([venue, *(work[key] for key in ("volume",) if "journal" in work)])
         pages = f", {work['pages']}" if "pages" in work else ""
         doi = f", <https://doi.org/{work['doi']}>" if "doi" in work else ""
         authors = work["author"].replace(" and ", "; ")
-        return re.sub(r"[{}]", "", f"- {authors}: *{work['title']}*. {place}{pages} ({work['year']}){doi}").replace("--", "-")
+        return re.sub(
+            r"[{}]", "",
+            f"- {authors}: *{work['title']}*. {place}{pages} ({work['year']}){doi}").replace(
+                "--", "-")
 
     text = re.sub(r"\[@\w+(; @\w+)*\]", cited, re.sub("^#", "##", text, flags=re.M))
     return f"# {title}\n\n{text}\n" + "\n".join(map(reference, works.values())) + "\n"

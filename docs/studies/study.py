@@ -18,11 +18,13 @@ from svg import Panel, figure  # noqa: E402
 CRITICAL_RPM = math.sqrt(9.81 / 0.045) * 30 / math.pi  # of drum.toml
 # Each study has the column with the abscissa, its factor, its label, and its ticks.
 STUDIES = {
-    "ends": ("name", 1, "radius of the edges [mm]", range(0, 21, 5)),
-    "planetary": ("mill.ratio", -1, "k = -ratio: speed of the jar seen from the disc, reversed, over the disc's", (1, 2, 3, 4, 5)),
+    "ends": ("name", 1, "radius of the edges [mm]", range(0, 21, 5)), "planetary":
+        ("mill.ratio", -1,
+         "k = -ratio: speed of the jar seen from the disc, reversed, over the disc's", (1, 2, 3, 4,
+                                                                                        5)),
     "drum": ("mill.speed", 100 / CRITICAL_RPM, "speed in % of the critical one", range(0, 121, 20)),
-    "stirrer": ("body.0.joint.1.speed", 1, "speed of the bar [rpm]", range(0, 1201, 300)),
-    "law": ("mill.speed", 1, "speed of the drive [rpm]", range(600, 1401, 200)),
+    "stirrer": ("body.0.joint.1.speed", 1, "speed of the bar [rpm]", range(0, 1201, 300)), "law":
+        ("mill.speed", 1, "speed of the drive [rpm]", range(600, 1401, 200)),
 }
 # Studies with several curves have a column that tells them apart, and its label.
 CURVES = {"law": ("name", "law"), "planetary": ("contact.friction", "friction")}
@@ -48,13 +50,16 @@ def ticks(highest):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("study", choices=STUDIES)
     parser.add_argument("edmill")
-    parser.add_argument("--out", default=None, help="folder of the sweep; the study's name by default")
+    parser.add_argument("--out", default=None,
+                        help="folder of the sweep; the study's name by default")
     given = parser.parse_args()
     folder = pathlib.Path(given.out or given.study)
-    done = subprocess.run([given.edmill, "sweep", HERE / f"{given.study}.sweep.toml", "--out", folder], check=False)
+    done = subprocess.run(
+        [given.edmill, "sweep", HERE / f"{given.study}.sweep.toml", "--out", folder], check=False)
     if done.returncode:
         return done.returncode
     with open(folder / "sweep.csv", encoding="utf-8") as file:
@@ -68,7 +73,8 @@ def main():
         x = float(row[column].split()[0]) * factor
         group = row[curve] if curve else ""
         groups.setdefault(group, []).append((x, row))
-    print(f"| {label} |" + (f" {curve_label} |" if curve else "") + "".join(f" {q[2]} |" for q in QUANTITIES))
+    print(f"| {label} |" + (f" {curve_label} |" if curve else "") +
+          "".join(f" {q[2]} |" for q in QUANTITIES))
     print("|---" * (len(QUANTITIES) + 1 + bool(curve)) + "|")
     panels = []
     for quantity, scale, title in QUANTITIES:
@@ -77,12 +83,17 @@ def main():
         highest = max(y + half for points in series.values() for _, y, half in points)
         panel = Panel(title, label, title, list(x_ticks), ticks(highest))
         for colour, (name, points) in enumerate(series.items()):
-            panel.add((name if curve == "name" else f"{curve_label} {name}") if curve else title, points, colour)
+            panel.add((name if curve == "name" else f"{curve_label} {name}") if curve else title,
+                      points, colour)
         panels.append(panel)
     for name, points in groups.items():
         for x, row in points:
-            cells = [f"{scale * values(row, q)[0]:.4g} ± {scale * values(row, q)[1]:.2g}" for q, scale, _ in QUANTITIES]
-            print(f"| {x:.4g} |" + (f" {name} |" if name else "") + "".join(f" {c} |" for c in cells))
+            cells = [
+                f"{scale * values(row, q)[0]:.4g} ± {scale * values(row, q)[1]:.2g}"
+                for q, scale, _ in QUANTITIES
+            ]
+            print(f"| {x:.4g} |" + (f" {name} |" if name else "") +
+                  "".join(f" {c} |" for c in cells))
     target = folder / f"{given.study}.svg"
     target.write_text(figure(panels), encoding="utf-8")
     print(f"drawn to {target}")

@@ -46,7 +46,8 @@ def summary_of(file):
                 kept.append(line.rstrip("\n"))
                 continue
             index, time, ball, kind, partner, *values = line.rstrip("\n").split(",")
-            digest.update(f"{index},{ball},{kind},{partner},{time[:20]}{time[time.index('e'):]}\n".encode())
+            digest.update(
+                f"{index},{ball},{kind},{partner},{time[:20]}{time[time.index('e'):]}\n".encode())
             if int(index) % EVERY == 0:
                 kept.append(line.rstrip("\n"))
             if float(time) >= BEGIN:
@@ -54,8 +55,11 @@ def summary_of(file):
                 count[kind] += 1
                 dose += float(values[2])
                 work += float(values[3])
-    statistics = {"events": int(index) + 1, "digest": digest.hexdigest(), "impacts_from_0.5_s": counted, **{f"with_{k}s": n for k, n in count.items()},
-                  "dose_rate": dose / (END - BEGIN), "wall_work_rate": work / (END - BEGIN)}
+    statistics = {
+        "events": int(index) + 1, "digest": digest.hexdigest(), "impacts_from_0.5_s": counted,
+        **{f"with_{k}s": n for k, n in count.items()}, "dose_rate": dose / (END - BEGIN),
+        "wall_work_rate": work / (END - BEGIN)
+    }
     return kept, statistics, [line for line in evidence if "events in common" in line]
 
 

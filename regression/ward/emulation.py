@@ -51,9 +51,13 @@ def times_of(case):
 
 def stepped(program, case, options):
     start, end, batch = map(str, times_of(case))
-    command = [program, "--balls", str(case.count), "--diameter-mm", case.diameter, "--restitution", case.restitution,
-               "--start", start, "--end", end, "--batch", batch, *options.split()]
-    table = csv.DictReader(io.StringIO(subprocess.run(command, stdout=subprocess.PIPE, check=True, text=True).stdout))
+    command = [
+        program, "--balls",
+        str(case.count), "--diameter-mm", case.diameter, "--restitution", case.restitution,
+        "--start", start, "--end", end, "--batch", batch, *options.split()
+    ]
+    table = csv.DictReader(
+        io.StringIO(subprocess.run(command, stdout=subprocess.PIPE, check=True, text=True).stdout))
     rows = [{key: float(value) for key, value in row.items()} for row in table]
     return ([row["milling_dose"] for row in rows],
             [row["wall_0"] + row["wall_1"] + row["wall_2"] + row["ball_ball"] for row in rows])
@@ -86,8 +90,8 @@ def study(stepped_mill, folder, jobs=1):
         entry = json.loads(line)
         if entry["source"] == source:
             known[entry["key"]] = entry["row"]
-    runs = [(f"{case.name} {case.count} {case.restitution} {method} {options} {times_of(case)}", case, method, options)
-            for case, method, options in plan()]
+    runs = [(f"{case.name} {case.count} {case.restitution} {method} {options} {times_of(case)}",
+             case, method, options) for case, method, options in plan()]
     waiting = [run for run in runs if run[0] not in known]
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         done = {pool.submit(stepped, stepped_mill, case, options): (key, case, method)
@@ -99,8 +103,10 @@ def study(stepped_mill, folder, jobs=1):
                 file.write(json.dumps({"key": key, "source": source, "row": known[key]}) + "\n")
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(["case", "balls", "method", "inverse_milling_dose_rate", "inverse_milling_dose_rate_ci95",
-                     "collision_rate_total"])
+    writer.writerow([
+        "case", "balls", "method", "inverse_milling_dose_rate", "inverse_milling_dose_rate_ci95",
+        "collision_rate_total"
+    ])
     writer.writerows(known[run[0]] for run in runs)
     return out.getvalue()
 

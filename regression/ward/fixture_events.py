@@ -20,16 +20,20 @@ COLUMNS = ("case", "index", "time", "ball", "partner_kind", "partner", *VALUES[1
 def collisions(root, edmill, case, count, precision="double"):
     """Lines of collisions.csv, its header first."""
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([str(edmill), "run", str(root / "regression/ward/cases" / f"{case.name}.toml"), "--quiet", "--out", folder,
-                        "--precision", precision, "--set", "run.start_time=0 s", "--set", f"run.max_collisions={count}",
-                        "--set", 'output=[{type="collisions"}]'], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([
+            str(edmill), "run",
+            str(root / "regression/ward/cases" / f"{case.name}.toml"), "--quiet", "--out", folder,
+            "--precision", precision, "--set", "run.start_time=0 s", "--set",
+            f"run.max_collisions={count}", "--set", 'output=[{type="collisions"}]'
+        ], check=True, stdout=subprocess.DEVNULL)
         return (pathlib.Path(folder) / "collisions.csv").read_text().splitlines()
 
 
 def double_rows(root, edmill, case):
     """Hash of all events, then of each block of 100, with the last line of the block."""
     header, *lines = collisions(root, edmill, case, EVENTS)
-    rows = [(case.name, f"0-{len(lines) - 1}", hashlib.sha256("\n".join([header, *lines, ""]).encode()).hexdigest(), "")]
+    rows = [(case.name, f"0-{len(lines) - 1}",
+             hashlib.sha256("\n".join([header, *lines, ""]).encode()).hexdigest(), "")]
     for k in range(0, len(lines), BLOCK):
         block = lines[k:k + BLOCK]
         hashed = hashlib.sha256("\n".join([*block, ""]).encode()).hexdigest()
@@ -53,8 +57,12 @@ def make(root, edmill):
     for case in tables.cases():
         double += double_rows(root, edmill, case)
         for row in csv.DictReader(collisions(root, edmill, case, WIDE_EVENTS, "mpfr50")):
-            wide.append([case.name, row["index"]] + [rounded(row[key]) if key in VALUES else row[key] for key in COLUMNS[2:]])
-    return {DOUBLE: csv_text(("case", "events", "sha256", "last_event"), double), MPFR50: csv_text(COLUMNS, wide)}
+            wide.append([case.name, row["index"]] +
+                        [rounded(row[key]) if key in VALUES else row[key] for key in COLUMNS[2:]])
+    return {
+        DOUBLE: csv_text(("case", "events", "sha256", "last_event"), double),
+        MPFR50: csv_text(COLUMNS, wide)
+    }
 
 
 def double_problems(root, edmill):
@@ -66,7 +74,9 @@ def double_problems(root, edmill):
         found = double_rows(root, edmill, case)
         if found == wanted.get(case.name):
             continue
-        first = next((pair for pair in zip(wanted.get(case.name, [])[1:], found[1:]) if pair[0] != pair[1]), None)
+        first = next(
+            (pair for pair in zip(wanted.get(case.name, [])[1:], found[1:]) if pair[0] != pair[1]),
+            None)
         where = "in length"
         if first:
             where = f"first in events {first[0][1]}, whose last is\n    {first[1][3]}\n  not\n    {first[0][3]}"
@@ -90,7 +100,10 @@ def difference(name, wanted, found):
     kind."""
     if len(wanted) != len(found):
         return [f"{name}: {len(found)} events in mpfr50, not {len(wanted)}"]
-    limits = {key: max(abs(Decimal(row[key])) for row in wanted) * Decimal(10) ** -DIGITS for key in VALUES}
+    limits = {
+        key: max(abs(Decimal(row[key])) for row in wanted) * Decimal(10) ** -DIGITS
+        for key in VALUES
+    }
     for a, b in zip(wanted, found):
         bad = [key for key in BODIES if a[key] != b[key]]
         bad += [key for key in VALUES if abs(Decimal(a[key]) - Decimal(b[key])) > limits[key]]

@@ -18,14 +18,17 @@ def sha256(data):
 
 
 def own_hash(entry):
-    return sha256(json.dumps({key: value for key, value in entry.items() if key != "entry"}).encode())
+    return sha256(
+        json.dumps({key: value for key, value in entry.items() if key != "entry"}).encode())
 
 
 def present(root):
     """Hashes of the fixtures and of the cases that are there."""
     files = [place for folder in (FIXTURES[0], CASES) for place in (root / folder).glob("*")]
     files += [root / name for name in STATISTICS if (root / name).exists()]
-    return {place.relative_to(root).as_posix(): sha256(place.read_bytes()) for place in sorted(files)}
+    return {
+        place.relative_to(root).as_posix(): sha256(place.read_bytes()) for place in sorted(files)
+    }
 
 
 def problems(root):
@@ -36,7 +39,8 @@ def problems(root):
     for number, line in enumerate((root / LOG).read_text().splitlines(), 1):
         entry = json.loads(line)
         if entry["previous"] != previous or entry["entry"] != own_hash(entry):
-            found.append(f"{LOG}:{number}: it or a line before it was changed; lines are only ever added")
+            found.append(
+                f"{LOG}:{number}: it or a line before it was changed; lines are only ever added")
         previous = sha256(line.encode())
     wanted, there = entry["files"], present(root)
     for name in sorted(wanted.keys() | there.keys()):
@@ -58,8 +62,11 @@ def write(root, texts, reason, sources):
         temporary.write_text(text)
         os.replace(temporary, place)
     lines = (root / LOG).read_text().splitlines() if (root / LOG).exists() else []
-    entry = {"date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d"), "reason": reason, **sources,
-             "changed": sorted(texts), "previous": sha256(lines[-1].encode()) if lines else "", "files": present(root)}
+    entry = {
+        "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d"), "reason": reason,
+        **sources, "changed": sorted(texts),
+        "previous": sha256(lines[-1].encode()) if lines else "", "files": present(root)
+    }
     entry["entry"] = own_hash(entry)
     with open(root / LOG, "a", encoding="utf-8") as file:
         file.write(json.dumps(entry) + "\n")

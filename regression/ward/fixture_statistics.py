@@ -13,8 +13,8 @@ STATISTICS, REPLICAS = "regression/reference/ward.statistics.csv", "regression/r
 EMULATION = "regression/ward/fixtures/emulation.csv"
 SINGLE_BALL = "2g_2_5_9_52mm"  # ill-conditioned: docs/theory.md, section 6
 # Compared; by symmetry the caps have equal rates, but each is checked.
-QUANTITIES = ("milling_dose_rate", "collision_rate_wall_0", "collision_rate_wall_1", "collision_rate_wall_2",
-              "collision_rate_ball_ball")
+QUANTITIES = ("milling_dose_rate", "collision_rate_wall_0", "collision_rate_wall_1",
+              "collision_rate_wall_2", "collision_rate_ball_ball")
 # Times the root of the sum of squares of both 95 % intervals: about 3.9 standard errors, which of
 # the short check's 50 and the full one's 115 comparisons of good runs less than one in a hundred
 # times any exceeds.
@@ -23,8 +23,9 @@ ALLOWED = 2.0
 
 def make(root, ward_batches, folder, jobs):
     ward_runs.run_all(str(ward_batches), folder, jobs)
-    return ({STATISTICS: ward_table.statistics_csv(folder), REPLICAS: ward_table.replicas_csv(folder)},
-            ward_table.provenance(folder))
+    return ({
+        STATISTICS: ward_table.statistics_csv(folder), REPLICAS: ward_table.replicas_csv(folder)
+    }, ward_table.provenance(folder))
 
 
 def make_emulation(stepped_mill, folder, jobs):
@@ -32,7 +33,9 @@ def make_emulation(stepped_mill, folder, jobs):
 
 
 def wanted_rows(root):
-    return {row["case"]: row for row in csv.DictReader(io.StringIO((root / STATISTICS).read_text()))}
+    return {
+        row["case"]: row for row in csv.DictReader(io.StringIO((root / STATISTICS).read_text()))
+    }
 
 
 def compare(case, row, estimates):
@@ -42,7 +45,9 @@ def compare(case, row, estimates):
         wanted, wanted_half = float(row[name]), float(row[f"{name}_ci95"])
         limit = ALLOWED * math.hypot(half, wanted_half)
         if abs(mean - wanted) > limit:
-            problems.append(f"{case.name}: {name} {mean:.6g}, {STATISTICS} has {wanted:.6g}, allowed ±{limit:.2g}")
+            problems.append(
+                f"{case.name}: {name} {mean:.6g}, {STATISTICS} has {wanted:.6g}, allowed ±{limit:.2g}"
+            )
     return problems
 
 

@@ -45,14 +45,17 @@ else
 fi
 ''')
         program.chmod(0o755)
-        shutil.copytree(SOURCE / "regression", self.root / "regression", ignore=shutil.ignore_patterns("__pycache__"))
+        shutil.copytree(SOURCE / "regression", self.root / "regression",
+                        ignore=shutil.ignore_patterns("__pycache__"))
         (self.root / ".gitignore").write_text("__pycache__/\n")
         self.git("init", "-q")
         self.commit()
 
     def git(self, *arguments):
-        subprocess.run(["git", "-C", self.root, "-c", "user.name=test", "-c", "user.email=test@example.org", *arguments],
-                       check=True)
+        subprocess.run([
+            "git", "-C", self.root, "-c", "user.name=test", "-c", "user.email=test@example.org",
+            *arguments
+        ], check=True)
 
     def commit(self):
         self.git("add", "-A")
@@ -62,8 +65,10 @@ fi
         self.git("checkout", "-q", ".")
 
     def run(self, *arguments, **environment):
-        done = subprocess.run([self.root / "regression/edmill-fixtures", *arguments, "--build", self.build], text=True,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env={**os.environ, **environment})
+        done = subprocess.run(
+            [self.root / "regression/edmill-fixtures", *arguments, "--build", self.build],
+            text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+            env={**os.environ, **environment})
         return done.returncode, done.stdout
 
     def edit(self, name, old, new):
@@ -88,30 +93,36 @@ def checks(copy):
 
     copy.edit("regression/ward/cases/5g_2_5_4_76mm.toml", "friction = 0.4", "friction = 0.3")
     code, output = copy.run("check")
-    expect("a case edited by hand is found", code == 1 and "5g_2_5_4_76mm.toml: changed without" in output, output)
+    expect("a case edited by hand is found", code == 1 and
+           "5g_2_5_4_76mm.toml: changed without" in output, output)
     copy.restore()
 
     copy.edit(LOG, '"reason": "', '"reason": "not ')
     code, output = copy.run("check")
-    expect("a changed line of the log is found", code == 1 and "lines are only ever added" in output, output)
+    expect("a changed line of the log is found", code == 1 and
+           "lines are only ever added" in output, output)
     copy.restore()
 
     code, output = copy.run("check", **ALTERED)
     where = "5g_2_5_4_76mm: events in double differ from" in output and "first in events 0-99" in output
     expect("altered friction is found in double, with the place", code == 1 and where, output)
-    expect("altered friction is found in mpfr50", re.search(r"5g_2_5_4_76mm: event \d+ in mpfr50 differs", output), output)
+    expect("altered friction is found in mpfr50",
+           re.search(r"5g_2_5_4_76mm: event \d+ in mpfr50 differs", output), output)
 
 
 def refusals(copy):
     before = (copy.root / LOG).read_text()
     for reason in ([], ["--reason", " "]):
         code, output = copy.run("update", "--part", "events", *reason, **ALTERED)
-        expect(f"update with {reason or 'no reason'} is refused", code == 2 and "--reason: not given" in output, output)
+        expect(f"update with {reason or 'no reason'} is refused", code == 2 and
+               "--reason: not given" in output, output)
     update = ("update", "--part", "events", "--reason", "a test")
     code, output = copy.run(*update)
-    expect("update is refused when nothing changed", code == 2 and "nothing changed" in output, output)
+    expect("update is refused when nothing changed", code == 2 and "nothing changed" in output,
+           output)
     code, output = copy.run(*update, **ALTERED, SUFFIX="-dirty")
-    expect("a program from changed sources is refused", code == 2 and "built from changed sources" in output, output)
+    expect("a program from changed sources is refused", code == 2 and
+           "built from changed sources" in output, output)
     (copy.root / "new.txt").write_text("new\n")
     code, output = copy.run(*update, **ALTERED)
     expect("a tree with changes is refused", code == 2 and "not committed" in output, output)
@@ -121,7 +132,8 @@ def refusals(copy):
 
 def update(copy):
     before = (copy.root / LOG).read_text()
-    code, output = copy.run("update", "--part", "events", "--reason", "a test of the tool", **ALTERED)
+    code, output = copy.run("update", "--part", "events", "--reason", "a test of the tool",
+                            **ALTERED)
     after = (copy.root / LOG).read_text()
     expect("an update with a reason is done", code == 0 and DOUBLE in output, output)
     told = '"reason": "a test of the tool"' in after[len(before):]

@@ -10,7 +10,9 @@ def incomplete_beta(a, b, x):
         return float(x >= 1)
     if x > (a + 1) / (a + b + 2):
         return 1 - incomplete_beta(b, a, 1 - x)
-    front = math.exp(math.lgamma(a + b) - math.lgamma(a) - math.lgamma(b) + a * math.log(x) + b * math.log1p(-x)) / a
+    front = math.exp(
+        math.lgamma(a + b) - math.lgamma(a) - math.lgamma(b) + a * math.log(x) +
+        b * math.log1p(-x)) / a
     c, d = 1.0, 1 / (1 - (a + b) * x / (a + 1))
     value = d
     for m in range(1, 1000):
@@ -38,7 +40,8 @@ def student95(freedom):
 
 def fisher_probability(ratio, freedom_1, freedom_2):
     """Probability of a ratio of variances at least as large."""
-    return incomplete_beta(freedom_2 / 2, freedom_1 / 2, freedom_2 / (freedom_2 + freedom_1 * ratio))
+    return incomplete_beta(freedom_2 / 2, freedom_1 / 2,
+                           freedom_2 / (freedom_2 + freedom_1 * ratio))
 
 
 def half_width(values):
@@ -55,8 +58,10 @@ def estimate(replicas):
     """
     batches = [value for replica in replicas for value in replica]
     means = [statistics.fmean(replica) for replica in replicas]
-    between, within = statistics.variance(means), statistics.fmean(statistics.variance(replica) for replica in replicas)
+    between, within = statistics.variance(means), statistics.fmean(
+        statistics.variance(replica) for replica in replicas)
     each = len(replicas[0])
-    consistent = 1.0 if within == 0 else fisher_probability(each * between / within, len(replicas) - 1,
+    consistent = 1.0 if within == 0 else fisher_probability(each * between / within,
+                                                            len(replicas) - 1,
                                                             len(batches) - len(replicas))
     return statistics.fmean(batches), max(half_width(means), half_width(batches)), consistent

@@ -6,7 +6,8 @@ import random
 import intervals
 
 STUDENT = {1: 12.706, 2: 4.303, 4: 2.776, 10: 2.228, 30: 2.042, 120: 1.980}  # two-sided 5 %
-FISHER = {(2, 10): 4.10, (4, 295): 2.40, (5, 5): 5.05, (1, 60): 4.00}  # upper 5 %; 295 between 120 (2.45) and infinity (2.37)
+FISHER = {(2, 10): 4.10, (4, 295): 2.40, (5, 5): 5.05,
+          (1, 60): 4.00}  # upper 5 %; 295 between 120 (2.45) and infinity (2.37)
 
 for freedom, t in STUDENT.items():
     assert abs(intervals.student95(freedom) - t) < 6e-4, (freedom, intervals.student95(freedom))
@@ -25,6 +26,9 @@ for _ in range(200):
     mean, half, probability = intervals.estimate(replicas)
     held += abs(mean - 1) < half
     alike += probability > 0.05
-    found += intervals.estimate([[x + 0.1 * k for x in batches] for k, batches in enumerate(replicas)])[2] < 0.05
-print(f"of 200 trials {held} intervals hold the mean, {alike} replicas look alike, {found} different ones are found")
+    found += intervals.estimate(
+        [[x + 0.1 * k for x in batches] for k, batches in enumerate(replicas)])[2] < 0.05
+print(
+    f"of 200 trials {held} intervals hold the mean, {alike} replicas look alike, {found} different ones are found"
+)
 assert 184 <= held <= 199 and 180 <= alike <= 198 and found >= 195

@@ -82,7 +82,8 @@ def files():
     shared = made[CASES / "5g_2_5_4_76mm.toml"].split("\n", 2)[2]
     made[EXAMPLES / "ward.toml"] = (
         "# The mill of Ward et al. (2005) as the thesis runs it in chapter 5: what all cases of tables 5.1 to 5.4 share.\n"
-        "# ward.sweep.toml sets the powder, the balls and the restitution. Made by regression/ward/make_cases.py.\n" + shared)
+        "# ward.sweep.toml sets the powder, the balls and the restitution. Made by regression/ward/make_cases.py.\n"
+        + shared)
     return made
 
 
@@ -91,7 +92,9 @@ def main():
         sys.exit(__doc__.strip())
     made = files()
     if sys.argv[1:]:
-        stale = [place for place, text in made.items() if not place.exists() or place.read_text() != text]
+        stale = [
+            place for place, text in made.items() if not place.exists() or place.read_text() != text
+        ]
         stale += sorted(set(CASES.glob("*")) - set(made))
         for place in stale:
             print(f"{place.relative_to(ROOT)}: not what make_cases.py makes", file=sys.stderr)

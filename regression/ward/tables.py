@@ -12,7 +12,8 @@ DIAMETERS = tuple(dict.fromkeys(row["diameter [mm]"] for row in _ROWS))
 CHARGE_RATIOS = tuple(dict.fromkeys(row["charge_ratio"] for row in _ROWS))
 POWDERS = tuple(dict.fromkeys(row["powder [g]"] for row in _ROWS))
 
-Case = namedtuple("Case", "name powder charge_ratio diameter count restitution thesis_inverse thesis_rate")
+Case = namedtuple("Case",
+                  "name powder charge_ratio diameter count restitution thesis_inverse thesis_rate")
 
 
 def cases():

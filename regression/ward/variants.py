@@ -22,8 +22,12 @@ FRICTION, COMPLIANCE = 0.4, 3.5  # of the cases: mu, and 1 + 1/J of a solid ball
 def inverted_ratio(case):
     """e_t = max(-1, 1 - mu (1 + 1/J) (1 + e) |g_t| / |g_n|): (2.24) with the ratio of the speeds
     inverted."""
-    ratio = 2 / (FRICTION * COMPLIANCE * (1 + float(case.restitution)))  # of slip to approach, where e_t is -1
-    return {"contact.model": "restitution-by-slip", "contact.tangential_by_slip": [[0, 1], [ratio, -1], [1e9, -1]]}
+    ratio = 2 / (FRICTION * COMPLIANCE *
+                 (1 + float(case.restitution)))  # of slip to approach, where e_t is -1
+    return {
+        "contact.model": "restitution-by-slip", "contact.tangential_by_slip": [[0, 1], [ratio, -1],
+                                                                               [1e9, -1]]
+    }
 
 
 VARIANTS = {  # variant of variants.csv, settings over the case
@@ -56,8 +60,9 @@ def value(setting):
 
 def sweep(case):
     points = "".join("[[sweep.point]]\nname = \"{}\"\nset = {{ {} }}\n".format(
-        name, ", ".join(f'"{key}" = {value(setting)}' for key, setting in {**times_of(case), **settings_of(name, case)}.items()))
-        for name in VARIANTS)
+        name, ", ".join(f'"{key}" = {value(setting)}'
+                        for key, setting in {**times_of(case), **settings_of(name, case)}.items()))
+                     for name in VARIANTS)
     return f'[sweep]\ncase = "{ROOT}/regression/ward/cases/{case.name}.toml"\n{points}'
 
 
@@ -65,7 +70,10 @@ def main(edmill, stepped_mill, folder):
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     out = csv.writer(sys.stdout, lineterminator="\n")
-    out.writerow(["case", "balls", "variant", "inverse_milling_dose_rate", "inverse_milling_dose_rate_ci95", "collision_rate_total"])
+    out.writerow([
+        "case", "balls", "variant", "inverse_milling_dose_rate", "inverse_milling_dose_rate_ci95",
+        "collision_rate_total"
+    ])
     for case in sorted(tables.cases(), key=lambda case: case.count):
         if case.count == 1:
             continue
@@ -73,10 +81,17 @@ def main(edmill, stepped_mill, folder):
         file.write_text(sweep(case))
         subprocess.run([edmill, "sweep", file, "--out", done, "--quiet"], check=True)
         for row in csv.DictReader(open(done / "sweep.csv")):
-            out.writerow([case.name, case.count, row["name"], f"{float(row['inverse_milling_dose_rate [s/J]']):.5g}",
-                          f"{float(row['inverse_milling_dose_rate_ci95 [s/J]']):.2g}", f"{float(row['collision_rate_total [1/s]']):.6g}"])
-        out.writerow(emulation.row(case, LOSSLESS, emulation.times_of(case)[2],
-                                   *emulation.stepped(stepped_mill, case, dict(emulation.METHODS)[LOSSLESS])))
+            out.writerow([
+                case.name, case.count, row["name"],
+                f"{float(row['inverse_milling_dose_rate [s/J]']):.5g}",
+                f"{float(row['inverse_milling_dose_rate_ci95 [s/J]']):.2g}",
+                f"{float(row['collision_rate_total [1/s]']):.6g}"
+            ])
+        out.writerow(
+            emulation.row(case, LOSSLESS,
+                          emulation.times_of(case)[2],
+                          *emulation.stepped(stepped_mill, case,
+                                             dict(emulation.METHODS)[LOSSLESS])))
         sys.stdout.flush()
 
 

@@ -32,7 +32,9 @@ def plan(case, short=False):
         return range(1, 6), 30, 150, 2
     if case.count < 400:
         return range(1, 4), 5, 17, 2
-    return range(1, 4), 1, 5.1, 1.0246679  # 18 drive periods: batches so short would show where in a period they begin
+    return range(
+        1, 4
+    ), 1, 5.1, 1.0246679  # 18 drive periods: batches so short would show where in a period they begin
 
 
 def sha256(place):
@@ -44,13 +46,15 @@ def run(program, case, seed, times, place):
     case_file = CASES / f"{case.name}.toml"
     case_sha256 = sha256(case_file)
     command = [program, str(case_file), "--batch", str(batch)]
-    for key, value in (("run.seed", seed), ("run.start_time", f"{start} s"), ("run.end_time", f"{end} s")):
+    for key, value in (("run.seed", seed), ("run.start_time", f"{start} s"), ("run.end_time",
+                                                                              f"{end} s")):
         command += ["--set", f"{key}={value}"]
     done = subprocess.run(command, stdout=subprocess.PIPE, text=True)
     if done.returncode:
         raise RuntimeError(f"{place.stem}: exit code {done.returncode}")
     temporary = place.with_suffix(".tmp")
-    temporary.write_text(json.dumps({"case_sha256": case_sha256, **json.loads(done.stdout)}, indent=1))
+    temporary.write_text(
+        json.dumps({"case_sha256": case_sha256, **json.loads(done.stdout)}, indent=1))
     os.replace(temporary, place)
 
 
@@ -59,12 +63,15 @@ def same_core(commit, other):
     """Whether two commits have the same sources of the core."""
     if commit == other:
         return True
-    return subprocess.run(["git", "-C", str(CASES), "diff", "--quiet", commit, other, "--", ":/include", ":/src"],
-                          stderr=subprocess.DEVNULL).returncode == 0
+    return subprocess.run(
+        ["git", "-C",
+         str(CASES), "diff", "--quiet", commit, other, "--", ":/include", ":/src"],
+        stderr=subprocess.DEVNULL).returncode == 0
 
 
 def commit_of(program):
-    version = subprocess.run([program, "--version"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    version = subprocess.run([program, "--version"], stdout=subprocess.PIPE, text=True,
+                             check=True).stdout
     return version.split()[-1]
 
 
@@ -74,8 +81,9 @@ def known(place, case, commit, times):
         return False
     record = json.loads(place.read_text())
     found = record["start_time"], record["end_time"], record["batch_length"]
-    return (record["case_sha256"] == sha256(CASES / f"{case.name}.toml") and same_core(record["commit"], commit)
-            and all(math.isclose(a, b) for a, b in zip(found, times)))
+    return (record["case_sha256"] == sha256(CASES / f"{case.name}.toml") and
+            same_core(record["commit"], commit) and
+            all(math.isclose(a, b) for a, b in zip(found, times)))
 
 
 def run_all(program, folder, jobs=1, short=False, quiet=False):
@@ -98,7 +106,8 @@ def run_all(program, folder, jobs=1, short=False, quiet=False):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", metavar="WARD_BATCHES")
     parser.add_argument("--out", required=True)
     parser.add_argument("--jobs", type=int, default=1)

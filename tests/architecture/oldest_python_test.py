@@ -14,7 +14,9 @@ source = pathlib.Path(sys.argv[1])
 # What is newer than 3.9: modules, names of builtins, what modules and objects have, and keywords of
 # calls.
 MODULES = {"tomllib": 11}
-NAMES = {"aiter": 10, "anext": 10, "EncodingWarning": 10, "ExceptionGroup": 11, "BaseExceptionGroup": 11}
+NAMES = {
+    "aiter": 10, "anext": 10, "EncodingWarning": 10, "ExceptionGroup": 11, "BaseExceptionGroup": 11
+}
 MEMBERS = {
     10: "bit_count pairwise hardlink_to UnionType NoneType EllipsisType TypeAlias TypeGuard ParamSpec Concatenate KW_ONLY covariance "
         "linear_regression orig_argv stdlib_module_names get_annotations packages_distributions",
@@ -23,14 +25,20 @@ MEMBERS = {
 }
 MEMBER = {name: minor for minor, names in MEMBERS.items() for name in names.split()}
 OF_OS = {"chdir"}  # old there
-KEYWORDS = {("zip", "strict"): 10, ("dataclass", "slots"): 10, ("dataclass", "kw_only"): 10, ("field", "kw_only"): 10, ("bisect", "key"): 10,
-            ("bisect_left", "key"): 10, ("bisect_right", "key"): 10, ("insort", "key"): 10, ("write_text", "newline"): 10, ("glob", "root_dir"): 10, ("TemporaryDirectory", "ignore_cleanup_errors"): 10,
+KEYWORDS = {("zip", "strict"): 10, ("dataclass", "slots"): 10, ("dataclass", "kw_only"): 10,
+            ("field", "kw_only"): 10, ("bisect", "key"): 10, ("bisect_left", "key"): 10,
+            ("bisect_right", "key"): 10, ("insort", "key"): 10, ("write_text", "newline"): 10,
+            ("glob", "root_dir"): 10, ("TemporaryDirectory", "ignore_cleanup_errors"): 10,
             ("NamedTemporaryFile", "delete_on_close"): 12}
-TYPES = {"bool", "int", "float", "complex", "str", "bytes", "list", "tuple", "dict", "set", "frozenset", "object", "type", "None"}
+TYPES = {
+    "bool", "int", "float", "complex", "str", "bytes", "list", "tuple", "dict", "set", "frozenset",
+    "object", "type", "None"
+}
 
 
 def last(node):
-    return node.attr if isinstance(node, ast.Attribute) else node.id if isinstance(node, ast.Name) else ""
+    return node.attr if isinstance(node,
+                                   ast.Attribute) else node.id if isinstance(node, ast.Name) else ""
 
 
 def is_type(node):
@@ -48,8 +56,14 @@ def problems_of(text, oldest):
         tree = ast.parse(text, feature_version=(3, oldest))
     except SyntaxError as error:
         return [(error.lineno or 0, error.msg)]
-    postponed = any(isinstance(n, ast.ImportFrom) and n.module == "__future__" and any(a.name == "annotations" for a in n.names) for n in tree.body)
-    shown = [x for n in ast.walk(tree) for x in (getattr(n, "annotation", None), getattr(n, "returns", None)) if x is not None]
+    postponed = any(
+        isinstance(n, ast.ImportFrom) and n.module == "__future__" and any(a.name == "annotations"
+                                                                           for a in n.names)
+        for n in tree.body)
+    shown = [
+        x for n in ast.walk(tree)
+        for x in (getattr(n, "annotation", None), getattr(n, "returns", None)) if x is not None
+    ]
     unevaluated = {m for annotation in shown for m in ast.walk(annotation)} if postponed else set()
     found = []
     for n in ast.walk(tree):
@@ -59,23 +73,31 @@ def problems_of(text, oldest):
         if isinstance(n, ast.BinOp) and isinstance(n.op, ast.BitOr) and is_type(n):
             new[f"{ast.unparse(n)}: a union of types"] = 10
         elif isinstance(n, ast.Call):
-            new = {f"{last(n.func)}({k.arg}=)": KEYWORDS.get((last(n.func), k.arg), 0) for k in n.keywords}
+            new = {
+                f"{last(n.func)}({k.arg}=)": KEYWORDS.get((last(n.func), k.arg), 0)
+                for k in n.keywords
+            }
         elif isinstance(n, ast.Import):
             new = {a.name: MODULES.get(a.name, 0) for a in n.names}
         elif isinstance(n, ast.ImportFrom):
-            new = {f"{n.module}.{a.name}": max(MEMBER.get(a.name, 0), MODULES.get(n.module, 0)) for a in n.names}
+            new = {
+                f"{n.module}.{a.name}": max(MEMBER.get(a.name, 0), MODULES.get(n.module, 0))
+                for a in n.names
+            }
         elif isinstance(n, ast.Attribute) and not (n.attr in OF_OS and last(n.value) == "os"):
             new[n.attr] = MEMBER.get(n.attr, 0)
         elif isinstance(n, ast.Name):
             new[n.id] = NAMES.get(n.id, 0)
-        found += [(n.lineno, f"{what} needs Python 3.{minor}") for what, minor in new.items() if minor > oldest]
+        found += [(n.lineno, f"{what} needs Python 3.{minor}") for what, minor in new.items()
+                  if minor > oldest]
     return found
 
 
 def oldest_of(file):
     """The tools of the project itself run with the Python of Debian 12; the suite is for users of
     other codes."""
-    own = file.relative_to(source).parts[0] in ("regression", "verification") and not file.name.startswith("compare")
+    own = file.relative_to(source).parts[0] in (
+        "regression", "verification") and not file.name.startswith("compare")
     return 11 if own else declared
 
 
@@ -86,7 +108,9 @@ def blocks():
             yield file, file.read_text(encoding="utf-8")
         for file in sorted((source / folder).rglob("*.ipynb")):
             cells = json.loads(file.read_text(encoding="utf-8"))["cells"]
-            yield file, "\n".join(re.sub(r"(?m)^(\s*)[%!].*", r"\1pass", "".join(c["source"])) for c in cells if c["cell_type"] == "code")
+            yield file, "\n".join(
+                re.sub(r"(?m)^(\s*)[%!].*", r"\1pass", "".join(c["source"])) for c in cells
+                if c["cell_type"] == "code")
         for file in sorted((source / folder).rglob("*.md")):
             text = file.read_text(encoding="utf-8")
             for block in re.finditer(r"^```python\n(.*?)^```$", text, re.M | re.S):
@@ -94,16 +118,27 @@ def blocks():
 
 
 # The test finds each kind, and lets alone what is old.
-NEW = ["Number = float | None", "isinstance(x, int | pathlib.Path)", "match x:\n  case 1: pass", "zip(a, b, strict=True)", "import tomllib",
-       "from typing import Self", "def f(x: int | None): pass", "x.bit_count()", "except_ = ExceptionGroup", "try: pass\nexcept* ValueError: pass",
-       "class A:\n  x: list[int] | None = None"]
-OLD = ["a | b", "re.M | re.S", "x.keys() | {1}", "from __future__ import annotations\ndef f(x: int | None): pass", "os.walk(folder)", "zip(a, b)"]
+NEW = [
+    "Number = float | None", "isinstance(x, int | pathlib.Path)", "match x:\n  case 1: pass",
+    "zip(a, b, strict=True)", "import tomllib", "from typing import Self",
+    "def f(x: int | None): pass", "x.bit_count()", "except_ = ExceptionGroup",
+    "try: pass\nexcept* ValueError: pass", "class A:\n  x: list[int] | None = None"
+]
+OLD = [
+    "a | b", "re.M | re.S", "x.keys() | {1}",
+    "from __future__ import annotations\ndef f(x: int | None): pass", "os.walk(folder)", "zip(a, b)"
+]
 assert all(problems_of(text, 9) for text in NEW), [text for text in NEW if not problems_of(text, 9)]
 assert not any(problems_of(text, 9) for text in OLD), [problems_of(text, 9) for text in OLD]
 
-declared = int(re.search(r'^requires-python = ">=3\.(\d+)"$', (source / "pyproject.toml").read_text(encoding="utf-8"), re.M).group(1))
+declared = int(
+    re.search(r'^requires-python = ">=3\.(\d+)"$',
+              (source / "pyproject.toml").read_text(encoding="utf-8"), re.M).group(1))
 texts = list(blocks())
-problems = [f"{file.relative_to(source)}:{line}: {what}" for file, text in texts for line, what in problems_of(text, oldest_of(file))]
+problems = [
+    f"{file.relative_to(source)}:{line}: {what}" for file, text in texts
+    for line, what in problems_of(text, oldest_of(file))
+]
 if len(texts) < 40:
     problems.append(f"{len(texts)} texts found, expected those of the project")
 print("\n".join(problems) or f"{len(texts)} texts keep to Python 3.{declared}")

@@ -14,12 +14,18 @@ import sys
 
 source = pathlib.Path(sys.argv[1]) / "src"
 # By room: each library's folder is one of those that are searched for headers.
-files = {str(pathlib.Path(*p.relative_to(source).parts[1:])): p.read_text(encoding="utf-8") for p in sorted(source.rglob("*.[ch]pp"))}
+files = {
+    str(pathlib.Path(*p.relative_to(source).parts[1:])): p.read_text(encoding="utf-8")
+    for p in sorted(source.rglob("*.[ch]pp"))
+}
 problems, to_judge = [], []
 
 
 def find_cycles():
-    includes = {name: [i for i in re.findall(r'^#include "([^"]+)"', text, re.M) if i in files] for name, text in files.items()}
+    includes = {
+        name: [i for i in re.findall(r'^#include "([^"]+)"', text, re.M) if i in files
+              ] for name, text in files.items()
+    }
     done, path = set(), []
 
     def visit(name):
@@ -44,10 +50,12 @@ def find_long(name, lines):
     if len(lines) > 400:
         to_judge.append(f"{name}: {len(lines)} lines")
     for k, line in enumerate(lines):
-        if not re.search(r"\)[\w &:<>,*-]*( :.*)? ?\{$", line) or re.match(r"\s*(if|for|while|switch|else|struct|class|\})", line):
+        if not re.search(r"\)[\w &:<>,*-]*( :.*)? ?\{$", line) or re.match(
+                r"\s*(if|for|while|switch|else|struct|class|\})", line):
             continue
         begin = k
-        while begin > 0 and re.match(r"\s{4,}\S|\s+:", lines[begin]) and not re.search(r"[;{}]$|:$|^$", lines[begin - 1]):
+        while begin > 0 and re.match(r"\s{4,}\S|\s+:", lines[begin]) and not re.search(
+                r"[;{}]$|:$|^$", lines[begin - 1]):
             begin -= 1
         indent = re.match(r" *", lines[begin]).group()
         end = next((n for n in range(k + 1, len(lines)) if re.match(indent + r"\}", lines[n])), k)
@@ -58,8 +66,11 @@ def find_long(name, lines):
 def find_ranges(name, text):
     """The page of the browser and the npm package have these rooms, and Emscripten's library of
     Debian 12 no algorithms of std::ranges."""
-    if name.split("/")[0] in {"base", "model", "dynamics", "engine", "casefile", "io", "run", "tangent", "output", "core_alone",
-                              "browser", "node", "audit", "compare", "identify", "dem", "logs", "decks", "machines", "cli"} and "std::ranges::" in text:
+    if name.split("/")[0] in {
+            "base", "model", "dynamics", "engine", "casefile", "io", "run", "tangent", "output",
+            "core_alone", "browser", "node", "audit", "compare", "identify", "dem", "logs", "decks",
+            "machines", "cli"
+    } and "std::ranges::" in text:
         problems.append(f"{name}: std::ranges, which the page and the npm package cannot have")
 
 
@@ -68,14 +79,22 @@ GENERATED = {"reference.md", "variables.md", "machines.md", "dem_study.md", "tes
 
 
 def find_wide_prose():
-    pages = [page for folder in ("docs", "verification", "regression") for page in (source.parent / folder).rglob("*.md")]
+    pages = [
+        page for folder in ("docs", "verification", "regression")
+        for page in (source.parent / folder).rglob("*.md")
+    ]
     for page in pages + list(source.parent.glob("*.md")):
         is_code = False
-        for k, line in enumerate(page.read_text(encoding="utf-8").splitlines() if page.name not in GENERATED else ()):
+        for k, line in enumerate(
+                page.read_text(
+                    encoding="utf-8").splitlines() if page.name not in GENERATED else ()):
             if line.strip().startswith("```"):
                 is_code = not is_code
-            elif not is_code and len(line) > 100 and not line.startswith(("|", "    ", "<", "#", "![")) and " " in line[:100].strip():
-                problems.append(f"{page.relative_to(source.parent)}:{k + 1}: {len(line)} columns of prose, at most 100 are expected")
+            elif not is_code and len(line) > 100 and not line.startswith(
+                ("|", "    ", "<", "#", "![")) and " " in line[:100].strip():
+                problems.append(
+                    f"{page.relative_to(source.parent)}:{k + 1}: {len(line)} columns of prose, at most 100 are expected"
+                )
 
 
 # The declarations of instances that two sources need, each by itself.
@@ -85,9 +104,12 @@ SHARED = {"namespace edmill {"}
 def find_twice():
     places = collections.defaultdict(list)
     for name, text in files.items():
-        lines = [(k + 1, re.sub(r"\s+", " ", line.strip())) for k, line in enumerate(text.splitlines())]
+        lines = [
+            (k + 1, re.sub(r"\s+", " ", line.strip())) for k, line in enumerate(text.splitlines())
+        ]
         lines = [(k, line) for k, line in lines
-                 if line and not line.startswith(("//", "#include")) and line not in ("{", "}", "};", "public:", "private:")]
+                 if line and not line.startswith(("//", "#include")) and line not in (
+                     "{", "}", "};", "public:", "private:")]
         for k in range(len(lines) - 5):
             places[tuple(line for _, line in lines[k:k + 6])].append(f"{name}:{lines[k][0]}")
     for lines, where in places.items():
@@ -97,27 +119,35 @@ def find_twice():
 
 def own_namespaces(room):
     """In run stands what programs include, too."""
-    own = {"edmill", "edmill::numerics"} if room == "base" else {f"edmill::{room}", f"edmill::{room}::detail"}
+    own = {"edmill", "edmill::numerics"
+          } if room == "base" else {f"edmill::{room}", f"edmill::{room}::detail"}
     return own | {"edmill"} if room == "run" else own
 
 
 def find_foreign_namespaces(name, text):
     own = own_namespaces(name.split("/")[0])
-    for block in re.finditer(r"^namespace (edmill[\w:]*) \{\n(.*?)^\}  // namespace \1$", text, re.M | re.S):
+    for block in re.finditer(r"^namespace (edmill[\w:]*) \{\n(.*?)^\}  // namespace \1$", text,
+                             re.M | re.S):
         # The registry defines what casefile declares, the types of outputs; the core alone, the
         # page and the npm package stand for what they leave out.
-        if block.group(1) in own or name == "output/registry.cpp" or name.startswith(("core_alone/", "browser/make_source", "node/")):
+        if block.group(1) in own or name == "output/registry.cpp" or name.startswith(
+            ("core_alone/", "browser/make_source", "node/")):
             continue
-        declared = re.sub(r"//.*|extern template [^;]*;|template <[^>]*>|(class|struct) \w+;|namespace \w+ \{|\}", "", block.group(2))
+        declared = re.sub(
+            r"//.*|extern template [^;]*;|template <[^>]*>|(class|struct) \w+;|namespace \w+ \{|\}",
+            "", block.group(2))
         if declared.strip():
-            problems.append(f"{name}: namespace {block.group(1)}, expected {' or '.join(sorted(own))}: {declared.split()[:6]}")
+            problems.append(
+                f"{name}: namespace {block.group(1)}, expected {' or '.join(sorted(own))}: {declared.split()[:6]}"
+            )
 
 
 def find_engine(name, text):
     """A judge that shares the engine's code proves nothing; the engine tells a proof only where to
     look."""
     room = name.split("/")[0]
-    for other, judges in (("engine", {"audit", "compare", "identify", "dem", "prove"}), ("run", {"audit", "compare", "dem"})):
+    for other, judges in (("engine", {"audit", "compare", "identify", "dem",
+                                      "prove"}), ("run", {"audit", "compare", "dem"})):
         if room in judges and f'#include "{other}/' in text:
             problems.append(f"{name}: includes {other}")
 
@@ -132,5 +162,6 @@ for name, text in files.items():
 if len(files) < 100:
     problems.append(f"{len(files)} files found in {source}, expected those of the project")
 find_wide_prose()
-print("\n".join(to_judge + problems + [f"{len(files)} files, {len(problems)} problems, {len(to_judge)} places to judge"]))
+print("\n".join(to_judge + problems +
+                [f"{len(files)} files, {len(problems)} problems, {len(to_judge)} places to judge"]))
 sys.exit(1 if problems else 0)

@@ -57,8 +57,9 @@ class Page:
         self.page = pathlib.Path(arguments.sources) / arguments.page
         self.lines = self.page.read_text(encoding="utf-8").splitlines()
         self.variables = {"__name__": "__main__"}
-        self.environment = dict(os.environ, PYTHONPATH=arguments.package, PYTHONDONTWRITEBYTECODE="1", COLUMNS="120",
-                                PATH=f"{pathlib.Path(arguments.edmill).parent}:/usr/bin:{os.environ['PATH']}")
+        self.environment = dict(
+            os.environ, PYTHONPATH=arguments.package, PYTHONDONTWRITEBYTECODE="1", COLUMNS="120",
+            PATH=f"{pathlib.Path(arguments.edmill).parent}:/usr/bin:{os.environ['PATH']}")
 
     def prepare(self):
         self.folder = pathlib.Path(self.a.folder)
@@ -87,7 +88,8 @@ class Page:
             k += 1
 
     def shell(self, command):
-        return subprocess.run(["bash", "-c", command], env=self.environment, capture_output=True, text=True, timeout=3600)
+        return subprocess.run(["bash", "-c", command], env=self.environment, capture_output=True,
+                              text=True, timeout=3600)
 
     def run(self):
         self.prepare()
@@ -127,14 +129,18 @@ class Page:
         name = lines[0].removeprefix("// ")
         example = pathlib.Path(self.a.sources) / "docs/examples" / name
         self.ran += 1
-        if not example.is_file() or not example.read_text(encoding="utf-8").rstrip().endswith("\n".join(lines[1:])):
+        if not example.is_file() or not example.read_text(encoding="utf-8").rstrip().endswith(
+                "\n".join(lines[1:])):
             self.problem(place, f"not the end of docs/examples/{name}")
 
     def succeed(self, command, place):
         done = self.shell(command)
         self.ran += 1
         if done.returncode != 0:
-            self.problem(place, f"exit code {done.returncode}:\n{command}\n{done.stdout[-1500:]}{done.stderr[-1500:]}")
+            self.problem(
+                place,
+                f"exit code {done.returncode}:\n{command}\n{done.stdout[-1500:]}{done.stderr[-1500:]}"
+            )
 
     def console(self, lines, place):
         """Runs the commands; what they print must be there. Returns the block with what they
@@ -162,8 +168,9 @@ class Page:
                 self.problem(place + first, f"'{command}' fails:\n{text}")
             if not self.matches(expected, printed):
                 if not self.a.update:
-                    self.problem(place + first, f"'{command}' prints\n" + "\n".join(printed) + "\nwhere the page has\n" +
-                                 "\n".join(expected))
+                    self.problem(
+                        place + first, f"'{command}' prints\n" + "\n".join(printed) +
+                        "\nwhere the page has\n" + "\n".join(expected))
                 shown += printed
             else:
                 shown += expected
@@ -171,8 +178,9 @@ class Page:
 
     @staticmethod
     def matches(expected, printed):
-        pattern = "\n".join("(?s:.*)" if line == "..." else re.escape(line.rstrip()).replace(r"\.\.\.", ".*")
-                            for line in expected)
+        pattern = "\n".join(
+            "(?s:.*)" if line == "..." else re.escape(line.rstrip()).replace(r"\.\.\.", ".*")
+            for line in expected)
         return re.fullmatch(pattern, "\n".join(printed)) is not None
 
     def python(self, text, place):
@@ -187,8 +195,10 @@ class Page:
             except Exception as error:  # noqa: BLE001: whatever a block raises is a finding
                 return self.problem(statement.lineno - 1, f"{type(error).__name__}: {error}")
             comment = shown.get(statement.end_lineno, "").lstrip("# ").split(": ")[0]
-            if out.getvalue() and re.search(r"\d", comment) and not self.is_output(comment, out.getvalue()):
-                self.problem(statement.end_lineno - 1, f"prints {out.getvalue()!r}, where the page has {comment!r}")
+            if out.getvalue() and re.search(
+                    r"\d", comment) and not self.is_output(comment, out.getvalue()):
+                self.problem(statement.end_lineno - 1,
+                             f"prints {out.getvalue()!r}, where the page has {comment!r}")
 
     @staticmethod
     def is_output(comment, printed):
@@ -196,8 +206,9 @@ class Page:
         and numbers to the comment's digits."""
         pairs = list(itertools.zip_longest(comment.split(), printed.split(), fillvalue=""))
         number = re.compile(r"-?\d+(\.\d*)?(e-?\d+)?")
-        return all(abs(float(a) - float(b)) <= 0.501 * 10 ** decimal.Decimal(a).as_tuple().exponent if number.fullmatch(a) and number.fullmatch(b) else a == b
-                   for a, b in pairs)
+        return all(
+            abs(float(a) - float(b)) <= 0.501 * 10 ** decimal.Decimal(a).as_tuple().exponent
+            if number.fullmatch(a) and number.fullmatch(b) else a == b for a, b in pairs)
 
     def toml(self, lines, place):
         self.ran += 1
@@ -213,7 +224,8 @@ class Page:
             return
         for part in re.split(r"(?m)^(?=\[)", BASE):
             name = part.split("]")[0].strip("[")
-            typed = given.get(name, {}).get("type", "cylinder") if name == "vessel" and name in given else None
+            typed = given.get(name, {}).get(
+                "type", "cylinder") if name == "vessel" and name in given else None
             if part and name not in given and not (name == "balls" and "ball" in given):
                 text += part
             elif typed == "cylinder" and "diameter" not in given["vessel"]:
@@ -231,7 +243,8 @@ def main():
     parser.add_argument("--long", action="store_true")
     parser.add_argument("--update", action="store_true")
     arguments = parser.parse_args()
-    arguments.edmill, arguments.package = (str(pathlib.Path(p).resolve()) for p in (arguments.edmill, arguments.package))
+    arguments.edmill, arguments.package = (
+        str(pathlib.Path(p).resolve()) for p in (arguments.edmill, arguments.package))
     arguments.folder = str(pathlib.Path(arguments.folder).resolve())
     arguments.sources = str(pathlib.Path(arguments.sources).resolve())
     sys.path.insert(0, arguments.package)

@@ -31,7 +31,8 @@ class Compare(unittest.TestCase):
             for path, content in zip(paths, (a, b)):
                 with open(path, "w", encoding="utf-8") as out:
                     out.write(content if isinstance(content, str) else json.dumps(content))
-            return subprocess.run([sys.executable, BENCH, "compare", *paths, *more], capture_output=True, text=True)
+            return subprocess.run([sys.executable, BENCH, "compare", *paths, *more],
+                                  capture_output=True, text=True)
 
     def verdict(self, a, b, more_is_better=True, code=0):
         done = self.compare(figures(x=(more_is_better, a)), figures(x=(more_is_better, b)))
@@ -51,7 +52,8 @@ class Compare(unittest.TestCase):
     def test_noise_alone_is_rarely_a_difference(self):
         false_alarms = 0
         for _ in range(40):
-            done = self.compare(figures(x=(True, noisy(1e6, 0.1))), figures(x=(True, noisy(1e6, 0.1))))
+            done = self.compare(figures(x=(True, noisy(1e6, 0.1))),
+                                figures(x=(True, noisy(1e6, 0.1))))
             false_alarms += "no difference" not in done.stdout
         self.assertLessEqual(false_alarms, 2)
 
@@ -82,7 +84,8 @@ class Compare(unittest.TestCase):
             path = os.path.join(folder, "a.json")
             with open(path, "w", encoding="utf-8") as out:
                 json.dump(content, out)
-            done = subprocess.run([sys.executable, BENCH, "ratios", path], capture_output=True, text=True)
+            done = subprocess.run([sys.executable, BENCH, "ratios", path], capture_output=True,
+                                  text=True)
         return [line.split() for line in done.stdout.split("\n") if line.startswith("x ")]
 
     def test_rounds_that_ran_together_are_compared_one_by_one(self):
@@ -94,7 +97,8 @@ class Compare(unittest.TestCase):
         self.assertNotEqual(line[2:], ["[1.000,", "3.000]"])
 
     def test_files_that_ran_together_are_compared_round_by_round(self):
-        load = [random_source.uniform(0.4, 1) for _ in range(9)]  # of the machine: varies much more than the difference
+        load = [random_source.uniform(0.4, 1) for _ in range(9)
+               ]  # of the machine: varies much more than the difference
         a = figures(x=(True, [1e6 * m for m in load]))
         b = figures(x=(True, [1.05e6 * m * random_source.gauss(1, 0.004) for m in load]))
         self.assertIn("1 no difference", self.compare(a, b).stdout)
@@ -144,9 +148,12 @@ class Run(unittest.TestCase):
                 out.write(PROGRAM)
             os.chmod(program, 0o755)
             paths = [os.path.join(folder, name) for name in ("a.json", "b.json")]
-            files = [argument for path in paths for argument in ("--binary", program, "--out", path)]
-            done = subprocess.run([sys.executable, BENCH, "run", *files, "--rounds", "1", *more], capture_output=True,
-                                  text=True, env={**os.environ, "PARTY": json.dumps(party)})
+            files = [
+                argument for path in paths for argument in ("--binary", program, "--out", path)
+            ]
+            done = subprocess.run([sys.executable, BENCH, "run", *files, "--rounds", "1", *more],
+                                  capture_output=True, text=True,
+                                  env={**os.environ, "PARTY": json.dumps(party)})
             self.assertEqual(done.returncode, 0, done.stderr)
             results = []
             for path in paths:
@@ -160,8 +167,9 @@ class Run(unittest.TestCase):
         self.assertTrue(one["together"])
         self.assertEqual(one["together"], two["together"])
         for result in one, two:
-            self.assertEqual({name: len(figure["values"]) for name, figure in result["figures"].items()},
-                             {"edmill/a/1": 1, "minimal/a/1": 1, "edmill/b": 1, "operation/c": 1})
+            self.assertEqual(
+                {name: len(figure["values"]) for name, figure in result["figures"].items()},
+                {"edmill/a/1": 1, "minimal/a/1": 1, "edmill/b": 1, "operation/c": 1})
 
     def test_without_a_core_they_run_in_turn(self):
         one, two = self.run_bench({}, "--filter", "^edmill/")

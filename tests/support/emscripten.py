@@ -15,7 +15,8 @@ def build(folder):
 
 def published(name):
     """The digest of a log that every machine makes."""
-    for row in csv.reader((SOURCE / "regression/reference/bits.tsv").read_text().splitlines(), delimiter="\t", quoting=csv.QUOTE_NONE):
+    for row in csv.reader((SOURCE / "regression/reference/bits.tsv").read_text().splitlines(),
+                          delimiter="\t", quoting=csv.QUOTE_NONE):
         if row[0] == name and row[2] == "double":
             return row[4]
     raise KeyError(name)

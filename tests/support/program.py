@@ -38,7 +38,8 @@ diameter = "6 mm"
 """
 
 OUTPUTS = {
-    "collisions": "", "events": "states = true", "spectra": 'file = "spectra.h5"', "vessel_load": 'interval = "50 ms"',
+    "collisions": "", "events": "states = true", "spectra": 'file = "spectra.h5"',
+    "vessel_load": 'interval = "50 ms"',
     "trends": 'interval = "50 ms"\ncolumns = [{ variable = "milling_dose", statistics = ["sum", "rate"] }]',
     "paraview": 'interval = "20 ms"', "snapshot": "start_collision = 100\ncollisions = 3",
     "animation": 'end_time = "20 ms"', "milling_dose": 'folder = "tables/doses"',
@@ -48,7 +49,8 @@ OUTPUTS = {
 
 def case(*outputs, end="0.1 s"):
     """A case with these outputs, which takes some hundredths of a second for each 0.1 s."""
-    return CASE.format(end=end) + "".join(f'[[output]]\ntype = "{name}"\n{OUTPUTS[name]}\n' for name in outputs)
+    return CASE.format(end=end) + "".join(
+        f'[[output]]\ntype = "{name}"\n{OUTPUTS[name]}\n' for name in outputs)
 
 
 class Trials:
@@ -85,7 +87,9 @@ class Trials:
     def refused(self, done, what, *words, code=2):
         """Exit code and one line with these words."""
         self.check(done.returncode == code, f"{what}: exit code {done.returncode}: {done.stderr}")
-        self.check(done.stderr.count("\n") == 1 and done.stderr.startswith("edmill: "), f"{what}: {done.stderr!r}")
+        self.check(
+            done.stderr.count("\n") == 1 and done.stderr.startswith("edmill: "),
+            f"{what}: {done.stderr!r}")
         for word in words:
             self.check(str(word) in done.stderr, f"{what}: no {word!r} in {done.stderr!r}")
 
@@ -103,7 +107,9 @@ def edmill(*arguments, code=None, **options):
 
     @param code  with which it has to end
     """
-    done = subprocess.run(command(*arguments), **({"capture_output": True, "text": True, "stdin": subprocess.DEVNULL} | options))
+    done = subprocess.run(
+        command(*arguments),
+        **({"capture_output": True, "text": True, "stdin": subprocess.DEVNULL} | options))
     assert code in (None, done.returncode), (arguments, done.returncode, done.stdout, done.stderr)
     return done
 

@@ -56,7 +56,8 @@ def case(density, end, seed):
     draws.shuffle(places)
     text = CASE.format(end=end, start=end / 10, edge=edge, exponents=3 * BALLS)
     for place in places[:BALLS]:
-        text += BALL.format(diameter=DIAMETER, x=[-edge / 2 + DIAMETER / 2 + (c + 0.5) * cell for c in place],
+        text += BALL.format(diameter=DIAMETER,
+                            x=[-edge / 2 + DIAMETER / 2 + (c + 0.5) * cell for c in place],
                             v=[draws.gauss(0, 1) for _ in range(3)])
     return text
 
@@ -67,7 +68,10 @@ def of_a_run(folder, density, end, seed):
     (folder / "case.toml").write_text(case(density, end, seed))
     edmill("run", "case.toml", "--out", "out", "--quiet", cwd=folder, code=0)
     with open(folder / "out/lyapunov.csv") as file:
-        exponents = [float(row["per_second [1/s]"]) for row in csv.DictReader(line for line in file if not line.startswith("#"))]
+        exponents = [
+            float(row["per_second [1/s]"])
+            for row in csv.DictReader(line for line in file if not line.startswith("#"))
+        ]
     pairs = json.loads((folder / "out/summary.json").read_text())["collisions"]["ball_ball"]
     rate = 2 * pairs / BALLS / end
     return sum(x for x in exponents if x > 0) / BALLS / rate, exponents[0] / rate
@@ -79,7 +83,10 @@ def mean(values):
 
 def expected_largest(density):
     edge = (BALLS / density) ** (1 / 3)  # in diameters
-    return mean([largest_exponent(BALLS, BALLS / (edge - 1) ** 3, 40000, seed) for seed in range(1, SEEDS + 1)])
+    return mean([
+        largest_exponent(BALLS, BALLS / (edge - 1) ** 3, 40000, seed)
+        for seed in range(1, SEEDS + 1)
+    ])
 
 
 sums, faults = {}, []
@@ -88,8 +95,10 @@ with tempfile.TemporaryDirectory() as name:
         found = [of_a_run(pathlib.Path(name), density, end, seed) for seed in range(1, SEEDS + 1)]
         sums[density] = mean([of_all for of_all, _ in found])
         largest, expected = mean([one for _, one in found]), expected_largest(density)
-        print(f"density {density:g}: sum over collisions {sums[density][0]:.4f} +- {sums[density][1]:.4f}, "
-              f"largest {largest[0]:.2f} +- {largest[1]:.2f}, by kinetic theory {expected[0]:.2f} +- {expected[1]:.2f}", flush=True)
+        print(
+            f"density {density:g}: sum over collisions {sums[density][0]:.4f} +- {sums[density][1]:.4f}, "
+            f"largest {largest[0]:.2f} +- {largest[1]:.2f}, by kinetic theory {expected[0]:.2f} +- {expected[1]:.2f}",
+            flush=True)
         if abs(largest[0] - expected[0]) > math.hypot(largest[1], expected[1]):
             faults.append(f"the largest exponent at {density:g} is not that of kinetic theory")
 slope = (sums[1e-3][0] - sums[1e-2][0]) / math.log(10)

@@ -36,7 +36,8 @@ class Gas:
         return [self.draw.gauss(0, 1) for _ in range(3)]
 
     def fly(self, ball):
-        self.of_place[ball] = plus(self.of_place[ball], self.time - self.at[ball], self.of_velocity[ball])
+        self.of_place[ball] = plus(self.of_place[ball], self.time - self.at[ball],
+                                   self.of_velocity[ball])
         self.at[ball] = self.time
 
     def collide(self):
@@ -56,13 +57,15 @@ class Gas:
         across = self.vector()
         across = plus(across, -dot(across, along), along)
         b = math.sqrt(self.draw.random())
-        return plus([-math.sqrt(1 - b * b) * x for x in along], b / math.sqrt(dot(across, across)), across)
+        return plus([-math.sqrt(1 - b * b) * x for x in along], b / math.sqrt(dot(across, across)),
+                    across)
 
     def impact(self, i, j, g, speed):
         n = self.normal(g, speed)
         self.fly(i)
         self.fly(j)
-        q, w = plus(self.of_place[j], -1, self.of_place[i]), plus(self.of_velocity[j], -1, self.of_velocity[i])
+        q, w = plus(self.of_place[j], -1, self.of_place[i]), plus(self.of_velocity[j], -1,
+                                                                  self.of_velocity[i])
         gn, qn, wn = dot(g, n), dot(q, n), dot(w, n)
         turned = plus(q, -qn / gn, g)  # of the normal, with the delay of the impact
         change = plus([(wn + dot(g, turned)) * x for x in n], gn, turned)

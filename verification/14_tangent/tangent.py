@@ -96,13 +96,20 @@ model = "restitution-by-slip"
 restitution = 0.8
 tangential_by_slip = [[0, -0.4], [1, 0.1], [4, 0.6]]
 """
-OF_SPEX = {"contact.restitution": "0.8", "contact.friction": "0.2", "mill.speed": "1054 rpm", "mill.arm": "10 cm",
-           "mill.theta_max": "15 deg", "vessel.diameter": "38 mm", "vessel.height": "57 mm", "run.gravity": "9.8 m/s2",
-           "balls.0.density": "7.8 g/cm3", "balls.0.diameter": "9 mm"}
-OF_PLANETARY = {"contact.min_tangential": "-0.5", "mill.radius": "75 mm", "mill.ratio": "-2", "vessel.edge_radius": "8 mm",
-                "mill.speed": "300 rpm"}
-OF_PISTON = {"vessel.piston.0.distance": "6 mm", "mill.speed": "900 rpm", "contact.restitution": "0.8",
-             "vessel.piston.0.swing.0.amplitude": "5 mm"}
+OF_SPEX = {
+    "contact.restitution": "0.8", "contact.friction": "0.2", "mill.speed": "1054 rpm",
+    "mill.arm": "10 cm", "mill.theta_max": "15 deg", "vessel.diameter": "38 mm",
+    "vessel.height": "57 mm", "run.gravity": "9.8 m/s2", "balls.0.density": "7.8 g/cm3",
+    "balls.0.diameter": "9 mm"
+}
+OF_PLANETARY = {
+    "contact.min_tangential": "-0.5", "mill.radius": "75 mm", "mill.ratio": "-2",
+    "vessel.edge_radius": "8 mm", "mill.speed": "300 rpm"
+}
+OF_PISTON = {
+    "vessel.piston.0.distance": "6 mm", "mill.speed": "900 rpm", "contact.restitution": "0.8",
+    "vessel.piston.0.swing.0.amplitude": "5 mm"
+}
 
 
 def setting(key, number, unit):
@@ -135,14 +142,16 @@ class Derivatives(unittest.TestCase):
     def check(self, text, numbers, events=50):
         case = self.case_from_state(text)
         keys = list(numbers) + ["initial.1.x", "initial.3.vy", "initial.0.wz"]
-        said("sensitivity", case, "--events", events, "--digits", 30, "--out", self.folder / "d.csv", "--quiet",
-             *(word for key in keys for word in ("--by", key)))
+        said("sensitivity", case, "--events", events, "--digits", 30, "--out",
+             self.folder / "d.csv", "--quiet", *(word for key in keys for word in ("--by", key)))
         derivatives = rows(self.folder / "d.csv")
         branches = set()
         for k, key in enumerate(keys):
             up, down = (self.differing(case, key, numbers, events, sign) for sign in (1, -1))
             for name in QUANTITIES:
-                exact = [(Decimal(a[name]) - Decimal(b[name])) / (2 * STEP) for a, b in zip(up, down)]
+                exact = [
+                    (Decimal(a[name]) - Decimal(b[name])) / (2 * STEP) for a, b in zip(up, down)
+                ]
                 found = [Decimal(row[f"d_{name}_{k}"]) for row in derivatives]
                 largest = max(map(abs, exact))
                 off = max(abs(a - b) for a, b in zip(exact, found))
@@ -181,7 +190,8 @@ class Derivatives(unittest.TestCase):
 
 
     def test_other_laws(self):
-        self.check(SPEX + VISCOELASTIC, {"contact.effective_modulus": "115 GPa", "contact.dissipative_time": "0.1 us"})
+        self.check(SPEX + VISCOELASTIC,
+                   {"contact.effective_modulus": "115 GPa", "contact.dissipative_time": "0.1 us"})
         self.check(SPEX + YIELDING, {"contact.yield_pressure": "2 GPa", "contact.friction": "0.3"})
         self.check(PLANETARY + BY_SLIP, {"contact.restitution": "0.8"})
 
@@ -198,7 +208,9 @@ class Table(unittest.TestCase):
     SIZE, RADIUS = Decimal("0.2"), Decimal("0.005")
 
     def derivatives(self, e, phase, events=12):
-        pi = Decimal("3.14159265358979323846264338327950288419716939937510582097494459230781640628620899862803482534211706798214808651")
+        pi = Decimal(
+            "3.14159265358979323846264338327950288419716939937510582097494459230781640628620899862803482534211706798214808651"
+        )
         g, t = self.G, self.T
         w = 2 * pi / t
         cosine, sine = cos(phase), sin(phase)
@@ -230,8 +242,8 @@ least_separation = "0 m/s"
 diameter = "{2 * self.RADIUS} m"
 position = [0, "{height:.100f} m", 0]
 """)
-            said("sensitivity", case, "--by", "initial.0.vy", "--by", "initial.0.y", "--events", events, "--digits", 30, "--out",
-                 case.with_suffix(".csv"), "--quiet")
+            said("sensitivity", case, "--by", "initial.0.vy", "--by", "initial.0.y", "--events",
+                 events, "--digits", 30, "--out", case.with_suffix(".csv"), "--quiet")
             table = rows(case.with_suffix(".csv"))
         times = [Decimal(row["time"]) for row in table]
         for one, other in zip(times, times[1:]):
@@ -246,7 +258,8 @@ position = [0, "{height:.100f} m", 0]
                 for d in both:
                     for k in range(len(d) - 2):
                         expected = trace * d[k + 1] - e * e * d[k]
-                        self.assertLessEqual(abs(d[k + 2] - expected), Decimal("1e-20") * max(map(abs, d)), (e, phase, k))
+                        self.assertLessEqual(abs(d[k + 2] - expected),
+                                             Decimal("1e-20") * max(map(abs, d)), (e, phase, k))
 
     def test_the_phase_at_which_the_period_doubles(self):
         """A multiplier is -1 where a = -2 g (1 + e^2) / (1 + e)^2: tan p = (2 / pi) (1 + e^2) / (1

@@ -95,12 +95,14 @@ def take(output, figures):
             entry["values"].append(row[counter])
         if not found:
             entry = figures.setdefault(
-                name, {"unit": row["time_unit"] + " CPU time", "more_is_better": False, "values": []})
+                name,
+                {"unit": row["time_unit"] + " CPU time", "more_is_better": False, "values": []})
             entry["values"].append(row["cpu_time"])
 
 
 def names_of(binary, pattern):
-    command = [binary, "--benchmark_list_tests"] + (["--benchmark_filter=" + pattern] if pattern else [])
+    command = [binary, "--benchmark_list_tests"
+              ] + (["--benchmark_filter=" + pattern] if pattern else [])
     return subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
 
 
@@ -112,11 +114,12 @@ def run_together(binaries, results, options):
             case = figure_name(name).split("/", 1)[-1]
             groups.setdefault(case, []).append((binary, name, result["figures"]))
     for group in groups.values():
-        started = [
-            (subprocess.Popen(["taskset", "-c", str(options.core), binary, "--benchmark_format=json",
-                               "--benchmark_filter=^%s$" % re.escape(name)],
-                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True), figures)
-            for binary, name, figures in group]
+        started = [(subprocess.Popen([
+            "taskset", "-c",
+            str(options.core), binary, "--benchmark_format=json",
+            "--benchmark_filter=^%s$" % re.escape(name)
+        ], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True), figures)
+                   for binary, name, figures in group]
         for process, figures in started:
             output = process.communicate()[0]
             if process.returncode != 0:
@@ -126,7 +129,8 @@ def run_together(binaries, results, options):
 
 def run(options):
     if len(options.binary) != len(options.out):
-        raise ValueError("found %d --binary and %d --out, expected as many" % (len(options.binary), len(options.out)))
+        raise ValueError("found %d --binary and %d --out, expected as many" %
+                         (len(options.binary), len(options.out)))
     # Files whose values were taken at the same time, one by one, share this name.
     together = uuid.uuid4().hex if options.core is not None else None
     results = [{"machine": machine(b), "together": together, "figures": {}} for b in options.binary]
@@ -140,7 +144,8 @@ def run(options):
             command = [binary, "--benchmark_format=json"]
             if options.filter:
                 command.append("--benchmark_filter=" + options.filter)
-            done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=True)
+            done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                                  text=True, check=True)
             take(json.loads(done.stdout), result["figures"])
     for path, result in zip(options.out, results):
         with open(path + ".part", "w", encoding="utf-8") as out:
@@ -157,7 +162,9 @@ def load(path):
         result = json.load(text)
     for name, figure in result["figures"].items():
         if not figure["values"] or not all(v > 0 for v in figure["values"]):
-            raise ValueError("%s: found values of '%s' that are not positive, expected a measurement" % (path, name))
+            raise ValueError(
+                "%s: found values of '%s' that are not positive, expected a measurement" %
+                (path, name))
     return result
 
 
@@ -220,7 +227,8 @@ def compare(options):
     a, b = load(options.a), load(options.b)
     for key in ("cpu", "cores", "compiler", "build_type", "flags"):
         if a["machine"].get(key) != b["machine"].get(key):
-            print("note: %s differs: '%s' and '%s'" % (key, a["machine"].get(key), b["machine"].get(key)))
+            print("note: %s differs: '%s' and '%s'" %
+                  (key, a["machine"].get(key), b["machine"].get(key)))
     paired = bool(a.get("together")) and a["together"] == b.get("together")
     if paired:
         print("note: both ran at once, so ratios are those of each round")
@@ -232,7 +240,8 @@ def compare(options):
             continue
         one, two = a["figures"][name], b["figures"][name]
         if one["unit"] != two["unit"]:
-            raise ValueError("found '%s' in %s and in %s, expected one unit" % (name, one["unit"], two["unit"]))
+            raise ValueError("found '%s' in %s and in %s, expected one unit" %
+                             (name, one["unit"], two["unit"]))
         found, ratio = verdict(one, two, paired, options.least)
         counts[found] = counts.get(found, 0) + 1
         shown = "%8.3f   [%.3f, %.3f]" % ratio if ratio else ""
@@ -241,7 +250,8 @@ def compare(options):
     for name in b["figures"]:
         if name not in a["figures"]:
             print("%-48s only in B" % name)
-    print(", ".join("%d %s" % (n, what) for what, n in sorted(counts.items())) or "no figure is in both")
+    print(", ".join("%d %s" % (n, what) for what, n in sorted(counts.items())) or
+          "no figure is in both")
     if not counts:
         return 2
     return 1 if counts.get("slower") else 0
@@ -251,7 +261,8 @@ def print_figures(result):
     print("%-48s %12s %8s  %s" % ("figure", "median", "MAD", "unit"))
     for name, figure in result["figures"].items():
         middle = statistics.median(figure["values"])
-        print("%-48s %12.5g %6.1f %%  %s" % (name, middle, 100 * spread(figure["values"]) / middle, figure["unit"]))
+        print("%-48s %12.5g %6.1f %%  %s" %
+              (name, middle, 100 * spread(figure["values"]) / middle, figure["unit"]))
 
 
 def print_ratios(result):
@@ -281,7 +292,8 @@ def ratios(options):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(dest="command", required=True)
     do_run = commands.add_parser("run")
     do_run.add_argument("--binary", action="append", required=True)
@@ -293,7 +305,8 @@ def main():
     do_compare = commands.add_parser("compare")
     do_compare.add_argument("a")
     do_compare.add_argument("b")
-    do_compare.add_argument("--least", type=float, default=0.02, help="relative difference that matters")
+    do_compare.add_argument("--least", type=float, default=0.02,
+                            help="relative difference that matters")
     do_compare.set_defaults(action=compare)
     do_ratios = commands.add_parser("ratios")
     do_ratios.add_argument("a")

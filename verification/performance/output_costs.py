@@ -16,17 +16,20 @@ import sys
 import tempfile
 
 DEMO = pathlib.Path(__file__).resolve().parents[2] / "docs" / "examples" / "demo.toml"
-SUMS = [{"variable": "collision", "statistics": ["sum", "rate"]}, {"variable": "milling_dose", "statistics": ["sum", "rate"]}]
+SUMS = [{"variable": "collision", "statistics": ["sum", "rate"]},
+        {"variable": "milling_dose", "statistics": ["sum", "rate"]}]
 OUTPUTS = {
     "none": [],
-    "statistics, frequency, trends": [
-        {"type": "statistics", "columns": SUMS}, {"type": "trends", "interval": "0.5 s", "columns": SUMS},
-        {"type": "frequency", "variable": "relative_normal_speed_before", "low": "0 m/s", "high": "7 m/s", "intervals": 10}],
-    "events": [{"type": "events"}],
+    "statistics, frequency, trends": [{"type": "statistics", "columns": SUMS},
+                                      {"type": "trends", "interval": "0.5 s", "columns": SUMS}, {
+                                          "type": "frequency",
+                                          "variable": "relative_normal_speed_before",
+                                          "low": "0 m/s", "high": "7 m/s", "intervals": 10
+                                      }], "events": [{"type": "events"}],
     "events with states": [{"type": "events", "states": True}],
-    "spectra, rates_above, vessel_load, coverage": [
-        {"type": "spectra"}, {"type": "spectra", "of": "speed", "file": "speeds.csv"},
-        {"type": "rates_above"}, {"type": "vessel_load"}, {"type": "coverage"}],
+    "spectra, rates_above, vessel_load, coverage": [{"type": "spectra"}, {
+        "type": "spectra", "of": "speed", "file": "speeds.csv"
+    }, {"type": "rates_above"}, {"type": "vessel_load"}, {"type": "coverage"}],
 }
 
 
@@ -68,15 +71,23 @@ def main(edmill):
         cases = {}
         for number, (name, outputs) in enumerate(OUTPUTS.items()):
             cases[name] = pathlib.Path(scratch) / f"{number}.toml"
-            entries = ("[[output]]\n" + "".join(f"{key} = {toml(value)}\n" for key, value in output.items()) for output in outputs)
+            entries = ("[[output]]\n" + "".join(f"{key} = {toml(value)}\n"
+                                                for key, value in output.items())
+                       for output in outputs)
             cases[name].write_text(DEMO.read_text() + "".join(entries))
         counts = {name: instructions(edmill, case) for name, case in cases.items()}
-        rounds = [{name: cpu_seconds(edmill, case) for name, case in cases.items()} for _ in range(9)]
-        print("outputs                                        instructions     CPU time   bytes an event")
+        rounds = [
+            {name: cpu_seconds(edmill, case) for name, case in cases.items()} for _ in range(9)
+        ]
+        print(
+            "outputs                                        instructions     CPU time   bytes an event"
+        )
         for name, case in cases.items():
             ratio = statistics.median(times[name] / times["none"] for times in rounds)
             more = 100 * (counts[name] / counts["none"] - 1)
-            print(f"{name:45} {counts[name] / 1e6:6.1f}e6 {more:+4.0f} %   {ratio:8.2f}   {bytes_an_event(case.with_suffix('')):>8}")
+            print(
+                f"{name:45} {counts[name] / 1e6:6.1f}e6 {more:+4.0f} %   {ratio:8.2f}   {bytes_an_event(case.with_suffix('')):>8}"
+            )
 
 
 if __name__ == "__main__":

@@ -31,23 +31,28 @@ def cpu_seconds(*command):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("edmill")
     parser.add_argument("--rounds", type=int, default=9)
     parser.add_argument("--collisions", type=int, default=1000000)
     given = parser.parse_args()
-    settings = ["run.start_time=0 s", "run.end_time=1000 s", f"run.max_collisions={given.collisions}"]
+    settings = [
+        "run.start_time=0 s", "run.end_time=1000 s", f"run.max_collisions={given.collisions}"
+    ]
     ratios = []
     with tempfile.TemporaryDirectory() as folder:
         case = pathlib.Path(folder) / "case.toml"
         case.write_text(DEMO.read_text() + '[[output]]\ntype = "events"\n')
         for _ in range(given.rounds):
-            line, _ = cpu_seconds(given.edmill, "run", case, "--quiet", "--out", pathlib.Path(folder) / "run",
+            line, _ = cpu_seconds(given.edmill, "run", case, "--quiet", "--out",
+                                  pathlib.Path(folder) / "run",
                                   *(x for s in settings for x in ("--set", s)))
             python, events = cpu_seconds(sys.executable, "-c", PROGRAM, DEMO, *settings)
             ratios.append(python / line)
-    print(f"{int(events)} impacts in Python over the command line: CPU time {statistics.median(ratios):.3f} "
-          f"({min(ratios):.3f} to {max(ratios):.3f}) in {given.rounds} rounds")
+    print(
+        f"{int(events)} impacts in Python over the command line: CPU time {statistics.median(ratios):.3f} "
+        f"({min(ratios):.3f} to {max(ratios):.3f}) in {given.rounds} rounds")
 
 
 if __name__ == "__main__":

@@ -32,8 +32,10 @@ gap_wall = "0.05 mm"
 
 def cpu_time(program, folder, balls, collisions):
     before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-    subprocess.run([program, "run", f"{folder}/case.toml", "--quiet", "--out", f"{folder}/out", "--set", f"balls.0.count={balls}",
-                    "--set", f"run.max_collisions={collisions}"], check=True)
+    subprocess.run([
+        program, "run", f"{folder}/case.toml", "--quiet", "--out", f"{folder}/out", "--set",
+        f"balls.0.count={balls}", "--set", f"run.max_collisions={collisions}"
+    ], check=True)
     return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
 
 

@@ -16,7 +16,8 @@ from plain_mill_test import compare, table
 from program import Trials, edmill
 
 PLAIN = os.path.realpath(sys.argv[2])
-mills, seed, events = (int(text) for text in sys.argv[3:6] + ["6", "20261201", "150"][len(sys.argv[3:6]):])
+mills, seed, events = (
+    int(text) for text in sys.argv[3:6] + ["6", "20261201", "150"][len(sys.argv[3:6]):])
 rng = random.Random(seed)
 DIGITS = 31
 AXES = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
@@ -28,9 +29,15 @@ class Joint:
 
     def __init__(self, turns, axis, angle=0, speed=0, shift=(0, 0, 0), swing=None):
         number = lambda values: "[" + ", ".join(f'"{value} mm"' for value in values) + "]"
-        toml = [f'rotate = "{axis}"' if turns else f'translate = {number(shift)}' if not swing and not speed else f'translate = "{axis}"']
+        toml = [
+            f'rotate = "{axis}"' if turns else
+            f'translate = {number(shift)}' if not swing and not speed else f'translate = "{axis}"'
+        ]
         metres = " ".join(str(Decimal(str(value)) / 1000) for value in shift)
-        lines = [f"rotate {AXES[axis]} {angle} {speed}" if turns else f"translate {metres} {AXES[axis]} {Decimal(speed) / 1000}"]
+        lines = [
+            f"rotate {AXES[axis]} {angle} {speed}"
+            if turns else f"translate {metres} {AXES[axis]} {Decimal(speed) / 1000}"
+        ]
         self.fastest = abs(speed) * (0.105 * 0.12 if turns else 0.001)
         if turns and angle:
             toml.append(f'angle = "{angle} deg"')
@@ -38,14 +45,18 @@ class Joint:
             toml.append(f'speed = "{speed} {"rpm" if turns else "mm/s"}"')
         if swing:
             amplitude, rpm, phase = swing
-            toml.append(f'swing = [{{ amplitude = "{amplitude} {"deg" if turns else "mm"}", speed = "{rpm} rpm", phase = "{phase} deg" }}]')
-            lines.append(f"swing {amplitude if turns else Decimal(str(amplitude)) / 1000} {rpm} {phase}")
+            toml.append(
+                f'swing = [{{ amplitude = "{amplitude} {"deg" if turns else "mm"}", speed = "{rpm} rpm", phase = "{phase} deg" }}]'
+            )
+            lines.append(
+                f"swing {amplitude if turns else Decimal(str(amplitude)) / 1000} {rpm} {phase}")
             self.fastest += amplitude * rpm * (0.105 * 0.0175 * 0.12 if turns else 0.105 * 0.001)
         self.toml, self.lines = "{ " + ", ".join(toml) + " }", lines
 
 
 def swing_of(turns):
-    return rng.choice([3, 8, 15]) if turns else rng.choice([1, 2.5]), rng.choice([600, 900]), rng.choice([0, 30, 90])
+    return rng.choice([3, 8, 15]) if turns else rng.choice([1, 2.5]), rng.choice(
+        [600, 900]), rng.choice([0, 30, 90])
 
 
 def vessel_joints():
@@ -56,7 +67,11 @@ def vessel_joints():
         return [Joint(False, "y", swing=swing_of(False)), Joint(True, "x", angle=15)]
     if kind == "turning":
         return [Joint(True, rng.choice("xz"), speed=rng.choice([60, -150]))]
-    return [Joint(False, "x", shift=(40, 0, 0)), Joint(True, rng.choice("xyz"), swing=swing_of(True)), Joint(True, "y", speed=90)]
+    return [
+        Joint(False, "x", shift=(40, 0, 0)),
+        Joint(True, rng.choice("xyz"), swing=swing_of(True)),
+        Joint(True, "y", speed=90)
+    ]
 
 
 def body():
@@ -78,7 +93,8 @@ def body():
         size = [rng.choice([4, 8, 20]), rng.choice([0, 3, 12, 24])]
         keys = 'type = "cylinder"\ndiameter = "{} mm"\nheight = "{} mm"'.format(*size)
     rounding = Decimal(min(size)) / 2 * Decimal(rng.choice(["0", "0.5", "1"]))
-    half = [(Decimal(s) / 2 - rounding) / 1000 for s in (size if len(size) == 3 else (size[0], size[1], size[0]))]
+    half = [(Decimal(s) / 2 - rounding) / 1000
+            for s in (size if len(size) == 3 else (size[0], size[1], size[0]))]
     kind = "round" if len(size) == 2 and half[0] > 0 else "box"
     return f'{keys}\nrounding = "{rounding} mm"', f"{kind} {half[0]} {half[1]} {half[2]} {rounding / 1000}", joints
 
@@ -86,29 +102,45 @@ def body():
 def random_mill():
     """The case and the file of the plain program."""
     frame = vessel_joints()
-    diameter, restitution, friction = rng.choice([4, 5, 7]), rng.choice(["0.4", "0.6", "0.9"]), rng.choice(["0", "0.3"])
-    case = ['[run]\nend_time = "10 s"\ngravity = "9.81 m/s2"\n' + f"seed = {rng.randint(1, 999)}\n[mill]\ntype = \"chain\"",
-            "joint = [" + ", ".join(joint.toml for joint in frame) + "]", "[vessel]"]
+    diameter, restitution, friction = rng.choice([4, 5,
+                                                  7]), rng.choice(["0.4", "0.6",
+                                                                   "0.9"]), rng.choice(["0", "0.3"])
+    case = [
+        '[run]\nend_time = "10 s"\ngravity = "9.81 m/s2"\n' +
+        f"seed = {rng.randint(1, 999)}\n[mill]\ntype = \"chain\"",
+        "joint = [" + ", ".join(joint.toml for joint in frame) + "]", "[vessel]"
+    ]
     plain = ["frame"] + [line for joint in frame for line in joint.lines]
     if rng.random() < 0.5:
         case.append('diameter = "50 mm"\nheight = "46 mm"')
         plain += ["plane 0 -1 0 0.023", "plane 0 1 0 0.023", "cylinder 0.025"]
     else:
         case.append('type = "box"\nsize = ["44 mm", "50 mm", "40 mm"]')
-        plain += [f"plane {axis} {size}" for axis, size in (("-1 0 0", "0.022"), ("1 0 0", "0.022"), ("0 -1 0", "0.025"), ("0 1 0", "0.025"),
-                                                            ("0 0 -1", "0.020"), ("0 0 1", "0.020"))]
+        plain += [
+            f"plane {axis} {size}"
+            for axis, size in (("-1 0 0", "0.022"), ("1 0 0", "0.022"), ("0 -1 0", "0.025"),
+                               ("0 1 0", "0.025"), ("0 0 -1", "0.020"), ("0 0 1", "0.020"))
+        ]
     fastest = sum(joint.fastest for joint in frame)
     for _ in range(rng.choice([1, 2, 3])):
         keys, solid, joints = body()
         # A vessel that is carried away or turned far would leave a body on the ground outside.
-        on_ground = frame[0].lines[0].startswith("rotate") and not frame[0].fastest and rng.random() < 0.6
-        case.append(f'[[body]]\n{keys}\non = "{"ground" if on_ground else "vessel"}"\njoint = [' + ", ".join(j.toml for j in joints) + "]")
-        plain += ["frame"] + [line for joint in ([] if on_ground else frame) + joints for line in joint.lines] + [solid]
+        on_ground = frame[0].lines[0].startswith(
+            "rotate") and not frame[0].fastest and rng.random() < 0.6
+        case.append(f'[[body]]\n{keys}\non = "{"ground" if on_ground else "vessel"}"\njoint = [' +
+                    ", ".join(j.toml for j in joints) + "]")
+        plain += ["frame"] + [
+            line for joint in ([] if on_ground else frame) + joints for line in joint.lines
+        ] + [solid]
         fastest += sum(joint.fastest for joint in joints)
-    case.append(f'[contact]\nrestitution = {restitution}\nfriction = {friction}\nleast_separation = "1 cm/s"\n[[balls]]\n'
-                f'count = {rng.choice([2, 6, 15])}\ndiameter = "{diameter} mm"\ndensity = "8 g/cm3"')
-    plain += ["gravity 9.81", f"radius {Decimal(diameter) / 2000}", "density 8000", "inertia 0.4", f"restitution {restitution}",
-              f"friction {friction}", "least_separation 0.01", f"fastest {fastest:.4f}"]
+    case.append(
+        f'[contact]\nrestitution = {restitution}\nfriction = {friction}\nleast_separation = "1 cm/s"\n[[balls]]\n'
+        f'count = {rng.choice([2, 6, 15])}\ndiameter = "{diameter} mm"\ndensity = "8 g/cm3"')
+    plain += [
+        "gravity 9.81", f"radius {Decimal(diameter) / 2000}", "density 8000", "inertia 0.4",
+        f"restitution {restitution}", f"friction {friction}", "least_separation 0.01",
+        f"fastest {fastest:.4f}"
+    ]
     return "\n".join(case) + "\n", "\n".join(plain) + "\n"
 
 
@@ -118,8 +150,10 @@ with Trials() as t:
         case, plain = random_mill()
         pathlib.Path("case.toml").write_text(case)
         pathlib.Path("mill.txt").write_text(plain)
-        edmill("run", "case.toml", "--precision", "mpfr100", "--set", 'run.end_time="1 us"', "--out", "out", code=0)
-        done = edmill("certify", "case.toml", "--collisions", events, "--digits", DIGITS, "--out", "reference.csv")
+        edmill("run", "case.toml", "--precision", "mpfr100", "--set", 'run.end_time="1 us"',
+               "--out", "out", code=0)
+        done = edmill("certify", "case.toml", "--collisions", events, "--digits", DIGITS, "--out",
+                      "reference.csv")
         if done.returncode == 8:  # its balls come to rest between a body and a wall
             print(f"mill {trial}: stalled")
             continue
@@ -129,16 +163,22 @@ with Trials() as t:
 
         def tried(text):
             pathlib.Path("tried.txt").write_text(text)
-            rows = subprocess.run([PLAIN, "tried.txt", "out/final_state.csv", str(events)], check=True, stdout=subprocess.PIPE, text=True)
+            rows = subprocess.run([PLAIN, "tried.txt", "out/final_state.csv",
+                                   str(events)], check=True, stdout=subprocess.PIPE, text=True)
             return compare(reference, table(rows.stdout.splitlines()), Decimal(10) ** -DIGITS)
 
         common, good, (worst, value) = tried(plain)
-        with_bodies = sum(row["partner_kind"] == "wall" and int(row["partner"]) >= (6 if "plane 1 0 0" in plain else 3) for row in reference)
-        print(f"mill {trial}: {common} of {events} events the same, {good} to {DIGITS} digits, {with_bodies} with bodies, "
-              f"worst {worst:.1e} ({value})", flush=True)
-        t.check(good == events, f"mill {trial} of seed {seed}: {good} of {events} events agree\n{case}\n{plain}")
+        with_bodies = sum(row["partner_kind"] == "wall" and int(row["partner"]) >=
+                          (6 if "plane 1 0 0" in plain else 3) for row in reference)
+        print(
+            f"mill {trial}: {common} of {events} events the same, {good} to {DIGITS} digits, {with_bodies} with bodies, "
+            f"worst {worst:.1e} ({value})", flush=True)
+        t.check(good == events,
+                f"mill {trial} of seed {seed}: {good} of {events} events agree\n{case}\n{plain}")
         total += with_bodies
         if trial == 0:  # the comparison can fail
-            t.check(tried(plain.replace("gravity 9.81", "gravity 9.8100000001"))[1] < events, "another gravity")
+            t.check(
+                tried(plain.replace("gravity 9.81", "gravity 9.8100000001"))[1] < events,
+                "another gravity")
     t.check(total > 10 * mills, f"{total} impacts with bodies")
 print(f"{mills} mills, seed {seed}: {total} impacts with bodies, all values to {DIGITS} digits")

@@ -36,7 +36,8 @@ def contents(rows, restitution):
     """What the sequence exercises; slow: left at the least separation speed."""
     count = {"caps": 0, "cylinder": 0, "ball": 0, "slow": 0}
     for row in rows:
-        count["ball" if row["partner_kind"] == "ball" else "cylinder" if row["partner"] == "2" else "caps"] += 1
+        count["ball" if row["partner_kind"] == "ball" else "cylinder" if row["partner"] ==
+              "2" else "caps"] += 1
         count["slow"] += Decimal(restitution) * row["approach_speed"] < Decimal("0.01")
     return ", ".join(f"{number} {name}" for name, number in count.items())
 
@@ -49,8 +50,9 @@ def compare(reference, rows, limit):
     for wanted, row in zip(reference, rows):
         if any(wanted[name] != row[name] for name in NAMES):
             break
-        off = max((abs(wanted[name] - row[name]) / largest[name] if largest[name] else abs(row[name]), name)
-                  for name in VALUES)
+        off = max(
+            (abs(wanted[name] - row[name]) / largest[name] if largest[name] else abs(row[name]),
+             name) for name in VALUES)
         worst = max(worst, off)
         if off[0] > limit and good is None:
             good = common
@@ -77,17 +79,20 @@ def main():
                              .stdout.splitlines())
 
             # The balls fly freely for the first microsecond; its end is written with all digits.
-            edmill("run", EXAMPLES / case, "--precision", "mpfr100", "--set", 'run.start_time="0 s"', "--set", 'run.end_time="1 us"', "--out", "out",
-                   *changes, code=0)
-            edmill("certify", EXAMPLES / case, "--collisions", events, "--digits", args.digits, "--out", "reference.csv", *changes, code=0)
+            edmill("run", EXAMPLES / case, "--precision", "mpfr100", "--set",
+                   'run.start_time="0 s"', "--set", 'run.end_time="1 us"', "--out", "out", *changes,
+                   code=0)
+            edmill("certify", EXAMPLES / case, "--collisions", events, "--digits", args.digits,
+                   "--out", "reference.csv", *changes, code=0)
             with open("reference.csv", encoding="utf-8") as file:
                 reference = table(file)
             if len(reference) != events:
                 sys.exit(f"{name}: {len(reference)} certified events, not {events}")
 
             common, good, (worst, value) = compare(reference, plain(), limit)
-            print(f"{name} ({contents(reference, options[3])}): {common} of {events} events the same, {good} of them to "
-                  f"{args.digits} digits, worst {worst:.1e} ({value})")
+            print(
+                f"{name} ({contents(reference, options[3])}): {common} of {events} events the same, {good} of them to "
+                f"{args.digits} digits, worst {worst:.1e} ({value})")
             if good < events:
                 failures += 1
                 if common < events:

@@ -94,7 +94,8 @@ def collide(t, one, two, partner, normal, wall_velocity, log):
     e_n = 0.6 if wrong("restitution") and not two else RESTITUTION
     slip = add(g, normal, -g_n)
     slip_speed, compliance = sqrt(dot(slip, slip)), 1 + 1 / INERTIA
-    e_t = max(-1, 1 - FRICTION * (1 + e_n) * compliance * -g_n / slip_speed) if slip_speed > 0 else 1
+    e_t = max(-1, 1 - FRICTION *
+              (1 + e_n) * compliance * -g_n / slip_speed) if slip_speed > 0 else 1
     along, across = times(normal, -(1 + e_n) * g_n), times(slip, -(1 - e_t) / compliance)
     before = [(b.x, b.v, b.w) for b in bodies]
     kinetic = sum(b.mass * dot(b.v, b.v) / 2 for b in bodies)
@@ -116,9 +117,12 @@ def collide(t, one, two, partner, normal, wall_velocity, log):
 
 
 def main(log):
-    names = [f"{v}{axis}{when}" for v, when in (("r", ""), ("v", "0"), ("w", "0"), ("v", "1"), ("w", "1"))
-             for axis in "xyz"]
-    log.write(",".join(["t [ms]", "i", "j", "vn", "loss"] + names + ["j_" + n for n in names]) + "\n")
+    names = [
+        f"{v}{axis}{when}"
+        for v, when in (("r", ""), ("v", "0"), ("w", "0"), ("v", "1"), ("w", "1")) for axis in "xyz"
+    ]
+    log.write(",".join(["t [ms]", "i", "j", "vn", "loss"] + names + ["j_" + n for n in names]) +
+              "\n")
     dt = options.step
     for step in range(1, round(options.end / dt) + 1):
         for b in BALLS:

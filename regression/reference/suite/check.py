@@ -21,7 +21,8 @@ import sys
 from xml.sax.saxutils import quoteattr
 
 HERE = pathlib.Path(__file__).resolve().parent
-SUITE = HERE / "suite" if (HERE / "suite").is_dir() else HERE  # in the archive the script is above the cases
+SUITE = HERE / "suite" if (
+    HERE / "suite").is_dir() else HERE  # in the archive the script is above the cases
 DEM = SUITE.parent / "dem"
 
 
@@ -60,11 +61,17 @@ def check_log(folder, file, tolerance):
         if k >= len(found):
             return [(False, f"the log ends after {k} of {count} events")]
         if bodies(expected[k]) != bodies(found[k]):
-            return [(False, f"event {k}: found {bodies(found[k])}, expected {bodies(expected[k])} at {expected[k]['time']} s")]
+            return [(
+                False,
+                f"event {k}: found {bodies(found[k])}, expected {bodies(expected[k])} at {expected[k]['time']} s"
+            )]
         for n in names:
             error = abs(float(found[k][n]) - float(expected[k][n])) / scale[n]
             if not error <= tolerance:
-                return [(False, f"event {k}: {n} is {found[k][n]}, expected {expected[k][n]}, a difference of {error:.2g} of {scale[n]:.3g}")]
+                return [(
+                    False,
+                    f"event {k}: {n} is {found[k][n]}, expected {expected[k][n]}, a difference of {error:.2g} of {scale[n]:.3g}"
+                )]
     return [(True, f"{count} events agree to {tolerance:g} in {', '.join(names)}")]
 
 
@@ -82,23 +89,31 @@ def expected_statistics(place):
     """Name to value, standard uncertainty, tolerance and unit: of a folder of the suite, or of a DEM case."""
     if place.suffix != ".yaml":
         columns = ("value", "standard_uncertainty", "tolerance")
-        return {row["name"]: (*(float(row[k]) for k in columns), row["unit"]) for row in rows_of(place / suite_of(place)["statistics"])}
+        return {
+            row["name"]: (*(float(row[k]) for k in columns), row["unit"])
+            for row in rows_of(place / suite_of(place)["statistics"])
+        }
     text = place.read_text(encoding="utf-8").split("\nexpected:\n")[1]
     parts = re.findall(r"^  (\w+):\n    value: (\S+)\n    relative_tolerance: (\S+)", text, re.M)
-    return {name: (float(value), 0.0, abs(float(value)) * float(relative), "SI") for name, value, relative in parts}
+    return {
+        name: (float(value), 0.0, abs(float(value)) * float(relative), "SI")
+        for name, value, relative in parts
+    }
 
 
 def check_statistics(place, file, factor):
     expected, found = expected_statistics(place), values_in(file)
     if not found or not found.keys() <= expected.keys():
-        raise ValueError(f"expected some of {', '.join(expected)}; found {', '.join(found) or 'none'}")
+        raise ValueError(
+            f"expected some of {', '.join(expected)}; found {', '.join(found) or 'none'}")
     lines = []
     for name, (value, uncertainty) in found.items():
         want, error, tolerance, unit = expected[name]
         combined = math.hypot(error, uncertainty)
-        lines.append((abs(value - want) <= tolerance + factor * combined,
-                      f"{name}: {value:.10g}, expected {want:.10g} {unit}; difference {value - want:.2g}, combined uncertainty "
-                      f"{combined:.2g}, tolerance {tolerance:.2g}"))
+        lines.append((
+            abs(value - want) <= tolerance + factor * combined,
+            f"{name}: {value:.10g}, expected {want:.10g} {unit}; difference {value - want:.2g}, combined uncertainty "
+            f"{combined:.2g}, tolerance {tolerance:.2g}"))
     return lines
 
 
@@ -112,7 +127,8 @@ def is_log(file):
 
 def work_in(folder):
     """The cases of the suite for which a folder has a file."""
-    cases = {place.parent.name: place.parent for place in SUITE.glob("*/suite.json")} | {place.stem: place for place in DEM.glob("*.yaml")}
+    cases = {place.parent.name: place.parent for place in SUITE.glob("*/suite.json")
+            } | {place.stem: place for place in DEM.glob("*.yaml")}
     for name, case in sorted(cases.items()):
         for ending in (".csv", ".statistics.csv", ".statistics.json"):
             if (file := folder / (name + ending)).exists():
@@ -120,7 +136,8 @@ def work_in(folder):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("place", type=pathlib.Path)
     parser.add_argument("file", nargs="?", type=pathlib.Path)
     parser.add_argument("--tolerance", type=float)
@@ -128,7 +145,9 @@ def main():
     parser.add_argument("--junit")
     a = parser.parse_args()
     if a.file and not a.place.exists():
-        a.place = next((place for place in (SUITE / a.place, DEM / f"{a.place}.yaml") if place.exists()), a.place)
+        a.place = next(
+            (place for place in (SUITE / a.place, DEM / f"{a.place}.yaml") if place.exists()),
+            a.place)
     work = [(a.place.stem, a.place, a.file)] if a.file else list(work_in(a.place))
     if not work:
         print(f"{a.place}: no file of a case, such as spex_28.csv", file=sys.stderr)
@@ -136,22 +155,28 @@ def main():
     differ, broken, elements = 0, 0, []
     for name, case, file in work:
         try:
-            lines = check_log(case, file, a.tolerance) if is_log(file) else check_statistics(case, file, a.factor)
+            lines = check_log(case, file, a.tolerance) if is_log(file) else check_statistics(
+                case, file, a.factor)
         except (OSError, KeyError, ValueError, IndexError, TypeError) as error:
             print(f"{name}: {type(error).__name__}: {error}", file=sys.stderr)
             broken += 1
-            elements.append(f'<testcase classname="suite" name={quoteattr(name)}><error message={quoteattr(str(error))}/></testcase>')
+            elements.append(
+                f'<testcase classname="suite" name={quoteattr(name)}><error message={quoteattr(str(error))}/></testcase>'
+            )
             continue
         for agrees, text in lines:
             differ += not agrees
             print(f"{'agrees ' if agrees else 'DIFFERS'} {name}: {text}")
             failure = "/>" if agrees else f"><failure message={quoteattr(text)}/></testcase>"
-            elements.append(f'<testcase classname="suite" name={quoteattr(name + " " + text.split(":")[0])}{failure}')
+            elements.append(
+                f'<testcase classname="suite" name={quoteattr(name + " " + text.split(":")[0])}{failure}'
+            )
     print(f"{len(elements) - differ - broken} of {len(elements)} agree")
     if a.junit:
-        pathlib.Path(a.junit).write_text(f'<?xml version="1.0" encoding="UTF-8"?>\n<testsuite name="suite" tests="{len(elements)}" '
-                                         f'failures="{differ}" errors="{broken}">\n  ' + "\n  ".join(elements) + "\n</testsuite>\n",
-                                         encoding="utf-8")
+        pathlib.Path(a.junit).write_text(
+            f'<?xml version="1.0" encoding="UTF-8"?>\n<testsuite name="suite" tests="{len(elements)}" '
+            f'failures="{differ}" errors="{broken}">\n  ' + "\n  ".join(elements) +
+            "\n</testsuite>\n", encoding="utf-8")
     return 2 if broken else 1 if differ else 0
 
 

@@ -12,13 +12,19 @@ from decimal import Decimal, getcontext
 getcontext().prec = 50
 PI = Decimal("3.14159265358979323846264338327950288419716939937510582")
 HERE = pathlib.Path(__file__).resolve().parent
-UNITS = {"m": 1, "mm": Decimal("0.001"), "m/s": 1, "mm/s": Decimal("0.001"), "s": 1, "m/s2": 1, "rad/s": 1, "kg/m3": 1,
-         "g/cm3": 1000}
-COLUMNS = ["time", "approach_speed", "slip_speed", "milling_dose", "x", "y", "z", "vx_after", "vy_after", "vz_after",
-           "wx_after", "wy_after", "wz_after"]
+UNITS = {
+    "m": 1, "mm": Decimal("0.001"), "m/s": 1, "mm/s": Decimal("0.001"), "s": 1, "m/s2": 1,
+    "rad/s": 1, "kg/m3": 1, "g/cm3": 1000
+}
+COLUMNS = [
+    "time", "approach_speed", "slip_speed", "milling_dose", "x", "y", "z", "vx_after", "vy_after",
+    "vz_after", "wx_after", "wy_after", "wz_after"
+]
 SCHEMA = 2  # of suite.json
-STATISTICS = ["name", "unit", "value", "standard_uncertainty", "ci95", "replicas", "tolerance", "theory", "theory_is",
-              "meaning"]  # columns of statistics.csv
+STATISTICS = [
+    "name", "unit", "value", "standard_uncertainty", "ci95", "replicas", "tolerance", "theory",
+    "theory_is", "meaning"
+]  # columns of statistics.csv
 K = Decimal(7) / 2  # 1 + 1/J of a solid ball at a wall, J = 2/5
 
 
@@ -54,8 +60,11 @@ def bouncing_ball():
     height = vector(ball["position"])[1] - floor - radius
     time, speed = (2 * height / g).sqrt(), (2 * g * height).sqrt()
     for _ in range(12):
-        yield [0, "wall", 0, time, speed, 0, mass(ball) * speed**2 * (1 - e * e) / 2, 0, floor + radius, 0, 0, e * speed,
-               0, 0, 0, 0]
+        yield [
+            0, "wall", 0, time, speed, 0,
+            mass(ball) * speed ** 2 * (1 - e * e) / 2, 0, floor + radius, 0, 0, e * speed, 0, 0, 0,
+            0
+        ]
         speed *= e
         time += 2 * speed / g
 
@@ -65,11 +74,13 @@ def newtons_cradle():
     c = case("newtons_cradle")
     balls, wall = c["ball"], number(c["vessel"]["size"][0]) / 2
     x = [vector(b["position"])[0] for b in balls]
-    diameter, speed, time, moving = number(balls[0]["diameter"]), vector(balls[0]["velocity"])[0], Decimal(0), 0
+    diameter, speed, time, moving = number(balls[0]["diameter"]), vector(
+        balls[0]["velocity"])[0], Decimal(0), 0
     last, direction = len(balls) - 1, 1
     for _ in range(24):
         at_end = moving == (last if direction > 0 else 0)
-        stop = direction * (wall - diameter / 2) if at_end else x[moving + direction] - direction * diameter
+        stop = direction * (wall - diameter / 2) if at_end else x[moving +
+                                                                  direction] - direction * diameter
         time += abs(stop - x[moving]) / speed
         x[moving] = stop
         if at_end:
@@ -86,12 +97,16 @@ def oblique_impact():
     c = case("oblique_impact")
     e, floor = Decimal(c["contact"]["restitution"]), -number(c["vessel"]["size"][0]) / 2
     for k, ball in enumerate(c["ball"]):
-        radius, (x, y, z), (vx, vy, _) = number(ball["diameter"]) / 2, vector(ball["position"]), vector(ball["velocity"])
+        radius, (x, y, z), (vx, vy, _) = number(ball["diameter"]) / 2, vector(
+            ball["position"]), vector(ball["velocity"])
         time = (y - radius - floor) / -vy
         e_t, change = stopped_slip(c["contact"], (1 + e) * -vy, vx)
         spin = change * Decimal(5) / 2 / radius
         dose = mass(ball) / 2 * ((1 - e * e) * vy * vy + (1 - e_t * e_t) * vx * vx / K)
-        yield [k, "wall", 0, time, -vy, vx, dose, x + vx * time, floor + radius, z, vx + change, -e * vy, 0, 0, 0, spin]
+        yield [
+            k, "wall", 0, time, -vy, vx, dose, x + vx * time, floor + radius, z, vx + change,
+            -e * vy, 0, 0, 0, spin
+        ]
 
 
 def slipping():
@@ -137,7 +152,8 @@ def slipping_particle_limits():
 def stacked_particles():
     """Both balls fall alike and so approach each other at a constant speed; floor and ceiling are met on parabolas."""
     c = case("stacked_particles")
-    g, e, top = number(c["run"]["gravity"]), c["contact"]["restitution"], number(c["vessel"]["size"][0]) / 2
+    g, e, top = number(
+        c["run"]["gravity"]), c["contact"]["restitution"], number(c["vessel"]["size"][0]) / 2
     radius = [number(b["diameter"]) / 2 for b in c["ball"]]
     m = [mass(b) for b in c["ball"]]
     y, v = ([vector(b[key])[1] for b in c["ball"]] for key in ("position", "velocity"))
@@ -162,7 +178,8 @@ def stacked_particles():
         else:
             k = 0 if what == "floor" else 1
             approach = abs(v[k])
-            y[k], v[k] = (radius[0] - top, e * approach) if what == "floor" else (top - radius[1], -e * approach)
+            y[k], v[k] = (radius[0] - top, e * approach) if what == "floor" else (top - radius[1],
+                                                                                  -e * approach)
             yield [k, "wall", k, time, approach, 0, m[k] / 2 * (1 - e * e) * approach**2]
 
 
@@ -177,8 +194,8 @@ def stacked_particles_limits():
     start, both = m[1] * v[1], m[0] + m[1]
     return [("floor_less_ceiling_force", "N", both * g, (2 * both * energy).sqrt() / duration,
              "mean normal force on the floor less that on the ceiling over 50 s: (m1 + m2) g"),
-            ("ball_less_ceiling_force", "N", m[1] * g, (start + (2 * m[1] * energy).sqrt()) / duration,
-             "the same between the balls: m2 g")]
+            ("ball_less_ceiling_force", "N", m[1] * g,
+             (start + (2 * m[1] * energy).sqrt()) / duration, "the same between the balls: m2 g")]
 
 
 def rolling_drum():
@@ -188,22 +205,28 @@ def rolling_drum():
     w, wall = number(c["mill"]["speed"]), number(c["vessel"]["diameter"]) / 2
     rows = []
     for k, ball in enumerate(c["ball"]):
-        radius, (x, y, z), (vx, vy, _) = number(ball["diameter"]) / 2, vector(ball["position"]), vector(ball["velocity"])
+        radius, (x, y, z), (vx, vy, _) = number(ball["diameter"]) / 2, vector(
+            ball["position"]), vector(ball["velocity"])
         orbit, m, time = wall - radius, mass(ball), Decimal(0)
         spin = vector(ball["spin"])[2] if "spin" in ball else Decimal(0)
         for _ in range(80):
             along, speed = x * vx + y * vy, vx * vx + vy * vy
-            step = (-along + (along * along + speed * (orbit * orbit - x * x - y * y)).sqrt()) / speed
+            step = (-along + (along * along + speed *
+                              (orbit * orbit - x * x - y * y)).sqrt()) / speed
             time, x, y = time + step, x + vx * step, y + vy * step
-            n, t = (-x / orbit, -y / orbit), (-y / orbit, x / orbit)     # inward, and the way that the wall moves
+            n, t = (-x / orbit, -y / orbit), (-y / orbit, x / orbit
+                                             )  # inward, and the way that the wall moves
             approach, across = -(vx * n[0] + vy * n[1]), vx * t[0] + vy * t[1]
             slip = across + spin * radius - w * wall
             slip = slip if abs(slip) > Decimal("1e-45") else Decimal(0)  # rounding
             e_t, change = stopped_slip(c["contact"], 2 * approach, slip)
             vx, vy = (2 * approach * n[i] + change * t[i] + u for i, u in ((0, vx), (1, vy)))
             spin += change * Decimal(5) / 2 / radius
-            rows.append([k, "wall", 2, time, approach, abs(slip), m / 2 * (1 - e_t * e_t) * slip * slip / K,
-                         m * w * wall * change, x, y, z, vx, vy, 0, 0, 0, spin])
+            rows.append([
+                k, "wall", 2, time, approach,
+                abs(slip), m / 2 * (1 - e_t * e_t) * slip * slip / K, m * w * wall * change, x, y,
+                z, vx, vy, 0, 0, 0, spin
+            ])
     return sorted(rows, key=lambda row: row[3])[:80]
 
 
@@ -213,18 +236,23 @@ def drum_detachment_limits():
     that or t0/2 after it. In a hop of up to 3/2 t0 gravity makes g sin(psi) 3/2 t0 of slip, half of it on either side of
     rolling, of which 2/7 are in the speed."""
     c = case("drum_detachment")
-    ball, g, v_s = c["ball"][0], number(c["run"]["gravity"]), number(c["contact"]["least_separation"])
-    v, orbit = vector(ball["velocity"])[0], (number(c["vessel"]["diameter"]) - number(ball["diameter"])) / 2
+    ball, g, v_s = c["ball"][0], number(c["run"]["gravity"]), number(
+        c["contact"]["least_separation"])
+    v, orbit = vector(
+        ball["velocity"])[0], (number(c["vessel"]["diameter"]) - number(ball["diameter"])) / 2
     cosine = (10 - 7 * v * v / (orbit * g)) / 17
     sine, speed = (1 - cosine**2).sqrt(), (-g * orbit * cosine).sqrt()
     fall = Decimal(17) / 7 * g * sine * speed / orbit
     early = Decimal("1.1") * (8 * v_s / (3 * fall)).sqrt()               # 10 % for the next order
     angle = speed / orbit * early
-    return [("detachment_angle", "deg", arc_cosine(cosine) * 180 / PI, angle * 180 / PI,
-             "of the last contact before the flight; from the lowest place: cos psi = (10 - 7 v0^2/(g l))/17"),
+    return [(
+        "detachment_angle", "deg", arc_cosine(cosine) * 180 / PI, angle * 180 / PI,
+        "of the last contact before the flight; from the lowest place: cos psi = (10 - 7 v0^2/(g l))/17"
+    ),
             ("detachment_speed", "m/s", speed, Decimal("6.5") / 7 * g * sine * early,
              "of the centre there: (-g l cos psi)^(1/2)"),
-            ("highest_point", "m", -orbit * cosine * (1 + sine**2 / 2), Decimal("3.5") / 7 * orbit * sine**3 * angle,
+            ("highest_point", "m", -orbit * cosine * (1 + sine ** 2 / 2),
+             Decimal("3.5") / 7 * orbit * sine ** 3 * angle,
              "of the centre in the flight; above the axis: -l cos psi (1 + sin(psi)^2/2)")]
 
 
@@ -239,23 +267,30 @@ def arc_cosine(x):
 
 def write_statistics(file, about, rows):
     """Rows have the columns of STATISTICS; numbers are texts."""
-    lines = [*(f"# {line}" for line in about), ",".join(STATISTICS), *(",".join(row) for row in rows)]
+    lines = [
+        *(f"# {line}" for line in about), ",".join(STATISTICS), *(",".join(row) for row in rows)
+    ]
     file.write_text("\n".join(lines) + "\n")
 
 
-CASES = (
-    (bouncing_ball, COLUMNS, None, "closed form; MFiX DEM02 with rigid contacts", "a ball falls on a floor and bounces"),
-    # between balls the states in a log are those of either ball
-    (newtons_cradle, COLUMNS[:4], None, "closed form", "five balls in a row between two walls, elastic"),
-    (oblique_impact, COLUMNS, None, "closed form; MFiX DEM05, Chung and Ooi 2011, with rigid contacts",
-     "eight balls strike a floor at 8 to 88 degrees to it, sliding and sticking"),
-    (slipping_particle, COLUMNS, slipping_particle_limits, "closed form; MFiX DEM04 with rigid contacts",
-     "a ball slides along a rough floor until it rolls"),
-    (stacked_particles, COLUMNS[:4], stacked_particles_limits, "closed form; after MFiX DEM03, with rigid contacts",
-     "two balls of different density, one above the other, between a floor and a ceiling"),
-    (rolling_drum, [*COLUMNS[:4], "wall_work", *COLUMNS[4:]], None, "closed form",
-     "three balls in a turning drum without gravity are carried along until they roll"),
-    ("drum_detachment", [], drum_detachment_limits, "closed form", "a ball rolls up a turning drum and leaves its wall"))
+CASES = ((bouncing_ball, COLUMNS, None, "closed form; MFiX DEM02 with rigid contacts",
+          "a ball falls on a floor and bounces"),
+         # between balls the states in a log are those of either ball
+         (newtons_cradle, COLUMNS[:4], None, "closed form",
+          "five balls in a row between two walls, elastic"
+         ), (oblique_impact, COLUMNS, None,
+             "closed form; MFiX DEM05, Chung and Ooi 2011, with rigid contacts",
+             "eight balls strike a floor at 8 to 88 degrees to it, sliding and sticking"),
+         (slipping_particle, COLUMNS, slipping_particle_limits,
+          "closed form; MFiX DEM04 with rigid contacts",
+          "a ball slides along a rough floor until it rolls"),
+         (stacked_particles, COLUMNS[:4], stacked_particles_limits,
+          "closed form; after MFiX DEM03, with rigid contacts",
+          "two balls of different density, one above the other, between a floor and a ceiling"),
+         (rolling_drum, [*COLUMNS[:4], "wall_work", *COLUMNS[4:]], None, "closed form",
+          "three balls in a turning drum without gravity are carried along until they roll"),
+         ("drum_detachment", [], drum_detachment_limits, "closed form",
+          "a ball rolls up a turning drum and leaves its wall"))
 
 
 def main():
@@ -266,22 +301,30 @@ def main():
         name = make if isinstance(make, str) else make.__name__
         folder = pathlib.Path(sys.argv[1]) / name
         folder.mkdir(parents=True, exist_ok=True)
-        about = {"schema": SCHEMA, "name": name, "description": description, "licence": "CC0-1.0", "source": source,
-                 "case": "case.toml"}
+        about = {
+            "schema": SCHEMA, "name": name, "description": description, "licence": "CC0-1.0",
+            "source": source, "case": "case.toml"
+        }
         if columns:
             rows = list(make())
             lines = [f"# {name}: {source}; 40 digits, SI, inertial frame",
                      ",".join(["index", "ball", "partner_kind", "partner", *columns])]
             for index, row in enumerate(sorted(rows, key=lambda row: row[3])):
-                cells = [f"{v:.39e}" if isinstance(v, Decimal) and v else "0" if v == 0 else str(v) for v in row]
+                cells = [
+                    f"{v:.39e}" if isinstance(v, Decimal) and v else "0" if v == 0 else str(v)
+                    for v in row
+                ]
                 lines.append(",".join([str(index), *cells]))
             (folder / "events.csv").write_text("\n".join(lines) + "\n")
-            about |= {"events": "events.csv", "agree": len(rows), "tolerance": 1e-9, "columns": columns}
+            about |= {
+                "events": "events.csv", "agree": len(rows), "tolerance": 1e-9, "columns": columns
+            }
         if limits:
             what = f"{name}: {source}, of lasting contact; schema 1, SI but for angles, CC0 1.0"
-            write_statistics(folder / "statistics.csv", [what], [
-                [label, unit, f"{float(value):.16e}", "0", "0", "", f"{float(tolerance):.3e}", f"{float(value):.16e}",
-                 "exact", meaning] for label, unit, value, tolerance, meaning in limits()])
+            write_statistics(folder / "statistics.csv", [what], [[
+                label, unit, f"{float(value):.16e}", "0", "0", "", f"{float(tolerance):.3e}",
+                f"{float(value):.16e}", "exact", meaning
+            ] for label, unit, value, tolerance, meaning in limits()])
             about["statistics"] = "statistics.csv"
         (folder / "suite.json").write_text(json.dumps(about, indent=2) + "\n")
     return 0

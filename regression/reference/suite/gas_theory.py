@@ -15,12 +15,12 @@ def elastic_gas():
     c = case("elastic_gas")
     ball, count = c["balls"][0], sum(b["count"] for b in c["balls"])
     sigma, u, m = number(ball["diameter"]), abs(vector(ball["velocity"])[0]), mass(ball)
-    side, kT = number(c["vessel"]["size"][0]) - sigma, m * u * u         # of the cube of the centres
+    side, kT = number(c["vessel"]["size"][0]) - sigma, m * u * u  # of the cube of the centres
     degrees = 3 * count
-    ratio = 2 / PI.sqrt()                                                # Gamma(D/2)/Gamma((D + 1)/2), of D = 2
+    ratio = 2 / PI.sqrt()  # Gamma(D/2)/Gamma((D + 1)/2), of D = 2
     for d in range(2, degrees, 2):
         ratio *= Decimal(d) / (d + 1)
-    largest = u * Decimal(degrees).sqrt()                                # speed of a ball that has all energy
+    largest = u * Decimal(degrees).sqrt()  # speed of a ball that has all energy
     component = largest * ratio / PI.sqrt()                              # mean of |v_x|
     at_wall = u * u / component
 
@@ -51,8 +51,9 @@ def elastic_gas():
     force = pressure(n) * side**2 - 4 * side * tension(n) - 4 * edge(n)
     step = n / 10**9
     curvature = (pressure(n + step) - 2 * pressure(n) + pressure(n - step)) / step**2
-    force -= curvature * side**2 * n * kT / slope(pressure, n) / side**3 / 2   # mean over N less than at the mean of N
-    virial = 3 * force * side - degrees * kT                             # sigma times the balls' impulses per time
+    force -= curvature * side ** 2 * n * kT / slope(
+        pressure, n) / side ** 3 / 2  # mean over N less than at the mean of N
+    virial = 3 * force * side - degrees * kT  # sigma times the balls' impulses per time
     approach = Decimal(2).sqrt() * at_wall
     return {
         "kinetic_energy": (degrees * kT / 2, "exact"),

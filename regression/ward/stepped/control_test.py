@@ -19,12 +19,17 @@ wanted = fixture_statistics.wanted_rows(WARD.parents[1])
 failures = 0
 for name in ("5g_5_9_52mm", "5g_2_5_4_76mm"):
     case = next(case for case in tables.cases() if case.name == name)
-    mean, half = (float(wanted[name][key]) for key in ("milling_dose_rate", "milling_dose_rate_ci95"))
-    for options, agrees in ((emulation.CONTROL, True), ("--search exact --smooth-time 5e-4", False)):
+    mean, half = (
+        float(wanted[name][key]) for key in ("milling_dose_rate", "milling_dose_rate_ci95"))
+    for options, agrees in ((emulation.CONTROL, True), ("--search exact --smooth-time 5e-4",
+                                                        False)):
         batch = emulation.NINE_PERIODS
-        doses, _ = emulation.stepped(sys.argv[1], case, f"{options} --batch {batch} --end {1 + 8 * batch}")
+        doses, _ = emulation.stepped(sys.argv[1], case,
+                                     f"{options} --batch {batch} --end {1 + 8 * batch}")
         rates = [dose / batch for dose in doses]
-        found, limit = sum(rates) / len(rates), fixture_statistics.ALLOWED * math.hypot(half, intervals.half_width(rates))
-        print(f"{name} {options}: dose rate {found:.3f} W, edmill {mean:.3f} W, allowed ±{limit:.3f}")
+        found, limit = sum(rates) / len(rates), fixture_statistics.ALLOWED * math.hypot(
+            half, intervals.half_width(rates))
+        print(
+            f"{name} {options}: dose rate {found:.3f} W, edmill {mean:.3f} W, allowed ±{limit:.3f}")
         failures += (abs(found - mean) <= limit) != agrees
 sys.exit(failures > 0)

@@ -12,7 +12,8 @@ def program():
     """Runs the program."""
 
     def call(*arguments):
-        return subprocess.run([os.environ["EDMILL"], *map(str, arguments)], check=True, capture_output=True, text=True)
+        return subprocess.run([os.environ["EDMILL"], *map(str, arguments)], check=True,
+                              capture_output=True, text=True)
 
     return call
 

@@ -75,12 +75,16 @@ late = Late()
 print("main ends", flush=True)
 """
 
-WORK = ["run", "short runs", "progress", "observer", "wide observer", "law", "wide law", "digits", "estimate", "certify", "shadow", "prove",
-        "sensitivity", "sweep", "checkpoint", "check", "check_certificate", "report", "reports", "audit", "compare"]
+WORK = [
+    "run", "short runs", "progress", "observer", "wide observer", "law", "wide law", "digits",
+    "estimate", "certify", "shadow", "prove", "sensitivity", "sweep", "checkpoint", "check",
+    "check_certificate", "report", "reports", "audit", "compare"
+]
 
 
 @pytest.mark.parametrize("work", WORK)
 def test_python_ends_while_a_daemon_thread_is_in(work, tmp_path):
-    done = subprocess.run([sys.executable, "-c", PROGRAM, work, tmp_path], capture_output=True, text=True, cwd=tmp_path, timeout=120)
+    done = subprocess.run([sys.executable, "-c", PROGRAM, work, tmp_path], capture_output=True,
+                          text=True, cwd=tmp_path, timeout=120)
     assert (done.returncode, done.stdout) == (0, "main ends\n"), done.stderr[-2000:]
     assert done.stderr == ""

@@ -29,7 +29,8 @@ def test_a_run_has_the_digits_that_it_is_asked_for():
 
 def test_an_estimate_runs_nothing():
     found = edmill.estimate(CASE, digits=12)
-    assert found["precision"].startswith("mpfr:") and found["cpu_seconds"] > 0 and found["verifying_cpu_seconds"] > 0
+    assert found["precision"].startswith(
+        "mpfr:") and found["cpu_seconds"] > 0 and found["verifying_cpu_seconds"] > 0
     events = len(edmill.run(CASE).events)
     assert found["events"] == events
     assert edmill.estimate(CASE)["precision"] == "double"
@@ -43,21 +44,28 @@ def test_derivatives_are_those_of_differing_runs():
     assert derivative.states.shape == (20, 2, 9) and derivative.unit == ""
     assert found.derivatives["initial.1.vx"].unit == "m/s"
     step = Decimal("1e-30")
-    up, down = (edmill.run(CASE.with_settings(f"contact.restitution={Decimal('0.6') + sign * step}"), "mpfr:100").events[:20]
-                for sign in (1, -1))
+    up, down = (edmill.run(
+        CASE.with_settings(f"contact.restitution={Decimal('0.6') + sign * step}"),
+        "mpfr:100").events[:20] for sign in (1, -1))
     for name, values in derivative.quantities.items():
         exact = np.array([float((a - b) / (2 * step)) for a, b in zip(up[name], down[name])])
         assert np.allclose(values, exact, rtol=1e-12, atol=1e-14 * np.abs(exact).max()), name
-    wide = edmill.sensitivity(case, by=["contact.restitution"], events=20, digits=40).derivatives["contact.restitution"]
-    assert isinstance(wide.quantities["time"][-1], Decimal) and len(wide.quantities["time"][-1].as_tuple().digits) > 30
-    assert abs(wide.quantities["time"][-1] - (up["time"][-1] - down["time"][-1]) / (2 * step)) < Decimal("1e-30")
+    wide = edmill.sensitivity(case, by=["contact.restitution"], events=20,
+                              digits=40).derivatives["contact.restitution"]
+    assert isinstance(wide.quantities["time"][-1],
+                      Decimal) and len(wide.quantities["time"][-1].as_tuple().digits) > 30
+    assert abs(wide.quantities["time"][-1] - (up["time"][-1] - down["time"][-1]) /
+               (2 * step)) < Decimal("1e-30")
     assert np.allclose(wide.states.astype(float), derivative.states, rtol=1e-14)
     with pytest.raises(edmill.InputError, match="digits"):
         edmill.sensitivity(CASE, by=["contact.restitution"], events=3, digits=400)
     # Settings of whole tables go before what the file has.
     edited = CASE.edit({"contact": {"restitution": 0.7, "friction": 0.2}})
-    first = edmill.sensitivity(edited, by=["contact.restitution"], events=20).derivatives["contact.restitution"].quantities["time"]
-    up, down = (edmill.run(CASE.edit({"contact": {"restitution": 0.7 + sign * 1e-6, "friction": 0.2}}), "mpfr50").events[:20]["time"] for sign in (1, -1))
+    first = edmill.sensitivity(edited, by=["contact.restitution"],
+                               events=20).derivatives["contact.restitution"].quantities["time"]
+    up, down = (edmill.run(
+        CASE.edit({"contact": {"restitution": 0.7 + sign * 1e-6, "friction": 0.2}}),
+        "mpfr50").events[:20]["time"] for sign in (1, -1))
     assert np.allclose(first, [float(a - b) / 2e-6 for a, b in zip(up, down)], rtol=1e-4, atol=1e-7)
     with pytest.raises(edmill.InputError, match="contact.nothing"):
         edmill.sensitivity(CASE, by=["contact.nothing"], events=3)

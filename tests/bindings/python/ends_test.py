@@ -19,7 +19,8 @@ def small():
 @pytest.mark.parametrize("speed", ["1054 rpm", "17 Hz", "100 rad/s", "1 Hz"])
 @pytest.mark.parametrize("until", [2, 0.3, 1.1, 0.7000001])
 def test_a_run_ends_exactly_where_it_is_told_to(speed, until):
-    case = edmill.Case.spex8000(balls=2, diameter="9.52 mm", speed=speed, end_time="1 s", start_time="0.1 s")
+    case = edmill.Case.spex8000(balls=2, diameter="9.52 mm", speed=speed, end_time="1 s",
+                                start_time="0.1 s")
     run = edmill.run(case, until=f"{until} s", events=True)
     assert (run.time, run.end_reason) == (until, "end_time")
     assert (run.summary["start_time"], run.summary["end_time"]) == (0.1, until)
@@ -84,7 +85,8 @@ def test_progress_falls_back_to_text_and_loses_no_run(small, auto, plain, monkey
     assert (run.time, run.end_reason) == (120, "end_time")
     if "closed" not in (auto, plain):
         assert " of 120 s, " in capsys.readouterr().err
-    rates = edmill.sweep(small, over={"contact.restitution": [0.4, 0.5, 0.6]}, seeds=2, progress=True).points["milling_dose_rate"]
+    rates = edmill.sweep(small, over={"contact.restitution": [0.4, 0.5, 0.6]}, seeds=2,
+                         progress=True).points["milling_dose_rate"]
     assert len(rates) == 3 and (rates > 0).all()
     if "closed" not in (auto, plain):
         assert "\r6 of 6 runs\n" in capsys.readouterr().err

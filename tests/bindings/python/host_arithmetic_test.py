@@ -34,8 +34,10 @@ print(digest.hexdigest())
 
 
 def said(case, folder, mode):
-    environment = dict(os.environ, LD_PRELOAD=os.environ["EDMILL_HOST_ARITHMETIC"], HOST_ARITHMETIC=mode)
-    done = subprocess.run([sys.executable, "-c", SCRIPT, case, folder], capture_output=True, text=True, env=environment)
+    environment = dict(os.environ, LD_PRELOAD=os.environ["EDMILL_HOST_ARITHMETIC"],
+                       HOST_ARITHMETIC=mode)
+    done = subprocess.run([sys.executable, "-c", SCRIPT, case, folder], capture_output=True,
+                          text=True, env=environment)
     assert done.returncode == 0, (mode, done.stderr)
     return done.stdout
 

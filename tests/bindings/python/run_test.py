@@ -18,8 +18,8 @@ def small():
 
 
 def test_a_run_is_that_of_the_program(program, demo, tmp_path):
-    program("run", demo, "--quiet", "--out", tmp_path / "out", "--set", 'run.end_time="2 s"', "--set",
-            'output=[{type="collisions", file="collisions.csv"}]')
+    program("run", demo, "--quiet", "--out", tmp_path / "out", "--set", 'run.end_time="2 s"',
+            "--set", 'output=[{type="collisions", file="collisions.csv"}]')
     theirs = edmill.tables.read_table(tmp_path / "out/collisions.csv")
     run = edmill.run(demo, until="2 s")
     assert len(run.events) == len(theirs) > 5000
@@ -55,12 +55,15 @@ def test_events_are_not_copied(small):
 
 def test_a_dictionary_is_a_case(demo):
     case = edmill.Case({
-        "run": {"start_time": "0.5 s", "end_time": "10 s", "seed": 1, "gravity": "9.8 m/s2"},
-        "mill": {"type": "spex8000", "speed": "1054 rpm", "arm": "10 cm", "theta_max": "15 deg", "gamma_max": "15 deg"},
-        "vessel": {"type": "cylinder", "diameter": "38 mm", "height": "57 mm"},
-        "powder": {"mass": "5 g"},
-        "contact": {"model": "walton-braun", "restitution": 0.53, "friction": 0.4, "least_separation": "1 cm/s"},
-        "balls": [{"count": 28, "diameter": "4.76 mm", "density": "8 g/cm3"}],
+        "run": {"start_time": "0.5 s", "end_time": "10 s", "seed": 1,
+                "gravity": "9.8 m/s2"}, "mill": {
+                    "type": "spex8000", "speed": "1054 rpm", "arm": "10 cm", "theta_max": "15 deg",
+                    "gamma_max": "15 deg"
+                }, "vessel": {"type": "cylinder", "diameter": "38 mm", "height": "57 mm"},
+        "powder": {"mass": "5 g"}, "contact": {
+            "model": "walton-braun", "restitution": 0.53, "friction": 0.4,
+            "least_separation": "1 cm/s"
+        }, "balls": [{"count": 28, "diameter": "4.76 mm", "density": "8 g/cm3"}],
     })
     assert case == edmill.Case(demo)
     assert case.digest == edmill.Case(demo).digest
@@ -131,14 +134,17 @@ class Constant:
 
 def test_laws_are_called(small):
     """The Walton-Braun law with a least tangential restitution of 0.4, as a formula in Python."""
-    named = edmill.Case.spex8000(balls=5, diameter="9.52 mm", end_time="0.3 s", start_time="0 s",
-                                 contact={"model": "walton-braun", "restitution": 0.53, "friction": 0.4,
-                                          "min_tangential": 0.4})
+    named = edmill.Case.spex8000(
+        balls=5, diameter="9.52 mm", end_time="0.3 s", start_time="0 s", contact={
+            "model": "walton-braun", "restitution": 0.53, "friction": 0.4, "min_tangential": 0.4
+        })
     ours = edmill.run(named, ball_ball_law=Constant(), ball_wall_law=Constant())
     theirs = edmill.run(named)
     first = 20  # the formula rounds in another order, and differences grow
-    assert np.allclose(ours.events["time"][:first], theirs.events["time"][:first], rtol=1e-9, atol=0)
-    assert np.allclose(ours.events["milling_dose"][:first], theirs.events["milling_dose"][:first], rtol=1e-6)
+    assert np.allclose(ours.events["time"][:first], theirs.events["time"][:first], rtol=1e-9,
+                       atol=0)
+    assert np.allclose(ours.events["milling_dose"][:first], theirs.events["milling_dose"][:first],
+                       rtol=1e-6)
 
 
 @pytest.mark.parametrize("precision", ["double", "float128"])
@@ -148,19 +154,25 @@ def test_a_law_of_one_function_has_the_friction_of_the_case(small, precision):
         speeds.append(speed)
         return type(speed)("0.53")
 
-    ours = edmill.run(small, precision, until="0.6 s", ball_ball_law=restitution, ball_wall_law=restitution)
+    ours = edmill.run(small, precision, until="0.6 s", ball_ball_law=restitution,
+                      ball_wall_law=restitution)
     theirs = edmill.run(small, precision, until="0.6 s")
     first = min(20, len(theirs.events))
     assert first > 5 and len(speeds) >= len(ours.events)
     for key in ("time", "milling_dose", "restitution_tangential"):
-        assert np.allclose(np.array(ours.events[key][:first], float), np.array(theirs.events[key][:first], float), rtol=1e-6, atol=1e-15), key
+        assert np.allclose(np.array(ours.events[key][:first], float),
+                           np.array(theirs.events[key][:first], float), rtol=1e-6, atol=1e-15), key
 
 
 def test_a_law_of_one_function_has_the_friction_of_its_contact(small):
-    rough = small.edit({"contact.ball_wall.friction": 0.7, "contact.ball_wall.min_tangential": -0.5})
-    ours, theirs = edmill.run(rough, until="0.6 s", ball_wall_law=lambda speed: 0.53), edmill.run(rough, until="0.6 s")
-    assert np.allclose(ours.events["milling_dose"][:20], theirs.events["milling_dose"][:20], rtol=1e-6)
-    assert not np.allclose(ours.events["milling_dose"][:20], edmill.run(small, until="0.6 s").events["milling_dose"][:20], rtol=1e-6)
+    rough = small.edit(
+        {"contact.ball_wall.friction": 0.7, "contact.ball_wall.min_tangential": -0.5})
+    ours, theirs = edmill.run(rough, until="0.6 s",
+                              ball_wall_law=lambda speed: 0.53), edmill.run(rough, until="0.6 s")
+    assert np.allclose(ours.events["milling_dose"][:20], theirs.events["milling_dose"][:20],
+                       rtol=1e-6)
+    assert not np.allclose(ours.events["milling_dose"][:20],
+                           edmill.run(small, until="0.6 s").events["milling_dose"][:20], rtol=1e-6)
 
 
 def test_a_case_has_its_numbers(small):
@@ -177,7 +189,8 @@ def test_a_case_has_its_numbers(small):
 
 def test_progress_is_told(small):
     told = []
-    edmill.run(small, until="60 s", events=False, progress=lambda time, collisions: told.append((time, collisions)))
+    edmill.run(small, until="60 s", events=False, progress=lambda time, collisions: told.append(
+        (time, collisions)))
     assert told and told == sorted(told) and 0 < told[0][0] < 60
 
 
@@ -207,9 +220,11 @@ def test_other_threads_go_on(small):
 
 
 def test_a_folder_holds_the_files_of_a_run(program, tmp_path):
-    case = edmill.Case.spex8000(balls=5, diameter="9.52 mm", end_time="1 s",
-                                output=[{"type": "trends", "interval": "0.1 s",
-                                         "columns": [{"variable": "milling_dose", "statistics": ["rate"]}]}])
+    case = edmill.Case.spex8000(
+        balls=5, diameter="9.52 mm", end_time="1 s", output=[{
+            "type": "trends", "interval": "0.1 s",
+            "columns": [{"variable": "milling_dose", "statistics": ["rate"]}]
+        }])
     run = edmill.run(case, folder=tmp_path / "ours", report=True)
     assert {"trends", "final_state"} <= set(run.series)
     assert len(run.series["trends"]) > 5
@@ -218,7 +233,8 @@ def test_a_folder_holds_the_files_of_a_run(program, tmp_path):
     (tmp_path / "case.toml").write_text(case.text)
     program("run", tmp_path / "case.toml", "--quiet", "--out", tmp_path / "theirs")
     for name in ("trends.csv", "final_state.csv"):
-        assert (tmp_path / "ours" / name).read_bytes() == (tmp_path / "theirs" / name).read_bytes(), name
+        assert (tmp_path / "ours" / name).read_bytes() == (tmp_path / "theirs" /
+                                                           name).read_bytes(), name
 
 
 def test_series_of_a_run_without_a_folder(small):
@@ -232,7 +248,9 @@ def test_series_of_a_run_without_a_folder(small):
     plain = edmill.run(small, until="0.6 s", events=False)
     run = edmill.run(small, until="0.6 s", events=False, ball_ball_law=Soft(), ball_wall_law=Soft())
     for each in (plain, run):
-        ends = np.stack([each.series["final_state"][name] for name in ("position_x", "position_y", "position_z")], axis=-1)
+        ends = np.stack([
+            each.series["final_state"][name] for name in ("position_x", "position_y", "position_z")
+        ], axis=-1)
         assert np.array_equal(ends, each.states["position"])
     assert not np.array_equal(plain.states, run.states)
     assert set(pickle.loads(pickle.dumps(plain)).series) == set(plain.series)
@@ -273,7 +291,8 @@ def test_control_c_in_callbacks_keeps_the_run(small):
         if impact.index == 200:
             raise KeyboardInterrupt
 
-    for given in ({"observers": [observe]}, {"ball_wall_law": Law(100)}, {"ball_ball_law": Law(30)}):
+    for given in ({"observers": [observe]}, {"ball_wall_law": Law(100)}, {"ball_ball_law": Law(30)
+                                                                         }):
         with pytest.raises(edmill.Interrupted) as interrupted:
             edmill.run(small, until="100000 s", **given)
         assert len(interrupted.value.run.events) > 29
@@ -281,9 +300,10 @@ def test_control_c_in_callbacks_keeps_the_run(small):
         assert again.run.time == interrupted.value.run.time
 
 
-@pytest.mark.parametrize("answer, expected", [
-    (float("nan"), "expected (0 to 1|a number)"), (-0.3, "expected 0 to 1"), (5.0, "expected 0 to 1"), (None, "found None, expected a number"),
-    ("a", "found 'a', expected a number")])
+@pytest.mark.parametrize("answer, expected", [(float("nan"), "expected (0 to 1|a number)"),
+                                              (-0.3, "expected 0 to 1"), (5.0, "expected 0 to 1"),
+                                              (None, "found None, expected a number"),
+                                              ("a", "found 'a', expected a number")])
 @pytest.mark.parametrize("precision", ["double", "float128"])
 def test_laws_that_are_none_are_refused(small, answer, expected, precision):
     class Law:
@@ -317,7 +337,8 @@ def test_the_types_of_callbacks_are_those_that_runs_hand_over(small):
 
     for precision in ("double", "float128"):
         seen = []
-        edmill.run(small, precision, ball_ball_law=Law(), ball_wall_law=Law(), observers=[lambda impact, run: (seen.append((impact, run)), run.stop())])
+        edmill.run(small, precision, ball_ball_law=Law(), ball_wall_law=Law(),
+                   observers=[lambda impact, run: (seen.append((impact, run)), run.stop())])
         impact, run = seen[0]
         assert names(impact) == promised(edmill.Impact)
         assert names(run) == promised(edmill.Running)

@@ -8,8 +8,12 @@ import edmill
 
 def test_a_sweep_has_a_row_for_each_point(demo, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    sweep = {"sweep": {"case": str(demo), "replicas": 2, "grid": {"contact.restitution": [0.3, 0.6]},
-                       "point": [{"name": "short", "set": {"run.end_time": "1 s", "run.start_time": "0.2 s"}}]}}
+    sweep = {
+        "sweep": {
+            "case": str(demo), "replicas": 2, "grid": {"contact.restitution": [0.3, 0.6]},
+            "point": [{"name": "short", "set": {"run.end_time": "1 s", "run.start_time": "0.2 s"}}]
+        }
+    }
     study = edmill.sweep(sweep, tmp_path / "sweep", jobs=2)
     assert len(study.points) == 2 and not study.failed
     rates = study.points["milling_dose_rate"]
@@ -17,7 +21,8 @@ def test_a_sweep_has_a_row_for_each_point(demo, tmp_path, monkeypatch):
     again = edmill.sweep(sweep, tmp_path / "sweep")
     assert (again.points["milling_dose_rate"] == rates).all()
     with pytest.raises(edmill.InputError):
-        edmill.sweep({"sweep": {"case": "no_such.toml", "grid": {"contact.restitution": [0.3]}}}, tmp_path / "other")
+        edmill.sweep({"sweep": {"case": "no_such.toml", "grid": {"contact.restitution": [0.3]}}},
+                     tmp_path / "other")
 
 
 @pytest.fixture
@@ -25,8 +30,9 @@ def folders(demo, tmp_path):
     made = []
     for seed in (1, 1, 2):
         made.append(tmp_path / f"run_{len(made)}")
-        edmill.run(edmill.Case(demo, [f"run.seed={seed}", 'output=[{type="collisions", states=true}]']), until="3 s", folder=made[-1],
-                   events=False)
+        edmill.run(
+            edmill.Case(demo, [f"run.seed={seed}", 'output=[{type="collisions", states=true}]']),
+            until="3 s", folder=made[-1], events=False)
     return made
 
 
@@ -45,7 +51,8 @@ def test_a_log_is_audited(demo, folders):
 
 
 def test_the_cause_of_a_wrong_log_is_identified(demo, folders):
-    found = edmill.audit(edmill.Case(demo, ['mill.arm="10.05 cm"']), folders[0], identify=True)["identified"]
+    found = edmill.audit(edmill.Case(demo, ['mill.arm="10.05 cm"']), folders[0],
+                         identify=True)["identified"]
     cause = found["causes"]["1"]
     arm = cause["values"]["mill.arm"]
     assert list(cause["values"]) == ["mill.arm"] and cause["explains"] == found["violations"] > 0

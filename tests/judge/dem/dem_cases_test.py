@@ -47,7 +47,9 @@ def contact(mass, radius, modulus, speed, steps=4000):
         x += step * v / 2
         time += step
         deepest, strongest = max(deepest, x), max(strongest, force)
-    return {"largest_overlap": deepest, "largest_force": strongest, "duration": time, "speed_after": -v}
+    return {
+        "largest_overlap": deepest, "largest_force": strongest, "duration": time, "speed_after": -v
+    }
 
 
 with tempfile.TemporaryDirectory() as folder:
@@ -58,7 +60,8 @@ with tempfile.TemporaryDirectory() as folder:
     for family in make.FAMILIES:
         for case in family():
             files[case.name + ".yaml"] = case.text()
-check(files == {file.name: file.read_text() for file in FOLDER.glob("*.yaml")}, "the files are not those of make_cases.py")
+check(files == {file.name: file.read_text() for file in FOLDER.glob("*.yaml")},
+      "the files are not those of make_cases.py")
 
 for file in sorted(FOLDER.glob("chung_ooi_[12]_*.yaml")):
     given, expected = read(file)
@@ -70,21 +73,28 @@ for file in sorted(FOLDER.glob("chung_ooi_[12]_*.yaml")):
     found["speed_after"] /= 2 if pair else 1
     for name, entry in expected.items():
         off = abs(found[name] / entry["value"] - 1)
-        check(off <= entry["relative_tolerance"], f"{file.name}: {name} {found[name]:.6g}, not {entry['value']:.6g}")
+        check(off <= entry["relative_tolerance"],
+              f"{file.name}: {name} {found[name]:.6g}, not {entry['value']:.6g}")
 
 for file in sorted(FOLDER.glob("chung_ooi_4_*.yaml")):
     given, expected = read(file)
     for name, entry in expected.items():
         degrees = float(name.rsplit("_", 1)[1])
-        normal, along = given["speed"] * math.cos(math.radians(degrees)), given["speed"] * math.sin(math.radians(degrees))
+        normal, along = given["speed"] * math.cos(math.radians(degrees)), given["speed"] * math.sin(
+            math.radians(degrees))
         change = given["friction"] * (1 + given["restitution"]) * normal
-        spin = change * given["radius"] / (0.4 * given["radius"] ** 2)  # torque impulse over the moment of inertia, per mass
-        check(along - change - given["radius"] * spin > 0, f"{file.name}: at {degrees} degrees the contact sticks")
+        spin = change * given["radius"] / (0.4 * given["radius"] ** 2
+                                          )  # torque impulse over the moment of inertia, per mass
+        check(along - change - given["radius"] * spin > 0,
+              f"{file.name}: at {degrees} degrees the contact sticks")
         value = spin if name.startswith("spin") else 1 - change / along
-        check(abs(value / entry["value"] - 1) < 1e-12, f"{file.name}: {name} {value}, not {entry['value']}")
+        check(
+            abs(value / entry["value"] - 1) < 1e-12,
+            f"{file.name}: {name} {value}, not {entry['value']}")
 
 
-def sliding(speed, along, spin, radius, friction, restitution, second_mass=math.inf, second_radius=1.0, second_spin=0.0, steps=20000):
+def sliding(speed, along, spin, radius, friction, restitution, second_mass=math.inf,
+            second_radius=1.0, second_spin=0.0, steps=20000):
     """Speeds and spin after a contact of a sphere of mass 1, integrated: a spring that is stiffer
     when it unloads, and Coulomb's friction. Positive slip is that of the sphere's surface along x;
     the other body has `second_mass` and, with the same sense of spin, rubs too."""
@@ -113,7 +123,10 @@ def sliding(speed, along, spin, radius, friction, restitution, second_mass=math.
         if second_mass < math.inf:
             other_spin -= push * second_radius / (0.4 * second_mass * second_radius ** 2)
         x += v * step / 2
-    return {"tangential_speed_after": along, "spin_after": spin, "slips": slips, "normal_speed_after": -v}
+    return {
+        "tangential_speed_after": along, "spin_after": spin, "slips": slips,
+        "normal_speed_after": -v
+    }
 
 
 def compare(file, found, suffix, expected):
@@ -121,13 +134,18 @@ def compare(file, found, suffix, expected):
     for name, entry in expected.items():
         if name.endswith(suffix) and name.removesuffix(suffix) in found:
             value = found[name.removesuffix(suffix)]
-            check(abs(value / entry["value"] - 1) <= 1e-3, f"{file.name}: {name} {value:.6g}, not {entry['value']:.6g}")
+            check(
+                abs(value / entry["value"] - 1) <= 1e-3,
+                f"{file.name}: {name} {value:.6g}, not {entry['value']:.6g}")
 
 
 for file in sorted(FOLDER.glob("chung_ooi_5_*.yaml")):
     given, expected = read(file)
     for along in {name.rsplit("_", 1)[1] for name in expected}:
-        compare(file, sliding(given["normal_speed"], float(along), 0.0, given["radius"], given["friction"], given["restitution"]), "_" + along, expected)
+        compare(
+            file,
+            sliding(given["normal_speed"], float(along), 0.0, given["radius"], given["friction"],
+                    given["restitution"]), "_" + along, expected)
 for file in sorted(FOLDER.glob("chung_ooi_[678]_*.yaml")):
     given, expected = read(file)
     for spin in {name.rsplit("_", 1)[1] for name in expected}:
@@ -135,20 +153,31 @@ for file in sorted(FOLDER.glob("chung_ooi_[678]_*.yaml")):
         if "_7_" in file.name:  # by symmetry, each sphere is as at a plane that its neighbour's surface moves
             more = dict(second_mass=1.0, second_radius=given["radius"], second_spin=float(spin))
         elif "second_radius" in given:
-            more = dict(second_mass=given["second_mass_over_first"], second_radius=given["second_radius"])
+            more = dict(second_mass=given["second_mass_over_first"],
+                        second_radius=given["second_radius"])
         approach = given["speed"] * (2 if "_7_" in file.name else 1)
-        compare(file, sliding(approach, 0.0, float(spin), given["radius"], given["friction"], given["restitution"], **more), "_" + spin, expected)
+        compare(
+            file,
+            sliding(approach, 0.0, float(spin), given["radius"], given["friction"],
+                    given["restitution"], **more), "_" + spin, expected)
 given, expected = read(FOLDER / "mohajeri_oblique.yaml")
-compare(FOLDER / "mohajeri_oblique.yaml", sliding(given["normal_speed"], given["tangential_speed"], 0.0, given["radius"], given["friction"],
-                                                  given["restitution"]), "", expected)
+compare(
+    FOLDER / "mohajeri_oblique.yaml",
+    sliding(given["normal_speed"], given["tangential_speed"], 0.0, given["radius"],
+            given["friction"], given["restitution"]), "", expected)
 given, expected = read(FOLDER / "mohajeri_rolling.yaml")
 for time in (0.005, 0.01, 0.015):
     spin = given["spin"]
     for _ in range(1000):  # torque over the moment of inertia
-        spin -= given["rolling_resistance"] * given["radius"] * given["gravity"] / (0.4 * given["radius"] ** 2) * time / 1000
-    check(abs(spin / expected[f"spin_at_{time}"]["value"] - 1) < 1e-9, f"mohajeri_rolling: spin at {time} s")
+        spin -= given["rolling_resistance"] * given["radius"] * given["gravity"] / (
+            0.4 * given["radius"] ** 2) * time / 1000
+    check(
+        abs(spin / expected[f"spin_at_{time}"]["value"] - 1) < 1e-9,
+        f"mohajeri_rolling: spin at {time} s")
 given, expected = read(FOLDER / "mohajeri_pull_off.yaml")
 # DMT: 2 pi w R*, with the work of adhesion w = 2 gamma and R* = R/2.
-check(abs(2 * math.pi * 2 * given["surface_energy"] * given["radius"] / 2 / expected["pull_off_force"]["value"] - 1) < 1e-12, "pull-off force")
+check(
+    abs(2 * math.pi * 2 * given["surface_energy"] * given["radius"] / 2 /
+        expected["pull_off_force"]["value"] - 1) < 1e-12, "pull-off force")
 print(f"{len(files)} files, {len(failures)} failed")
 sys.exit(bool(failures))

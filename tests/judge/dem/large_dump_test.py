@@ -41,7 +41,9 @@ def rows_of(frame):
         phase = (frame + 0.37 + ball * PERIOD // BALLS) % PERIOD
         there = phase < PERIOD / 2
         x = -REACH / 2 + SPEED * STEP * (phase if there else PERIOD - phase)
-        lines.append(f"{ball + 1} {x:.12g} {0.009 * (ball - BALLS / 2 + 0.5):.12g} 0 {SPEED if there else -SPEED:.12g} 0 0 0 0 0")
+        lines.append(
+            f"{ball + 1} {x:.12g} {0.009 * (ball - BALLS / 2 + 0.5):.12g} 0 {SPEED if there else -SPEED:.12g} 0 0 0 0 0"
+        )
     return "\n".join(lines) + "\n"
 
 
@@ -56,8 +58,11 @@ def imported(gigabytes, folder):
     if child == 0:
         os.close(writer)
         os.dup2(reader, 0)
-        os.execv(EDMILL, [EDMILL, "import", "-", "--case", str(folder / "case.toml"), "--timestep", f"{STEP} s", "--quiet", "--out",
-                          str(folder / "contacts.csv")])
+        os.execv(EDMILL, [
+            EDMILL, "import", "-", "--case",
+            str(folder / "case.toml"), "--timestep", f"{STEP} s", "--quiet", "--out",
+            str(folder / "contacts.csv")
+        ])
     os.close(reader)
     written = 0
     with os.fdopen(writer, "wb", buffering=1 << 20) as out:
@@ -80,7 +85,9 @@ with tempfile.TemporaryDirectory() as name:
     for size in (0.2, GIGABYTES):
         contacts, frames, megabytes, written = imported(size, folder)
         expected = 2 * BALLS * frames / PERIOD
-        print(f"{written:.2f} GB, {frames} frames: {contacts} contacts, {expected:.0f} expected; {megabytes:.0f} MB")
+        print(
+            f"{written:.2f} GB, {frames} frames: {contacts} contacts, {expected:.0f} expected; {megabytes:.0f} MB"
+        )
         memory.append(megabytes)
         if abs(contacts - expected) > BALLS:  # those cut off by either end
             failed.append("contacts")

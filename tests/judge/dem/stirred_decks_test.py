@@ -13,8 +13,11 @@ import sys
 
 from program import Trials, edmill, said
 
-CODES = {"lammps": ("lmp", ["lmp", "-in", "deck.in"]), "liggghts": ("liggghts", ["liggghts", "-in", "deck.in"]),
-         "yade": ("yade", ["yade", "-n", "-x", "-j1", "deck.py"])}
+CODES = {
+    "lammps": ("lmp", ["lmp", "-in",
+                       "deck.in"]), "liggghts": ("liggghts", ["liggghts", "-in", "deck.in"]),
+    "yade": ("yade", ["yade", "-n", "-x", "-j1", "deck.py"])
+}
 COMMON = """[contact]
 restitution = 0.6
 friction = 0.3
@@ -59,18 +62,33 @@ with Trials(to_the_end=True) as t:
             if code not in installed:
                 continue
             folder = pathlib.Path(f"{name}_{code}")
-            said("export", case, "--to", code, "--out", folder, "--duration", "0.3 s" if code != "yade" else "0.15 s", "--quiet")
-            done = subprocess.run(CODES[code][1], cwd=folder, capture_output=True, text=True, check=False, timeout=1200)
+            said("export", case, "--to", code, "--out", folder, "--duration",
+                 "0.3 s" if code != "yade" else "0.15 s", "--quiet")
+            done = subprocess.run(CODES[code][1], cwd=folder, capture_output=True, text=True,
+                                  check=False, timeout=1200)
             deck = folder / CODES[code][1][-1]
-            t.check((folder / "deck.dump").exists(), f"{name}, {code}: {done.stdout[-500:]} {done.stderr[-500:]}")
-            said("import", folder / "deck.dump", "--case", case, "--deck", deck, "--out", folder / "contacts.csv", "--quiet")
+            t.check((folder / "deck.dump").exists(),
+                    f"{name}, {code}: {done.stdout[-500:]} {done.stderr[-500:]}")
+            said("import", folder / "deck.dump", "--case", case, "--deck", deck, "--out",
+                 folder / "contacts.csv", "--quiet")
             found = edmill("audit", case, folder / "contacts.csv").stdout
-            off, resolved = map(float, re.search(r"leave their flights (\S+) m from .* resolve (\S+) m", found).groups())
-            print(f"{name}, {code}: balls leave their flights {off} m from walls and bodies, frames resolve {resolved} m")
-            t.check(off <= 2 * resolved, f"{name}, {code}: walls are {off} m away, frames resolve {resolved} m")
+            off, resolved = map(
+                float,
+                re.search(r"leave their flights (\S+) m from .* resolve (\S+) m", found).groups())
+            print(
+                f"{name}, {code}: balls leave their flights {off} m from walls and bodies, frames resolve {resolved} m"
+            )
+            t.check(off <= 2 * resolved,
+                    f"{name}, {code}: walls are {off} m away, frames resolve {resolved} m")
             t.check(re.search(r"contacts missed at walls +0 ", found), f"{name}, {code}: {found}")
-            for value, allowed in re.findall(r"restitution at (?:body|walls).*? ([0-9.]+) \(.*?\) +0\.6 +([0-9.]+)", found):
-                t.check(abs(float(value) - 0.6) <= float(allowed), f"{name}, {code}: restitution {value}")
-            touched = [row for row in open(folder / "contacts.csv", encoding="utf-8") if row.split(",")[2:3] == ["wall"]]
+            for value, allowed in re.findall(
+                    r"restitution at (?:body|walls).*? ([0-9.]+) \(.*?\) +0\.6 +([0-9.]+)", found):
+                t.check(
+                    abs(float(value) - 0.6) <= float(allowed),
+                    f"{name}, {code}: restitution {value}")
+            touched = [
+                row for row in open(folder / "contacts.csv", encoding="utf-8")
+                if row.split(",")[2:3] == ["wall"]
+            ]
             t.check(len(touched) > 10, f"{name}, {code}: {len(touched)} contacts with walls")
 print(f"{t.checks} checks, codes: {', '.join(sorted(installed))}")

@@ -64,25 +64,23 @@ ROLL = '[[mill.joint]]\nrotate = "x"\n[[mill.joint.swing]]\namplitude = "{} deg"
 CHAIN = '[mill]\ntype = "chain"\n'
 #   key of the cause, part of its text, [mill] of the run, settings of the run, change of the log
 MISTAKES = {
-    "order of rotations": (CHAIN + SWING_Z.format(15, 1054) + ARM + BACK_Z + ROLL.format(15) + SWING_Z.format(15, 1054), [], None),
+    "order of rotations": (CHAIN + SWING_Z.format(15, 1054) + ARM + BACK_Z + ROLL.format(15) +
+                           SWING_Z.format(15, 1054), [], None),
     "sign of gamma": (CHAIN + SWING_Z.format(15, 1054) + ARM + ROLL.format(-15), [], None),
-    "spins: in degrees": (SPEX, [], "degrees"),
-    "columns of the partner": (SPEX, [], "exchanged"),
-    "times: in ms": (SPEX, [], "ms"),
-    "positions: in mm": (SPEX, [], "mm"),
-    "velocities: in mm/s": (SPEX, [], "mm/s"),
-    "energies: in mJ": (SPEX, [], "mJ"),
-    "numbers of balls: balls 0 and 2": (SPEX, [], "numbers"),
-    "diameter: 76 mm": (SPEX, ['vessel.diameter="76 mm"'], None),
-    "diameter: 3 mm": (SPEX, ['balls.0.diameter="3 mm"'], None),
-    "density: 8 kg": (SPEX, ['balls.0.density="8 kg/m3"'], None),
-    "arm: 1000": (SPEX, ['mill.arm="100 m"', 'run.max_collisions=300'], None),
-    "theta_max: 0.2617": (SPEX, [f'mill.theta_max="{15 * RAD} deg"'], None),
+    "spins: in degrees": (SPEX, [], "degrees"), "columns of the partner": (SPEX, [], "exchanged"),
+    "times: in ms": (SPEX, [], "ms"), "positions: in mm": (SPEX, [], "mm"), "velocities: in mm/s":
+        (SPEX, [], "mm/s"), "energies: in mJ": (SPEX, [], "mJ"), "numbers of balls: balls 0 and 2":
+            (SPEX, [], "numbers"), "diameter: 76 mm": (SPEX, ['vessel.diameter="76 mm"'], None),
+    "diameter: 3 mm": (SPEX, ['balls.0.diameter="3 mm"'], None), "density: 8 kg":
+        (SPEX, ['balls.0.density="8 kg/m3"'], None), "arm: 1000":
+            (SPEX, ['mill.arm="100 m"', 'run.max_collisions=300'], None), "theta_max: 0.2617":
+                (SPEX, [f'mill.theta_max="{15 * RAD} deg"'], None),
 }
 
 
 def case_text(mill, balls, seed, sizes=None):
-    entries = "".join(f'[[balls]]\ncount = {n}\ndiameter = "{d} mm"\ndensity = "8 g/cm3"\n' for n, d in sizes or [(balls, 6)])
+    entries = "".join(f'[[balls]]\ncount = {n}\ndiameter = "{d} mm"\ndensity = "8 g/cm3"\n'
+                      for n, d in sizes or [(balls, 6)])
     return f"""[run]
 seed = {seed}
 end_time = "100 s"
@@ -120,7 +118,10 @@ def changed_log(file, how, random_numbers):
     def columns(*beginnings):
         return [k for name, k in at.items() if name.startswith(beginnings)]
     kind, amount = how if isinstance(how, tuple) else (how, None)
-    places = [k for name, k in at.items() if name in ("x", "y", "z", "partner_x", "partner_y", "partner_z")]
+    places = [
+        k for name, k in at.items()
+        if name in ("x", "y", "z", "partner_x", "partner_y", "partner_z")
+    ]
     if kind == "degrees":
         scale(columns("wx", "wy", "wz", "partner_wx", "partner_wy", "partner_wz"), 180 / math.pi)
     elif kind == "ms":
@@ -169,15 +170,18 @@ def run(folder, text, settings, change, random_numbers, audited):
     edmill("run", "run.toml", "--quiet", "--out", "out", *sets(*settings), cwd=folder, code=0)
     for how in change:
         changed_log(folder / "out" / "collisions.csv", how, random_numbers)
-    done = edmill("audit", "case.toml", "out/collisions.csv", "--identify", "--quiet", "--json", "found.json",
-                  *(["--from-start"] if "few" in change else []), cwd=folder)
+    done = edmill("audit", "case.toml", "out/collisions.csv", "--identify", "--quiet", "--json",
+                  "found.json", *(["--from-start"] if "few" in change else []), cwd=folder)
     if done.returncode not in (0, 6, 7):
         raise RuntimeError(done.stderr)
     found = json.loads((folder / "found.json").read_text())["identified"]
-    if len(settings) == 2 and "run.max_collisions=300" not in settings:  # what each of two changes does beside the other
+    if len(
+            settings
+    ) == 2 and "run.max_collisions=300" not in settings:  # what each of two changes does beside the other
         found["without"] = {}
         for setting in settings:
-            one = edmill("audit", "case.toml", "out/collisions.csv", "--quiet", "--json", "one.json", "--set", setting, cwd=folder)
+            one = edmill("audit", "case.toml", "out/collisions.csv", "--quiet", "--json",
+                         "one.json", "--set", setting, cwd=folder)
             if one.returncode in (0, 6):
                 kinds = json.loads((folder / "one.json").read_text())["violations"]
                 found["without"][setting] = sum(v["count"] for v in kinds.values())
@@ -205,7 +209,8 @@ def shows(found):
     """Whether the log has impacts that tell the change from others: none does where no two balls
     meet slowly, for one."""
     told = not any(cause["alike"] for cause in found["causes"].values())
-    return found["violations"] > 0 and told and all(n > 0 for n in found.get("without", {}).values())
+    return found["violations"] > 0 and told and all(
+        n > 0 for n in found.get("without", {}).values())
 
 
 def right(found, truths):
@@ -252,7 +257,8 @@ def trial(job):
         change += ["few"] if kind == "few" else []
     try:
         found = run(folder, text, settings, change, rng, audited)
-        silent = not found["violations"] if kind == "mistake" else kind in ("value", "pair") and not shows(found)
+        silent = not found["violations"] if kind == "mistake" else kind in (
+            "value", "pair") and not shows(found)
         if silent and number < 20000:
             return trial((place, kind, name, share, number + 1000, seed))
     except (RuntimeError, AssertionError) as error:
@@ -270,8 +276,9 @@ def trial(job):
     return kind, name, share, wrong
 
 
-FEW = ("none", "mill.arm", "mill.theta_max", "mill.gamma_max", "mill.speed", "contact.friction", "contact.restitution",
-       "contact.ball_wall.restitution", "balls.0.reduced_inertia", "phase of the drive")
+FEW = ("none", "mill.arm", "mill.theta_max", "mill.gamma_max", "mill.speed", "contact.friction",
+       "contact.restitution", "contact.ball_wall.restitution", "balls.0.reduced_inertia",
+       "phase of the drive")
 
 
 def jobs_of(a):
@@ -286,7 +293,8 @@ def jobs_of(a):
     for number in range(a.pairs):
         while True:  # a number for both kinds of contact, and one of a kind of the same name, overlap
             one, two = rng.sample(sorted(PARAMETERS), 2)
-            laws = one.startswith("contact") and two.startswith("contact") and one.split(".")[-1] == two.split(".")[-1]
+            laws = one.startswith("contact") and two.startswith("contact") and one.split(
+                ".")[-1] == two.split(".")[-1]
             if not laws and not (one.startswith("run.gravity") and two.startswith("run.gravity")):
                 break
         yield (a.folder, "pair", f"{one} + {two}", 0, number, a.seed)
@@ -319,7 +327,8 @@ def main():
         for kind, name, share, wrong in pool.map(trial, jobs):
             key = (kind, name if kind in ("value", "mistake", "few") else "", share)
             good, all_of, said = tally.get(key, (0, 0, []))
-            tally[key] = (good + (not wrong), all_of + 1, said + ([f"{name}: {wrong}"] if wrong else []))
+            tally[key] = (good + (not wrong), all_of + 1,
+                          said + ([f"{name}: {wrong}"] if wrong else []))
     failed = 0
     for (kind, name, share), (good, all_of, said) in tally.items():
         least = {"value": 0.95, "mistake": 0.95, "few": 0.9, "pair": 0.8}.get(kind, 1.0)

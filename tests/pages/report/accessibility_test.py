@@ -28,9 +28,10 @@ def pages(folder):
     demo = f'"{EXAMPLES / "demo.toml"}"'
     outputs = ('output=[{type="treatment",share_per_impact=1e-4},{type="lyapunov",exponents=3},'
                '{type="lyapunov",exponents=2,interval="20 ms",file="growth.csv"}]')
-    call("run", EXAMPLES / "demo.toml", "--report", "--quiet", "--out", "run", "--target-dose", "10 kJ/g",
-         "--set", "run.end_time=3 s", "--set", outputs)
-    call("run", EXAMPLES / "planetary.toml", "--report", "--quiet", "--out", "planetary", "--set", "run.end_time=2 s")
+    call("run", EXAMPLES / "demo.toml", "--report", "--quiet", "--out", "run", "--target-dose",
+         "10 kJ/g", "--set", "run.end_time=3 s", "--set", outputs)
+    call("run", EXAMPLES / "planetary.toml", "--report", "--quiet", "--out", "planetary", "--set",
+         "run.end_time=2 s")
     call("run", EXAMPLES / "demo.toml", "--quiet", "--out", "other", "--set", "run.end_time=3 s",
          "--set", "contact.restitution=0.6")
     call("report", "run", "other", "--out", "comparison.html")
@@ -55,8 +56,11 @@ low = "4 mm"
 high = "9 mm"
 """)
     call("optimize", "optimum.toml", "--quiet", "--out", "optimum")
-    pages = {"run": "run/report.html", "planetary": "planetary/report.html", "comparison": "comparison.html",
-            "sweep": "sweep/sweep.html", "optimum": "optimum/optimize.html"}
+    pages = {
+        "run": "run/report.html", "planetary": "planetary/report.html",
+        "comparison": "comparison.html", "sweep": "sweep/sweep.html",
+        "optimum": "optimum/optimize.html"
+    }
     mill = os.environ.get("EDMILL_PAGE")
     return dict(pages, mill=pathlib.Path(mill).resolve()) if mill else pages
 
@@ -76,17 +80,25 @@ def main():
             for width in (1200, 390):
                 for scheme in ("light", "dark"):
                     driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
-                        "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 600})
+                        "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 600
+                    })
                     driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {
                         "features": [{"name": "prefers-color-scheme", "value": scheme}]})
                     driver.get((folder / path).as_uri())
-                    picture = driver.execute_cdp_cmd("Page.captureScreenshot", {"format": "png", "captureBeyondViewport": True})
-                    (folder / f"{name}-{width}-{scheme}.png").write_bytes(base64.b64decode(picture["data"]))
+                    picture = driver.execute_cdp_cmd(
+                        "Page.captureScreenshot", {"format": "png", "captureBeyondViewport": True})
+                    (folder / f"{name}-{width}-{scheme}.png").write_bytes(
+                        base64.b64decode(picture["data"]))
                     driver.execute_script(axe.read_text())
                     found = driver.execute_async_script(JUDGE, RULES)
                     # The software renderer remarks on the screenshot itself.
-                    messages = [line for line in driver.get_log("browser") if "GPU stall due to ReadPixels" not in line["message"]]
-                    print(f"{name}, {width} px, {scheme}: {len(found)} findings, {len(messages)} messages on the console")
+                    messages = [
+                        line for line in driver.get_log("browser")
+                        if "GPU stall due to ReadPixels" not in line["message"]
+                    ]
+                    print(
+                        f"{name}, {width} px, {scheme}: {len(found)} findings, {len(messages)} messages on the console"
+                    )
                     for rule, text, nodes in found:
                         print(f"  {rule}: {text}", *(f"\n    {node}" for node in nodes[:5]))
                     for message in messages:

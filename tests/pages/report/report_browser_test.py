@@ -41,7 +41,8 @@ PAINTED_RIM = '''
 
 def run(folder, *settings):
     """The page of the demo with other settings."""
-    edmill("run", EXAMPLES / "demo.toml", "--report", "--quiet", "--out", folder, *sets(*settings), code=0)
+    edmill("run", EXAMPLES / "demo.toml", "--report", "--quiet", "--out", folder, *sets(*settings),
+           code=0)
     return (folder / "report.html").as_uri()
 
 
@@ -65,19 +66,25 @@ class Report(OpenReport):
 
     def assert_silent(self):
         # The driver warns about rendering without a graphics card.
-        ours = [entry for entry in self.browser.get_log("browser")
-                if entry["level"] in ("WARNING", "SEVERE") and "GL Driver Message" not in entry["message"]]
+        ours = [
+            entry for entry in self.browser.get_log("browser")
+            if entry["level"] in ("WARNING",
+                                  "SEVERE") and "GL Driver Message" not in entry["message"]
+        ]
         self.assertEqual(ours, [])
 
     def assert_good_page(self, page, name):
         """Of any page: the console, its numbers, its labels at two widths."""
         self.browser.get_log("browser")  # of the page before
         # Paused: to draw without a graphics card takes most of the time.
-        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-reduced-motion", "value": "reduce"}]})
+        self.browser.execute_cdp_cmd(
+            "Emulation.setEmulatedMedia",
+            {"features": [{"name": "prefers-reduced-motion", "value": "reduce"}]})
         self.browser.get((self.folder / page).as_uri())
         self.assert_silent()
         text = self.script("return document.querySelector('main').outerHTML")
-        self.assertEqual(re.findall(r"[^\w](?:nan|inf|infinity|undefined|null)[^\w]", text, re.IGNORECASE), [])
+        self.assertEqual(
+            re.findall(r"[^\w](?:nan|inf|infinity|undefined|null)[^\w]", text, re.IGNORECASE), [])
         for width in (1200, 390):
             self.size(width, 900)
             time.sleep(0.2)
@@ -85,7 +92,9 @@ class Report(OpenReport):
                 self.keep(f"{name}-{width}.png")
             self.assertEqual(self.script(BAD_LABELS), [], f"at {width} px")
             self.assertEqual(self.script("return document.documentElement.scrollWidth"), width)
-        links = self.script("return [...document.querySelectorAll('.contents a')].map(a => !!document.getElementById(a.hash.slice(1)))")
+        links = self.script(
+            "return [...document.querySelectorAll('.contents a')].map(a => !!document.getElementById(a.hash.slice(1)))"
+        )
         self.assertTrue(links and all(links), links)
 
     def assert_good(self, name):
@@ -100,10 +109,12 @@ class Report(OpenReport):
                 slider.value = arguments[0] * slider.max;
                 slider.dispatchEvent(new Event('input'));''', share)
             time.sleep(0.15)
-            self.assertEqual(self.script(PAINTED_RIM), [True, 0], f"{name}: the jar is in the picture as it is drawn, at {share}")
+            self.assertEqual(self.script(PAINTED_RIM), [True, 0],
+                             f"{name}: the jar is in the picture as it is drawn, at {share}")
         if name not in WITHOUT_DOSE:
             high = "return Math.max(...[...document.querySelectorAll('#energy-spectrum .curve')].map(c => c.getBBox().height))"
-            self.assertGreater(self.script(high), 100, "the spectrum shows the energies of this mill")
+            self.assertGreater(self.script(high), 100,
+                               "the spectrum shows the energies of this mill")
         self.assertIn("gravity", self.script("return document.getElementById('case').textContent"))
 
     def test_1_the_console_is_silent(self):
@@ -115,8 +126,11 @@ class Report(OpenReport):
             message = json.loads(entry["message"])["message"]
             if message["method"] == "Network.requestWillBeSent":
                 requests.append(message["params"]["request"]["url"])
-        self.assertTrue(any(url.startswith("file:") for url in requests), "the log must hold the page itself")
-        self.assertEqual([url for url in requests if not url.startswith(("file:", "data:", "blob:", "chrome:"))], [])
+        self.assertTrue(any(url.startswith("file:") for url in requests),
+                        "the log must hold the page itself")
+        self.assertEqual(
+            [url for url in requests if not url.startswith(("file:", "data:", "blob:", "chrome:"))],
+            [])
         self.assertEqual(len([url for url in requests if url.startswith("file:")]), 1)
 
     def test_2_charts_have_axes_with_units(self):
@@ -126,9 +140,10 @@ class Report(OpenReport):
                 x: f.querySelectorAll('.x-axis .label').length, y: f.querySelectorAll('.y-axis .label').length,
                 curves: [...f.querySelectorAll('.curve')].map(c => c.getTotalLength()),
                 named: !!f.querySelector('svg > title') && !!f.querySelector('svg > desc')}))""")
-        self.assertEqual({chart["id"] for chart in charts},
-                         {"dose-rate", "collision-rates", "approach-speeds", "slip-speeds", "energy-spectrum", "energy-parts",
-                          "ball-speeds-over-time", "ball-speeds", "dose-by-ball"})
+        self.assertEqual({chart["id"] for chart in charts}, {
+            "dose-rate", "collision-rates", "approach-speeds", "slip-speeds", "energy-spectrum",
+            "energy-parts", "ball-speeds-over-time", "ball-speeds", "dose-by-ball"
+        })
         for chart in charts:
             with self.subTest(chart["id"]):
                 self.assertEqual(len(chart["titles"]), 2)
@@ -143,31 +158,36 @@ class Report(OpenReport):
     def test_2_maps_have_a_scale_with_a_unit(self):
         maps = self.script("""
             return [...document.querySelectorAll('figure.heat')].map(f => ({id: f.id, text: f.textContent,
-                colours: new Set([...f.querySelectorAll('.cells path')].map(p => p.getAttribute('fill'))).size}))""")
+                colours: new Set([...f.querySelectorAll('.cells path')].map(p => p.getAttribute('fill'))).size}))"""
+                          )
         self.assertEqual([m["id"] for m in maps], ["cylinder", "cap-0", "cap-1"])
         for m in maps:
             self.assertIn("[kW/m²]", m["text"])
             self.assertGreater(m["colours"], 10)
 
     def test_2_the_headline_has_intervals(self):
-        intervals = self.script("return [...document.querySelectorAll('.card .interval')].map(e => e.textContent)")
+        intervals = self.script(
+            "return [...document.querySelectorAll('.card .interval')].map(e => e.textContent)")
         self.assertEqual(len(intervals), 3)  # two dose rates, and impacts above 1 m/s
         for text in intervals:
             self.assertTrue(re.match(r"± [0-9.\u202f×⁻⁰¹²³⁴⁵⁶⁷⁸⁹ ]+ [A-Za-z/1]+$", text), text)
 
     def test_3_the_scene_moves(self):
         self.play(True)
-        first, begin = self.scene_picture(), self.script("return document.getElementById('time').valueAsNumber")
+        first, begin = self.scene_picture(), self.script(
+            "return document.getElementById('time').valueAsNumber")
         time.sleep(1)
         self.assertNotEqual(first, self.scene_picture())
-        self.assertNotEqual(begin, self.script("return document.getElementById('time').valueAsNumber"))
+        self.assertNotEqual(begin,
+                            self.script("return document.getElementById('time').valueAsNumber"))
 
     def test_3_balls_are_where_the_animation_has_them(self):
         size = self.canvas().size
         for fraction in (0, 0.31, 0.77, 1):
             with self.subTest(fraction):
                 self.show(fraction)
-                here = discs(self.folder / "run/report/animation.x3d", fraction, size["width"], size["height"])
+                here = discs(self.folder / "run/report/animation.x3d", fraction, size["width"],
+                             size["height"])
                 self.assertEqual(len(here), 28)
                 both, inside, balls = self.ball_pixels(here)
                 self.assertGreater(inside, 3000)
@@ -176,7 +196,8 @@ class Report(OpenReport):
                 # 1 % of the playback away, 1.1 ms, they are elsewhere.
                 near = abs(fraction - 0.01)
                 both, inside, balls = self.ball_pixels(
-                    discs(self.folder / "run/report/animation.x3d", near, size["width"], size["height"]))
+                    discs(self.folder / "run/report/animation.x3d", near, size["width"],
+                          size["height"]))
                 self.assertLess(both, 0.7 * inside)
 
     def test_4_pause_stops_the_scene_and_its_drawing(self):
@@ -214,12 +235,15 @@ class Report(OpenReport):
         self.show(0.5)
         names = self.script("""
             return ['play', 'time'].map(id => document.getElementById(id)).map(e => [e.tabIndex, e.computedName ??
-                e.getAttribute('aria-label') ?? e.textContent, e.getAttribute('aria-valuetext')])""")
-        self.assertEqual(names, [[0, "Play", None], [0, "Time from the beginning of the animation", "56.9 ms"]])
+                e.getAttribute('aria-label') ?? e.textContent, e.getAttribute('aria-valuetext')])"""
+                           )
+        self.assertEqual(
+            names, [[0, "Play", None], [0, "Time from the beginning of the animation", "56.9 ms"]])
         slider = self.browser.find_element("id", "time")
         slider.send_keys(Keys.ARROW_RIGHT)
         time.sleep(0.3)
-        self.assertEqual(self.script("return document.getElementById('clock').textContent"), "58.1 ms")
+        self.assertEqual(self.script("return document.getElementById('clock').textContent"),
+                         "58.1 ms")
 
     def test_5_tables_fit_a_desktop(self):
         wide = "return [...document.querySelectorAll('.table')].filter(t => t.scrollWidth > t.clientWidth).map(t => t.textContent)"
@@ -232,7 +256,8 @@ class Report(OpenReport):
         self.keep("phone.png")
         self.assertEqual(self.script("return document.documentElement.scrollWidth"), 390)
         small = self.script("""
-            return [...document.querySelectorAll('svg .label')].map(t => t.getBoundingClientRect().height).filter(h => h < 9)""")
+            return [...document.querySelectorAll('svg .label')].map(t => t.getBoundingClientRect().height).filter(h => h < 9)"""
+                           )
         self.assertEqual(small, [], "labels of charts stay readable")
         self.size(1280, 900)
 
@@ -256,14 +281,16 @@ class Report(OpenReport):
     def test_6_paper_shows_the_mill_without_its_controls(self):
         self.media(kind="print")
         shown = self.shown(".stage canvas", "#player")
-        pdf = self.browser.execute_cdp_cmd("Page.printToPDF", {"printBackground": True, "paperWidth": 8.27, "paperHeight": 11.69})
+        pdf = self.browser.execute_cdp_cmd(
+            "Page.printToPDF", {"printBackground": True, "paperWidth": 8.27, "paperHeight": 11.69})
         self.media()
         self.assertEqual(shown, [True, False])
         (self.folder / "report.pdf").write_bytes(base64.b64decode(pdf["data"]))
 
     def test_7_a_report_of_908_balls_opens(self):
-        page = run(self.folder / "run-908", "balls.0.count=908", "balls.0.diameter=2.36 mm", "balls.0.gap_ball=0.2 mm",
-                   "contact.restitution=0.8", "run.start_time=0.1 s", "run.end_time=0.2 s")
+        page = run(self.folder / "run-908", "balls.0.count=908", "balls.0.diameter=2.36 mm",
+                   "balls.0.gap_ball=0.2 mm", "contact.restitution=0.8", "run.start_time=0.1 s",
+                   "run.end_time=0.2 s")
         begin = time.monotonic()
         self.browser.get(page)
         self.scene_picture()
@@ -290,8 +317,10 @@ class Report(OpenReport):
 
     def test_9_pages_of_several_runs_are_good(self):
         for balls in (7, 14):
-            run(self.folder / f"of-{balls}", "run.end_time=2 s", f"balls.0.count={balls}", 'powder.target_dose="10 kJ/g"')
-        edmill("report", "--quiet", "--out", self.folder / "compared.html", *(self.folder / f"of-{n}" for n in (7, 14)), code=0)
+            run(self.folder / f"of-{balls}", "run.end_time=2 s", f"balls.0.count={balls}",
+                'powder.target_dose="10 kJ/g"')
+        edmill("report", "--quiet", "--out", self.folder / "compared.html",
+               *(self.folder / f"of-{n}" for n in (7, 14)), code=0)
         (self.folder / "speeds.sweep.toml").write_text(f'''[sweep]
 case = "{EXAMPLES / "demo.toml"}"
 replicas = 2
@@ -299,7 +328,8 @@ replicas = 2
 "mill.speed" = ["900 rpm", "1100 rpm"]
 "run.end_time" = ["1.5 s"]
 ''')
-        edmill("sweep", self.folder / "speeds.sweep.toml", "--quiet", "--out", self.folder / "speeds", code=0)
+        edmill("sweep", self.folder / "speeds.sweep.toml", "--quiet", "--out",
+               self.folder / "speeds", code=0)
         for page in ("compared.html", "speeds/sweep.html"):
             with self.subTest(page):
                 self.assert_good_page(page, page.replace("/", "-"))
@@ -357,5 +387,8 @@ if __name__ == "__main__":
     long = "--long" in sys.argv
     if len(sys.argv) > 2 + long:
         FOLDER = sys.argv[2]
-    names = [name for name in unittest.TestLoader().getTestCaseNames(Report) if name.endswith("_long") == long]
+    names = [
+        name for name in unittest.TestLoader().getTestCaseNames(Report)
+        if name.endswith("_long") == long
+    ]
     unittest.main(argv=[sys.argv[0], *(f"Report.{name}" for name in names)], verbosity=2)

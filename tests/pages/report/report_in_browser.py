@@ -10,8 +10,10 @@ import xml.etree.ElementTree as ElementTree
 from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
 
-FLAGS = ("--headless --no-sandbox --disable-gpu --use-angle=swiftshader --enable-unsafe-swiftshader --disable-quic --no-first-run "
-         "--disable-background-networking --disable-component-update --disable-sync --hide-scrollbars").split()
+FLAGS = (
+    "--headless --no-sandbox --disable-gpu --use-angle=swiftshader --enable-unsafe-swiftshader --disable-quic --no-first-run "
+    "--disable-background-networking --disable-component-update --disable-sync --hide-scrollbars"
+).split()
 CHROMIUM, DRIVER = "/usr/bin/chromium", "/usr/bin/chromedriver"
 
 
@@ -47,7 +49,8 @@ def discs(animation, fraction, width, height):
         keys, values = floats(path.get("key")), floats(path.get("keyValue"))
         k = min(max(bisect.bisect_right(keys, fraction), 1), len(keys) - 1)
         share = (fraction - keys[k - 1]) / (keys[k] - keys[k - 1])
-        x, y, z = (values[3 * k - 3 + c] + share * (values[3 * k + c] - values[3 * k - 3 + c]) - eye[c] for c in range(3))
+        x, y, z = (values[3 * k - 3 + c] + share * (values[3 * k + c] - values[3 * k - 3 + c]) -
+                   eye[c] for c in range(3))
         radius = float(sphere.get("radius"))
         seen.append([width / 2 - pixels * x / z, height / 2 + pixels * y / z, -pixels * radius / z])
     return seen
@@ -62,8 +65,9 @@ class OpenReport(unittest.TestCase):
 
     @classmethod
     def size(cls, width, height):
-        cls.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
-                                    {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600})
+        cls.browser.execute_cdp_cmd(
+            "Emulation.setDeviceMetricsOverride",
+            {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600})
 
     def media(self, scheme="light", kind="screen"):
         self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {
@@ -71,24 +75,28 @@ class OpenReport(unittest.TestCase):
 
     def keep(self, name):
         """A picture of the whole page."""
-        picture = self.browser.execute_cdp_cmd("Page.captureScreenshot", {"format": "png", "captureBeyondViewport": True})
+        picture = self.browser.execute_cdp_cmd("Page.captureScreenshot",
+                                               {"format": "png", "captureBeyondViewport": True})
         (self.folder / name).write_bytes(base64.b64decode(picture["data"]))
 
     def shown(self, *selectors):
-        return self.script("return arguments[0].map(s => getComputedStyle(document.querySelector(s)).display !== 'none')",
-                           selectors)
+        return self.script(
+            "return arguments[0].map(s => getComputedStyle(document.querySelector(s)).display !== 'none')",
+            selectors)
 
     def canvas(self):
         return self.browser.find_element("css selector", ".stage canvas")
 
     def scene_picture(self):
         canvas = self.canvas()
-        self.script("arguments[0].scrollIntoView({block: 'center'})", canvas)  # a picture is of what the window shows
+        self.script("arguments[0].scrollIntoView({block: 'center'})",
+                    canvas)  # a picture is of what the window shows
         return canvas.screenshot_as_png
 
     def play(self, on):
-        self.script("const b = document.getElementById('play'); if (b.textContent !== arguments[0]) b.click()",
-                    "Pause" if on else "Play")
+        self.script(
+            "const b = document.getElementById('play'); if (b.textContent !== arguments[0]) b.click()",
+            "Pause" if on else "Play")
 
     def show(self, fraction):
         """The paused scene at a fraction of its playback."""
@@ -103,7 +111,8 @@ class OpenReport(unittest.TestCase):
         """Counts pixels of the scene's picture: of balls in the circles, in the circles, of balls
         anywhere. Balls are blue, the vessel is yellow and the page white, so that balls alone have
         little red, behind the vessel's walls too."""
-        return self.browser.execute_async_script("""
+        return self.browser.execute_async_script(
+            """
             const [png, circles, done] = arguments, image = new Image();
             image.onload = () => {
               const canvas = document.createElement('canvas'), context = canvas.getContext('2d');
@@ -119,4 +128,5 @@ class OpenReport(unittest.TestCase):
                 }
               done([both, inside, balls]);
             };
-            image.src = 'data:image/png;base64,' + png;""", base64.b64encode(self.scene_picture()).decode(), circles)
+            image.src = 'data:image/png;base64,' + png;""",
+            base64.b64encode(self.scene_picture()).decode(), circles)

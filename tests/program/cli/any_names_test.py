@@ -21,11 +21,16 @@ except ImportError:
 from program import CASE, EXAMPLES, Trials, edmill
 
 #: Texts in TOML: they are valid UTF-8. Those with control characters are refused.
-TEXTS = ["plain", "label #2", "#first", '"', "  a;b  ", "{{title}}",
-         'a "quoted" \' one, #]]> <![CDATA[</script><script>alert(1)</script><!-- &amp; &#0; < a\u2028b\u2029c\x85d\ufffee\uffff \\n ä é 球 \U0001f600 \u202e {} %s']
+TEXTS = [
+    "plain", "label #2", "#first", '"', "  a;b  ", "{{title}}",
+    'a "quoted" \' one, #]]> <![CDATA[</script><script>alert(1)</script><!-- &amp; &#0; < a\u2028b\u2029c\x85d\ufffee\uffff \\n ä é 球 \U0001f600 \u202e {} %s'
+]
 REFUSED = ["one\ntwo", "one\r\n#two", "a\tb", "a\x00b", "a\x01b", "a\x1b[31mb", "a\x7fb"]
 #: Names of files, which can have any bytes but 0 and /.
-PATHS = [b"a\xff\xc0\x80\xed\xa0\x80\xf4\x90\x80\x80\xc3\x01\x1b\x7f\t", b"a\n#b\r\nc", b"]]> &<b>\"'<|script>#,;b" + "ä\u2028\ufffe球".encode()]
+PATHS = [
+    b"a\xff\xc0\x80\xed\xa0\x80\xf4\x90\x80\x80\xc3\x01\x1b\x7f\t", b"a\n#b\r\nc",
+    b"]]> &<b>\"'<|script>#,;b" + "ä\u2028\ufffe球".encode()
+]
 
 OUTPUTS = """
 [[material]]
@@ -60,12 +65,14 @@ intervals = 20
 label = {text}
 """
 STUDY = '[sweep]\ncase = "case.toml"\n[[sweep.point]]\nname = {text}\nset = {{ "contact.restitution" = 0.5 }}\n[[sweep.point]]\nname = "other"\nset = {{ "contact.restitution" = 0.6 }}\n[[sweep.point]]\nname = "wrong"\nset = {{ "contact.restitution" = 2 }}\n'
-OPTIMIZE = ('[optimize]\ncase = "case.toml"\nobjective = "milling_dose_rate"\nruns_max = 4\nreplicas_first = 2\nreplicas_max = 2\npoints = 2\nrefinements = 0\n'
-            '[[optimize.variable]]\nkey = "contact.restitution"\nlow = 0.4\nhigh = 0.6\n')
+OPTIMIZE = (
+    '[optimize]\ncase = "case.toml"\nobjective = "milling_dose_rate"\nruns_max = 4\nreplicas_first = 2\nreplicas_max = 2\npoints = 2\nrefinements = 0\n'
+    '[[optimize.variable]]\nkey = "contact.restitution"\nlow = 0.4\nhigh = 0.6\n')
 
 
 def in_toml(text):
-    return '"' + "".join(c if " " < c < "\x7f" and c not in '"\\' else f"\\U{ord(c):08x}" for c in text) + '"'
+    return '"' + "".join(
+        c if " " < c < "\x7f" and c not in '"\\' else f"\\U{ord(c):08x}" for c in text) + '"'
 
 
 class Tags(html.parser.HTMLParser):
@@ -101,7 +108,9 @@ def read(file):
     content = file.read_bytes()
     kind = file.suffix
     if kind in (".json", ".certificate"):
-        for part in content.decode().rstrip("\n").split("\n") if kind == ".certificate" else [content.decode()]:
+        for part in content.decode().rstrip("\n").split("\n") if kind == ".certificate" else [
+                content.decode()
+        ]:
             json.loads(part)
     elif kind in (".svg", ".xml", ".vtp", ".pvd", ".x3d"):
         xml.etree.ElementTree.fromstring(content)
@@ -109,7 +118,8 @@ def read(file):
         return columns_of(file)
     elif kind == ".html":
         text = content.decode()
-        assert not set(text) & {chr(c) for c in range(32) if chr(c) not in "\t\n\r"}, "control characters"
+        assert not set(text) & {chr(c)
+                                for c in range(32) if chr(c) not in "\t\n\r"}, "control characters"
         return Tags(text).tags
     elif kind == ".h5":
         import h5py
@@ -121,8 +131,10 @@ def read(file):
 
 
 def case_of(text):
-    begin = CASE.format(end="0.12 s").replace("count = 12", f"count = 12\nmaterial = {in_toml(text)}")
-    return begin + OUTPUTS.format(text=in_toml(text)) + "".join(f'[[output]]\ntype = "{one}"\n{more}\n' for one, more in MORE.items())
+    begin = CASE.format(end="0.12 s").replace("count = 12",
+                                              f"count = 12\nmaterial = {in_toml(text)}")
+    return begin + OUTPUTS.format(text=in_toml(text)) + "".join(
+        f'[[output]]\ntype = "{one}"\n{more}\n' for one, more in MORE.items())
 
 
 def make(t, text, path):
@@ -147,37 +159,49 @@ def make(t, text, path):
         ("run", case, "--out", run, "--report"),
         ("run", case, "--out", folder / "second", "--set", "run.seed=7"),
         ("report", run, folder / "second", "--out", folder / f"{name}.html"),
-        ("compare", run, folder / "second", "--json", folder / "compare.json", "--junit", folder / "compare.xml"),
+        ("compare", run, folder / "second", "--json", folder / "compare.json", "--junit",
+         folder / "compare.xml"),
         ("audit", case, run, "--json", folder / "audit.json", "--junit", folder / "audit.xml"),
-        ("audit", case, log, "--column", "time=when", "--json", folder / "other.json", "--junit", folder / "other.xml"),
-        ("check", case, "--draw", folder / f"{name}.svg"),
+        ("audit", case, log, "--column", "time=when", "--json", folder / "other.json", "--junit",
+         folder / "other.xml"), ("check", case, "--draw", folder / f"{name}.svg"),
         ("certify", case, "--collisions", "5", "--out", folder / "certified.csv"),
-        ("prove", case, "--collisions", "3", "--out", folder / "proven.csv", "--certificate", folder / "proof.certificate"),
-        ("sensitivity", case, "--events", "5", "--by", "contact.restitution", "--out", folder / "derivatives.csv"),
-        ("bifurcation", box, "--over", "contact.restitution", "--from", "0.5", "--to", "0.6", "--steps", "2", "--out", folder / "bifurcation.svg"),
+        ("prove", case, "--collisions", "3", "--out", folder / "proven.csv", "--certificate",
+         folder / "proof.certificate"),
+        ("sensitivity", case, "--events", "5", "--by", "contact.restitution", "--out",
+         folder / "derivatives.csv"),
+        ("bifurcation", box, "--over", "contact.restitution", "--from", "0.5", "--to", "0.6",
+         "--steps", "2", "--out", folder / "bifurcation.svg"),
         ("sweep", folder / f"{name}.sweep.toml", "--out", folder / "sweep"),
         ("optimize", folder / f"{name}.optimize.toml", "--out", folder / "optimize"),
         ("import", dump, "--case", box, "--timestep", "1 us", "--out", contacts),
-        ("audit", box, contacts, "--json", folder / "contacts.json", "--junit", folder / "contacts.xml"),
-        ("compare", contacts, contacts, "--json", folder / "both.json", "--junit", folder / "both.xml"),
-        ("limit", contacts, longer, "--json", folder / "limit.json", "--draw", folder / "limit.svg"),
+        ("audit", box, contacts, "--json", folder / "contacts.json", "--junit",
+         folder / "contacts.xml"),
+        ("compare", contacts, contacts, "--json", folder / "both.json", "--junit",
+         folder / "both.xml"),
+        ("limit", contacts, longer, "--json", folder / "limit.json", "--draw",
+         folder / "limit.svg"),
     ]
     if text != "plain":  # they see no name of the case
         commands = [command for command in commands if not {contacts, dump, box} & set(command)]
     for command in commands:
         if command[0] == "audit" and log in command:  # a log of another code
-            log.write_bytes((run / "collisions.csv").read_bytes().replace(b"index,time", b"index,when", 1))
+            log.write_bytes(
+                (run / "collisions.csv").read_bytes().replace(b"index,time", b"index,when", 1))
         done = edmill(*command, *(["--quiet"] if command[0] != "check" else []), text=False)
-        allowed = {"compare": (0, 6, 7), "audit": (0, 6, 7), "limit": (0, 6, 7), "sweep": (5,)}.get(command[0], (0,))
+        allowed = {"compare": (0, 6, 7), "audit": (0, 6, 7), "limit": (0, 6, 7),
+                   "sweep": (5,)}.get(command[0], (0,))
         t.checks += 1
         if done.returncode not in allowed:
             PROBLEMS.append(f"{text!r} in {path!r}: {command[0]}: {done.returncode} {done.stderr}")
     found = {}
-    for file in sorted(p for p in folder.rglob("*") if p.is_file() and not p.name.endswith(".toml")):
+    for file in sorted(
+            p for p in folder.rglob("*") if p.is_file() and not p.name.endswith(".toml")):
         try:
             found[str(file.relative_to(folder)).replace(name, "NAME")] = read(file)
         except (ValueError, AssertionError, xml.etree.ElementTree.ParseError, csv.Error) as problem:  # ValueError: of pandas and json, too
-            PROBLEMS.append(f"{text!r} in {path!r}: {file.relative_to(folder)}: {type(problem).__name__} {problem}")
+            PROBLEMS.append(
+                f"{text!r} in {path!r}: {file.relative_to(folder)}: {type(problem).__name__} {problem}"
+            )
     return found
 
 
@@ -186,18 +210,28 @@ def clean(text):
     return "".join(3 * "\ufffd" if c in "\ufffe\uffff" else c for c in text)
 
 
-OF_BOX = {"bifurcation.svg", "bifurcation.csv", "NAME.contacts.csv", "contacts.json", "contacts.xml", "both.json", "both.xml", "limit.json", "limit.svg"}
-MORE = {"collisions": "", "spectra": "", "vessel_load": "", "paraview": 'interval = "50 ms"', "snapshot": "start_collision = 10\ncollisions = 2",
-        "animation": 'end_time = "20 ms"', "milling_dose": "", "bodies": "", "events": ""}
+OF_BOX = {
+    "bifurcation.svg", "bifurcation.csv", "NAME.contacts.csv", "contacts.json", "contacts.xml",
+    "both.json", "both.xml", "limit.json", "limit.svg"
+}
+MORE = {
+    "collisions": "", "spectra": "", "vessel_load": "", "paraview": 'interval = "50 ms"',
+    "snapshot": "start_collision = 10\ncollisions = 2", "animation": 'end_time = "20 ms"',
+    "milling_dose": "", "bodies": "", "events": ""
+}
 PROBLEMS = []
 SMALL_DEM = os.path.realpath(sys.argv[2])
 BOX = (EXAMPLES / "vibrated_box.toml").read_bytes()
-FRAMES = {us: subprocess.run([SMALL_DEM, str(us), "2", "100", str(us)], stdout=subprocess.PIPE, check=True).stdout for us in (50, 100)}
+FRAMES = {
+    us: subprocess.run([SMALL_DEM, str(us), "2", "100", str(us)], stdout=subprocess.PIPE,
+                       check=True).stdout for us in (50, 100)
+}
 
 with Trials() as t:
     pathlib.Path("box.toml").write_bytes(BOX)
     pathlib.Path("longer.dump").write_bytes(FRAMES[100])
-    edmill(*"import longer.dump --case box.toml --timestep 2us --out longer.csv --quiet".split(), code=0)
+    edmill(*"import longer.dump --case box.toml --timestep 2us --out longer.csv --quiet".split(),
+           code=0)
     kinds = {}
     expected = make(t, "plain", b"same")
     for kind in {pathlib.Path(name).suffix for name in expected}:
@@ -207,14 +241,23 @@ with Trials() as t:
         pathlib.Path("refused.toml").write_text(case_of(text))
         pathlib.Path("refused.sweep.toml").write_text(STUDY.format(text=in_toml(text)))
         for command in ("run", "sweep"):
-            done = edmill(command, "refused.toml" if command == "run" else "refused.sweep.toml", "--quiet", "--out", "refused")
-            t.check(done.returncode == 2 and "found a text with control characters, expected a text in one line" in done.stderr, f"{command} {text!r}: {done.stderr}")
-    for k, (text, path) in enumerate([(text, b"plain") for text in TEXTS[1:]] + [("plain", path) for path in PATHS]):
+            done = edmill(command, "refused.toml" if command == "run" else "refused.sweep.toml",
+                          "--quiet", "--out", "refused")
+            t.check(
+                done.returncode == 2 and
+                "found a text with control characters, expected a text in one line" in done.stderr,
+                f"{command} {text!r}: {done.stderr}")
+    for k, (text, path) in enumerate([(text, b"plain") for text in TEXTS[1:]] +
+                                     [("plain", path) for path in PATHS]):
         found = make(t, text, path + str(k).encode())
-        t.check(set(found) == {place for place in expected if text == "plain" or place not in OF_BOX} or PROBLEMS, f"{text!r}, {path}: other files: {set(found) ^ set(expected)}")
+        t.check(
+            set(found) == {place for place in expected if text == "plain" or place not in OF_BOX} or
+            PROBLEMS, f"{text!r}, {path}: other files: {set(found) ^ set(expected)}")
         for name in found.keys() & expected.keys():
             if name.endswith(".html") and found[name] != expected[name]:
-                PROBLEMS.append(f"{text!r} in {path!r}: {name}: {len(found[name])} elements, expected {len(expected[name])}")
+                PROBLEMS.append(
+                    f"{text!r} in {path!r}: {name}: {len(found[name])} elements, expected {len(expected[name])}"
+                )
         for file, row in (("sweep/sweep.csv", 1), ("NAME.run/trends.csv", 0)):
             if found.get(file) and not any(clean(text) in cell for cell in found[file][row]):
                 PROBLEMS.append(f"{text!r}: not in {file}: {found[file][row]}")

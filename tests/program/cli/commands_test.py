@@ -18,8 +18,9 @@ SMALL_DEM = os.path.realpath(sys.argv[2])
 BOX, TABLE = EXAMPLES / "vibrated_box.toml", EXAMPLES / "oscillating_table.toml"
 STATES = ("--set", 'output=[{type="collisions", states=true}]')
 SWEEP = '[sweep]\ncase = "case.toml"\n[sweep.grid]\n"contact.restitution" = [0.5, 0.6]\n'
-OPTIMIZE = ('[optimize]\ncase = "case.toml"\nobjective = "milling_dose_rate"\nruns_max = 4\nreplicas_first = 2\nreplicas_max = 2\npoints = 2\n'
-            'refinements = 0\n[[optimize.variable]]\nkey = "contact.restitution"\nlow = 0.4\nhigh = 0.6\n')
+OPTIMIZE = (
+    '[optimize]\ncase = "case.toml"\nobjective = "milling_dose_rate"\nruns_max = 4\nreplicas_first = 2\nreplicas_max = 2\npoints = 2\n'
+    'refinements = 0\n[[optimize.variable]]\nkey = "contact.restitution"\nlow = 0.4\nhigh = 0.6\n')
 
 
 def usage(t):
@@ -27,9 +28,12 @@ def usage(t):
     page = (EXAMPLES.parent / "usage.md").read_text(encoding="utf-8")
     entries = re.split(r"\n(?=edmill )", re.search(r"```text\n(.*?)```", page, re.S)[1])
     for command in re.findall(r"(?m)^  ([a-z]+) {2,}", said("--help").split("Subcommands:")[1]):
-        there = " ".join(entry for entry in entries if command in re.match(r"edmill ([\w| ]*)", entry)[1].split()[::2])
-        options = set(re.findall(r"(?m)^  (?:-\w,)?(--[\w-]+)", said(command, "--help"))) - {"--help"}
-        t.check(there and options == set(re.findall(r"--[\w-]+", there)), f"the synopsis of {command}")
+        there = " ".join(entry for entry in entries
+                         if command in re.match(r"edmill ([\w| ]*)", entry)[1].split()[::2])
+        options = set(re.findall(r"(?m)^  (?:-\w,)?(--[\w-]+)", said(command,
+                                                                     "--help"))) - {"--help"}
+        t.check(there and options == set(re.findall(r"--[\w-]+", there)),
+                f"the synopsis of {command}")
 
 
 def new(t):
@@ -46,30 +50,37 @@ def machines(t):
 def check(t):
     t.check("is a valid case" in said("check", "case.toml", "--draw", "mill.svg"), "a case")
     t.check("<svg" in pathlib.Path("mill.svg").read_text(), "a drawing")
-    t.refused(edmill("check", "case.toml", "--set", "contact.restitution=2"), "a wrong number", "contact.restitution")
+    t.refused(edmill("check", "case.toml", "--set", "contact.restitution=2"), "a wrong number",
+              "contact.restitution")
 
 
 def run(t):
     for name, setting in (("run", "run.seed=5"), ("other", "run.seed=6")):
         said("run", "case.toml", "--quiet", "--out", name, "--set", setting, *STATES)
         found = summary(name)
-        t.check(len(rows(f"{name}/collisions.csv")) == found["impacts_since_start"] > 100, "a line for each impact")
+        t.check(
+            len(rows(f"{name}/collisions.csv")) == found["impacts_since_start"] > 100,
+            "a line for each impact")
         t.check(found["end_reason"] == "end_time" and found["milling_dose"] > 0, "a run that ends")
 
 
 def demo(t):
     said("demo", "--quiet", "--out", "demo")
-    t.check(summary("demo")["end_reason"] == "end_time" and pathlib.Path("demo/report.html").exists(), "the demo and its report")
+    t.check(
+        summary("demo")["end_reason"] == "end_time" and pathlib.Path("demo/report.html").exists(),
+        "the demo and its report")
 
 
 def resume(t):
     """A file size limit ends the run after its first checkpoints."""
     long = ("run", "long.toml", "--quiet")
     said(*long, "--out", "whole")
-    edmill(*long, "--out", "parts", "--checkpoint", "0.1 s simulated", preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (200_000, 200_000)), code=1)
+    edmill(*long, "--out", "parts", "--checkpoint", "0.1 s simulated",
+           preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (200_000, 200_000)), code=1)
     t.check(os.path.exists("parts/checkpoint"), "a checkpoint is left")
     said("resume", "parts", "--quiet")
-    t.check(same(results("parts"), results("whole")) == [], "a resumed run ends like one that was not")
+    t.check(
+        same(results("parts"), results("whole")) == [], "a resumed run ends like one that was not")
 
 
 def report(t):
@@ -82,27 +93,38 @@ def report(t):
 
 def certify(t):
     said("certify", "case.toml", "--collisions", "5", "--out", "certified.csv")
-    pairs = [[sorted((row["ball"], row["partner"])) for row in rows(file)[:5]] for file in ("certified.csv", "run/collisions.csv")]
+    pairs = [[sorted((row["ball"], row["partner"])) for row in rows(file)[:5]]
+             for file in ("certified.csv", "run/collisions.csv")]
     t.check(pairs[0] == pairs[1] and len(pairs[0]) == 5, f"the first impacts of a run: {pairs}")
 
 
 def prove(t):
-    said("prove", "case.toml", "--collisions", "3", "--out", "proven.csv", "--certificate", "certificate")
+    said("prove", "case.toml", "--collisions", "3", "--out", "proven.csv", "--certificate",
+         "certificate")
     for one, other in zip(rows("proven.csv"), rows("certified.csv")):
-        t.check(abs(float(one["time"]) - float(other["time"])) < 1e-15, f"{one['time']} is proven, {other['time']} certified")
+        t.check(
+            abs(float(one["time"]) - float(other["time"])) < 1e-15,
+            f"{one['time']} is proven, {other['time']} certified")
     said("prove", "--check", "certificate", "case.toml")
-    t.check(edmill("prove", "--check", "certificate", "case.toml", "--set", "contact.restitution=0.6").returncode == 6, "of another case")
+    t.check(
+        edmill("prove", "--check", "certificate", "case.toml", "--set",
+               "contact.restitution=0.6").returncode == 6, "of another case")
 
 
 def sensitivity(t):
-    said("sensitivity", "case.toml", "--events", "3", "--by", "contact.restitution", "--by", "initial.0.vy", "--out", "derivatives.csv")
+    said("sensitivity", "case.toml", "--events", "3", "--by", "contact.restitution", "--by",
+         "initial.0.vy", "--out", "derivatives.csv")
     found = rows("derivatives.csv")
-    t.check(len(found) == 3 and float(found[0]["d_time_0"]) == 0, "no restitution before the first impact")
+    t.check(
+        len(found) == 3 and float(found[0]["d_time_0"]) == 0,
+        "no restitution before the first impact")
 
 
 def bifurcation(t):
-    said("bifurcation", TABLE, "--over", "contact.restitution", "--from", "0.4", "--to", "0.6", "--steps", "3", "--skip", "0", "--keep", "1", "--out", "b.svg")
-    t.check([float(row["value"]) for row in rows("b.csv")] == [0.4, 0.5, 0.6] and "<svg" in pathlib.Path("b.svg").read_text(), "three values")
+    said("bifurcation", TABLE, "--over", "contact.restitution", "--from", "0.4", "--to", "0.6",
+         "--steps", "3", "--skip", "0", "--keep", "1", "--out", "b.svg")
+    t.check([float(row["value"]) for row in rows("b.csv")] == [0.4, 0.5, 0.6] and
+            "<svg" in pathlib.Path("b.svg").read_text(), "three values")
 
 
 def sweep(t):
@@ -115,7 +137,9 @@ def sweep(t):
 def optimize(t):
     pathlib.Path("my.optimize.toml").write_text(OPTIMIZE)
     said("optimize", "my.optimize.toml", "--quiet", "--out", "optimum")
-    t.check(len(rows("optimum/runs.csv")) == 4 and "<svg" in pathlib.Path("optimum/optimize.html").read_text(), "two replicas at two points")
+    t.check(
+        len(rows("optimum/runs.csv")) == 4 and
+        "<svg" in pathlib.Path("optimum/optimize.html").read_text(), "two replicas at two points")
 
 
 def compare(t):
@@ -123,7 +147,9 @@ def compare(t):
     agreeing = json.loads(pathlib.Path("same.json").read_text())["event_by_event"]["agreeing"]
     t.check(agreeing == summary("run")["impacts_since_start"], "a run agrees with itself")
     edmill("compare", "run", "other", "--json", "differ.json")
-    t.check(json.loads(pathlib.Path("differ.json").read_text())["event_by_event"]["agreeing"] < agreeing, "and not with another")
+    t.check(
+        json.loads(pathlib.Path("differ.json").read_text())["event_by_event"]["agreeing"] <
+        agreeing, "and not with another")
 
 
 def variables(t):
@@ -132,8 +158,10 @@ def variables(t):
 
 def audit(t):
     said("audit", "case.toml", "run")
-    wrong = edmill("audit", "case.toml", "run", "--identify", "--set", "contact.restitution=0.6", code=6)
-    t.check("looks like   contact.restitution = 0.53" in wrong.stdout, f"another restitution: {wrong.stdout}")
+    wrong = edmill("audit", "case.toml", "run", "--identify", "--set", "contact.restitution=0.6",
+                   code=6)
+    t.check("looks like   contact.restitution = 0.53" in wrong.stdout,
+            f"another restitution: {wrong.stdout}")
 
 
 def export(t):
@@ -145,13 +173,16 @@ def import_(t):
     for us in (50, 100):
         with open(f"{us}.dump", "wb") as dump:
             subprocess.run([SMALL_DEM, str(us), "0.5", "100", str(us)], stdout=dump, check=True)
-        said("import", f"{us}.dump", "--case", BOX, "--timestep", f"{us // 50} us", "--out", f"{us}.csv")
+        said("import", f"{us}.dump", "--case", BOX, "--timestep", f"{us // 50} us", "--out",
+             f"{us}.csv")
         t.check(len(rows(f"{us}.csv")) > 50, "contacts")
 
 
 def limit(t):
     done = edmill("limit", "50.csv", "100.csv", "--json", "limit.json")
-    t.check(done.returncode in (0, 6, 7) and json.loads(pathlib.Path("limit.json").read_text())["limit"] > 0, f"a limit: {done.stderr}")
+    t.check(
+        done.returncode in (0, 6, 7) and
+        json.loads(pathlib.Path("limit.json").read_text())["limit"] > 0, f"a limit: {done.stderr}")
 
 
 def manual(t):
@@ -166,13 +197,16 @@ def reference(t):
     t.check("`restitution`" in said("reference"), "the keys of cases")
 
 
-COMMANDS = (new, machines, check, run, demo, resume, report, certify, prove, sensitivity, bifurcation, sweep, optimize, compare, variables, audit,
-            export, import_, limit, manual, completion, reference)
+COMMANDS = (new, machines, check, run, demo, resume, report, certify, prove, sensitivity,
+            bifurcation, sweep, optimize, compare, variables, audit, export, import_, limit, manual,
+            completion, reference)
 with Trials() as t:
     pathlib.Path("case.toml").write_text(case(end="0.5 s"))
     pathlib.Path("long.toml").write_text(case("collisions", "events", "trends", end="2 s"))
     names = re.findall(r"^ +([a-z]+) ", said("--help").split("Subcommands:")[1], re.M)
-    t.check(sorted(names) == sorted(command.__name__.rstrip("_") for command in COMMANDS), f"commands are {names}")
+    t.check(
+        sorted(names) == sorted(command.__name__.rstrip("_") for command in COMMANDS),
+        f"commands are {names}")
     usage(t)
     for command in COMMANDS:
         command(t)

@@ -19,9 +19,12 @@ LOG = 'output=[{type="collisions"}]'
 THREE = case(end="2 s" if WHOLE else "0.3 s").replace("count = 12", "count = 3")
 DEMO = (EXAMPLES / "demo.toml").read_text()
 PLANETARY = (EXAMPLES / "planetary.toml").read_text()
-CASES = {"three": THREE,
-         "demo": DEMO.replace('start_time = "0.5 s"', "").replace('end_time = "10 s"', f'end_time = "{0.3 if WHOLE else 0.06} s"'),
-         "planetary": PLANETARY.replace('end_time = "2 s"', f'end_time = "{1 if WHOLE else 0.03} s"')}
+CASES = {
+    "three": THREE, "demo": DEMO.replace('start_time = "0.5 s"',
+                                         "").replace('end_time = "10 s"',
+                                                     f'end_time = "{0.3 if WHOLE else 0.06} s"'),
+    "planetary": PLANETARY.replace('end_time = "2 s"', f'end_time = "{1 if WHOLE else 0.03} s"')
+}
 # A ball that falls into a corner of a box along its diagonal, and hits three walls at one time.
 CORNER = """[run]
 end_time = "1 s"
@@ -79,13 +82,16 @@ def test_digits(t, name):
     log, state, said = log_of(t, name, "--digits", str(digits))
     found = re.search(r"mpfr:(\d+) and mpfr:(\d+): all (\d+) events .* agree to (\d+) digits", said)
     t.check(found and int(found[3]) == len(log), f"{name}: {said[:300]!r}")
-    t.check(right_digits("out") == int(found[4]) >= digits, f"{name}: {right_digits('out')} in the summary")
+    t.check(
+        right_digits("out") == int(found[4]) >= digits,
+        f"{name}: {right_digits('out')} in the summary")
     exact, exact_state, _ = log_of(t, name, "--quiet", "--precision", f"mpfr:{2 * int(found[2])}")
     bodies = [[(r["ball"], r["partner_kind"], r["partner"]) for r in rows] for rows in (log, exact)]
     t.check(right_digits("out") is None, f"{name}: right digits of a run in a precision")
     t.check(bodies[0] == bodies[1], f"{name}: the events in order")
     for what, one, other in (("log", log, exact), ("state", state, exact_state)):
-        t.check(agreement(one, other) >= digits, f"{name}: {what} to {agreement(one, other)} digits")
+        t.check(
+            agreement(one, other) >= digits, f"{name}: {what} to {agreement(one, other)} digits")
     longest = max(len(value) for row in log for value in row.values())
     t.check(longest < digits + 12, f"{name}: numbers of {longest} letters")
     print(f"{name}: {len(log)} events, {found[2]} digits")
@@ -99,10 +105,13 @@ def test_any_number(t):
         two, _, _ = log_of(t, "demo", "--quiet", "--precision", f"mpfr:{number}")
         wide, _, _ = log_of(t, "demo", "--quiet", "--precision", f"mpfr:{2 * number}")
         t.check(len(one) == len(two) == len(wide), f"{fixed}: events")
-        t.check(agreement(two, wide) > agreement(one, wide) - 2, f"{fixed}: {agreement(one, wide)}, {agreement(two, wide)} digits")
+        t.check(
+            agreement(two, wide) > agreement(one, wide) - 2,
+            f"{fixed}: {agreement(one, wide)}, {agreement(two, wide)} digits")
     again, _, _ = log_of(t, "demo", "--quiet", "--precision", f"mpfr:{2 * number}")
     t.check(again == wide, "the same bits twice")
-    many, _, _ = log_of(t, "demo", "--quiet", "--precision", "mpfr:1500", "--set", "run.max_collisions=100")
+    many, _, _ = log_of(t, "demo", "--quiet", "--precision", "mpfr:1500", "--set",
+                        "run.max_collisions=100")
     t.check(agreement(wide[:100], many) > 195, f"1500 digits: {agreement(wide[:100], many)}")
 
 
@@ -111,27 +120,31 @@ def test_resume(t):
     longer = ("--quiet", "--precision", "mpfr:500", "--set", 'run.end_time="0.25 s"')
     whole, state, _ = log_of(t, "demo", *longer)
     parts = []
-    done = edmill("run", "demo.toml", "--out", "parts", *longer, "--set", LOG, "--checkpoint", "0.02 s simulated",
-                  preexec_fn=limit_of_cpu)
+    done = edmill("run", "demo.toml", "--out", "parts", *longer, "--set", LOG, "--checkpoint",
+                  "0.02 s simulated", preexec_fn=limit_of_cpu)
     while done.returncode not in (0, 2) and len(parts) < 200:
         parts.append(done.returncode)
         done = edmill("resume", "parts", "--quiet", preexec_fn=limit_of_cpu)
     t.check(done.returncode == 0, f"resumed {len(parts)} times: {done.stderr}")
-    t.check(impacts("parts/collisions.csv") == whole and rows("parts/final_state.csv") == state, "the same log and state")
+    t.check(
+        impacts("parts/collisions.csv") == whole and rows("parts/final_state.csv") == state,
+        "the same log and state")
     t.check(len(parts) > 0, "it was ended in between")
     print("resumed", len(parts), "times")
 
 
 def test_resume_in_right_digits(t):
-    child = start("run", "demo.toml", "--digits", "12", "--set", 'run.end_time="0.3 s"', "--out", "right", "--checkpoint", "0.01 s simulated",
-                  stdout=subprocess.PIPE, text=True)
+    child = start("run", "demo.toml", "--digits", "12", "--set", 'run.end_time="0.3 s"', "--out",
+                  "right", "--checkpoint", "0.01 s simulated", stdout=subprocess.PIPE, text=True)
     while child.poll() is None and not pathlib.Path("right", "checkpoint").exists():
         time.sleep(0.01)
     child.send_signal(signal.SIGINT)
     found = re.search(r"agree to (\d+) digits", child.communicate()[0])
-    t.check(child.returncode in (130, -signal.SIGINT), f"interrupted after it began: {child.returncode}")
+    t.check(child.returncode in (130, -signal.SIGINT),
+            f"interrupted after it began: {child.returncode}")
     done = edmill("resume", "right", "--quiet")
-    t.check(done.returncode == 0 and found and right_digits("right") == int(found[1]), f"{right_digits('right')}: {done.stderr}")
+    t.check(done.returncode == 0 and found and right_digits("right") == int(found[1]),
+            f"{right_digits('right')}: {done.stderr}")
 
 
 def limit_of_cpu():
@@ -140,31 +153,47 @@ def limit_of_cpu():
 
 
 def test_refusals(t):
-    for name in ("mpfr:", "mpfr:10", "mpfr:2000000", "mpfr:3e3", "mpfr:-50", "mpfr: 50", "mpfr:50x", "mpfr"):
+    for name in ("mpfr:", "mpfr:10", "mpfr:2000000", "mpfr:3e3", "mpfr:-50", "mpfr: 50", "mpfr:50x",
+                 "mpfr"):
         t.refused(edmill("run", "demo.toml", "--precision", name), name, "mpfr:DIGITS")
-        t.refused(edmill("run", "demo.toml", "--set", f'run.precision="{name}"'), name, "run.precision", "mpfr:DIGITS")
+        t.refused(edmill("run", "demo.toml", "--set", f'run.precision="{name}"'), name,
+                  "run.precision", "mpfr:DIGITS")
     t.refused(edmill("run", "demo.toml", "--digits", "0"), "no digits", "--digits")
-    t.refused(edmill("run", "demo.toml", "--digits", "12", "--precision", "double"), "both", "--digits")
-    t.refused(edmill("run", "demo.toml", "--set", "run.digits=12", "--set", 'run.precision="mpfr50"'), "both keys", "run.digits")
-    t.refused(edmill("run", "demo.toml", "--digits", "12", "--shadow", "mpfr100"), "a shadow", "--shadow")
+    t.refused(edmill("run", "demo.toml", "--digits", "12", "--precision", "double"), "both",
+              "--digits")
+    t.refused(
+        edmill("run", "demo.toml", "--set", "run.digits=12", "--set", 'run.precision="mpfr50"'),
+        "both keys", "run.digits")
+    t.refused(edmill("run", "demo.toml", "--digits", "12", "--shadow", "mpfr100"), "a shadow",
+              "--shadow")
     pathlib.Path("asking.toml").write_text(CASES["demo"].replace("[run]", "[run]\ndigits = 12"))
-    pathlib.Path("sweep.toml").write_text('[sweep]\ncase = "asking.toml"\nreplicas = 2\n[sweep.grid]\n"contact.friction" = [0.1, 0.2]\n')
-    t.refused(edmill("sweep", "sweep.toml", "--out", "sweep"), "a study of a run in right digits", "run.digits")
+    pathlib.Path("sweep.toml").write_text(
+        '[sweep]\ncase = "asking.toml"\nreplicas = 2\n[sweep.grid]\n"contact.friction" = [0.1, 0.2]\n'
+    )
+    t.refused(edmill("sweep", "sweep.toml", "--out", "sweep"), "a study of a run in right digits",
+              "run.digits")
     pathlib.Path("corner.toml").write_text(CORNER)
-    t.refused(edmill("run", "corner.toml", "--digits", "12", "--out", "corner"), "a corner", "a rule and not the equations", code=4)
+    t.refused(edmill("run", "corner.toml", "--digits", "12", "--out", "corner"), "a corner",
+              "a rule and not the equations", code=4)
     t.check(not pathlib.Path("corner").exists(), "nothing is written")
     estimate = edmill("run", "corner.toml", "--digits", "12", "--estimate")
-    t.check(estimate.returncode == 4 and "a rule and not the equations" in estimate.stdout, f"estimate of a corner: {estimate.stdout}")
-    t.refused(edmill("sensitivity", "corner.toml", "--by", "initial.0.x", "--events", "3"), "a corner", "a rule", code=4)
+    t.check(estimate.returncode == 4 and "a rule and not the equations" in estimate.stdout,
+            f"estimate of a corner: {estimate.stdout}")
+    t.refused(edmill("sensitivity", "corner.toml", "--by", "initial.0.x", "--events", "3"),
+              "a corner", "a rule", code=4)
     for by in ("contact.nothing", "vessel.type", "initial.99.x", "initial.0.q", "initial.x"):
         t.refused(edmill("sensitivity", "demo.toml", "--by", by, "--events", "3"), by, by)
-    t.refused(edmill("bifurcation", "demo.toml", "--over", "contact.restitution", "--from", "0.9", "--to", "0.2"), "backwards", "--to")
+    t.refused(
+        edmill("bifurcation", "demo.toml", "--over", "contact.restitution", "--from", "0.9", "--to",
+               "0.2"), "backwards", "--to")
 
 
 def test_estimate(t):
     done = edmill("run", "demo.toml", "--digits", "12", "--estimate", "--out", "nowhere")
-    t.check(done.returncode == 0 and not pathlib.Path("nowhere").exists(), f"estimate: {done.stderr}")
-    for word in ("events", "digits lost", "precision", "for 12 right digits", "processor time", "memory"):
+    t.check(done.returncode == 0 and not pathlib.Path("nowhere").exists(),
+            f"estimate: {done.stderr}")
+    for word in ("events", "digits lost", "precision", "for 12 right digits", "processor time",
+                 "memory"):
         t.check(word in done.stdout, f"estimate: no {word!r} in {done.stdout!r}")
     done = edmill("run", "demo.toml", "--estimate", "--set", 'run.end_time="5 s"')
     t.check("used up after" in done.stdout, f"estimate of a long run in double: {done.stdout!r}")
@@ -183,12 +212,13 @@ def test_bifurcation(t):
     0.46551 for 1 mm."""
     table = EXAMPLES / "oscillating_table.toml"
     for low, high in (("0.06", "0.9"), ("0.1", "0.7"), ("0.3", "0.8"), ("1e-3", "0.123456789012")):
-        done = edmill("bifurcation", table, "--over", "contact.restitution", "--from", low, "--to", high, "--steps", "3", "--skip", "0", "--keep", "1",
-                      "--out", "ends.svg")
+        done = edmill("bifurcation", table, "--over", "contact.restitution", "--from", low, "--to",
+                      high, "--steps", "3", "--skip", "0", "--keep", "1", "--out", "ends.svg")
         values = [float(row["value"]) for row in rows("ends.csv")]
-        t.check(done.returncode == 0 and (values[0], values[-1]) == (float(low), float(high)), f"from {low} to {high}: {values} {done.stderr}")
-    done = edmill("bifurcation", table, "--over", "contact.restitution", "--from", "0.4", "--to", "0.5", "--steps", "21", "--skip",
-                  "3000", "--keep", "8", "--out", "b.svg")
+        t.check(done.returncode == 0 and (values[0], values[-1]) == (float(low), float(high)),
+                f"from {low} to {high}: {values} {done.stderr}")
+    done = edmill("bifurcation", table, "--over", "contact.restitution", "--from", "0.4", "--to",
+                  "0.5", "--steps", "21", "--skip", "3000", "--keep", "8", "--out", "b.svg")
     t.check(done.returncode == 0, done.stderr)
     phases = {}
     for row in rows("b.csv"):
@@ -205,33 +235,45 @@ def test_other_ends(t):
     """What ends a run ends those that find its digits; a folder that cannot be used is told before
     they begin."""
     long = re.sub(r"end_time.*", 'end_time = "1000 s"', CASES["demo"], count=1)
-    for name, rule, events in (("collisions", "max_collisions = 300", 300), ("dose", 'max_milling_dose = "20 mJ"', None)):
+    for name, rule, events in (("collisions", "max_collisions = 300", 300),
+                               ("dose", 'max_milling_dose = "20 mJ"', None)):
         for end in (long, long.replace('end_time = "1000 s"', "")):
             pathlib.Path("other.toml").write_text(end.replace("[run]", f"[run]\n{rule}"))
             log, _, said = log_of(t, "other", "--digits", "12")
             found = re.search(r"all (\d+) events", said)
-            t.check(found and int(found[1]) == len(log) and events in (None, len(log)), f"{name}: {len(log)} events, {said[:200]!r}")
+            t.check(found and int(found[1]) == len(log) and events in (None, len(log)),
+                    f"{name}: {len(log)} events, {said[:200]!r}")
             estimate = edmill("run", "other.toml", "--digits", "12", "--estimate").stdout
-            t.check(re.search(r"events +about (\d+)", estimate)[1] == str(len(log)), f"{name}: {estimate}")
+            t.check(
+                re.search(r"events +about (\d+)", estimate)[1] == str(len(log)),
+                f"{name}: {estimate}")
     pathlib.Path("a_file").write_text("mine")
-    t.refused(edmill("run", "demo.toml", "--digits", "12", "--set", 'run.end_time="9 s"', "--out", "a_file", timeout=20), "a file as folder", "a_file")
-    child = start("run", "demo.toml", "--digits", "12", "--set", 'run.end_time="9 s"', "--out", "interrupted", stdout=subprocess.PIPE,
-                  stderr=subprocess.PIPE, text=True)
+    t.refused(
+        edmill("run", "demo.toml", "--digits", "12", "--set", 'run.end_time="9 s"', "--out",
+               "a_file", timeout=20), "a file as folder", "a_file")
+    child = start("run", "demo.toml", "--digits", "12", "--set", 'run.end_time="9 s"', "--out",
+                  "interrupted", stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     time.sleep(1.5)
     child.send_signal(signal.SIGINT)
     out, err = child.communicate(timeout=20)
-    t.check(child.returncode in (130, -signal.SIGINT) and "interrupted before the digits were found" in err, f"{child.returncode}: {err!r}")
+    t.check(
+        child.returncode in (130, -signal.SIGINT) and
+        "interrupted before the digits were found" in err, f"{child.returncode}: {err!r}")
     t.check(not pathlib.Path("interrupted").exists(), "no folder of an interrupted search")
 
 
 def test_many_digits(t):
     """No more digits are taken than an estimate says, whatever is asked for."""
     for digits in (60, 150, 400):
-        done = edmill("run", "demo.toml", "--digits", digits, "--set", 'run.end_time="0.01 s"', "--report", "--out", "many")
+        done = edmill("run", "demo.toml", "--digits", digits, "--set", 'run.end_time="0.01 s"',
+                      "--report", "--out", "many")
         found = re.search(r"mpfr:(\d+) and .* agree to (\d+) digits", done.stdout)
-        t.check(found and int(found[1]) <= digits + 30 and int(found[2]) >= digits, f"{digits} digits: {done.stdout[:200]!r}")
+        t.check(found and int(found[1]) <= digits + 30 and int(found[2]) >= digits,
+                f"{digits} digits: {done.stdout[:200]!r}")
         page = pathlib.Path("many", "report.html").read_text()
-        t.check(f"right digits</th><td>{found[2]}," in page and right_digits("many") == int(found[2]), f"{digits} digits: the report")
+        t.check(
+            f"right digits</th><td>{found[2]}," in page and right_digits("many") == int(found[2]),
+            f"{digits} digits: the report")
 
 
 with Trials() as t:

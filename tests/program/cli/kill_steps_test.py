@@ -22,7 +22,8 @@ RUN = ["run", "case.toml", "--quiet", "--report", "--checkpoint", "0.03 s simula
 def killed(step, *arguments):
     """Whether the program was killed before this step; without a kill it must succeed."""
     done = edmill(*arguments, env=dict(os.environ, LD_PRELOAD=DIES_AT, DIES_AT=str(step)))
-    t.check(done.returncode in (0, -signal.SIGKILL), f"step {step}, seed {seed}: {arguments}: {done.returncode}, {done.stderr}")
+    t.check(done.returncode in (0, -signal.SIGKILL),
+            f"step {step}, seed {seed}: {arguments}: {done.returncode}, {done.stderr}")
     return done.returncode != 0
 
 
@@ -51,7 +52,9 @@ with Trials() as t:
     while killed(step, *RUN, "--out", folder("once")):
         while (command := go_on("once")) and killed(rng.randint(1, 150), *command):
             pass
-        t.check(same(results("once"), expected) == [], f"step {step}, seed {seed}: {same(results('once'), expected)}")
+        t.check(
+            same(results("once"), expected) == [],
+            f"step {step}, seed {seed}: {same(results('once'), expected)}")
         t.no_partials(f"step {step}, seed {seed}", "once")
         step += 1
     # A run of this case changes 37 names; files that were moved into place are not removed once

@@ -139,7 +139,8 @@ def folder(name):
 def check_same(place, what, interrupted=False):
     found = results(place, without=())
     # An interrupt while a run at its end seeks what decides the dose rate leaves that out.
-    left_out = (".edmill-files", "check.txt", "report.html") if interrupted and not is_there(place, "check.txt") else ()
+    left_out = (".edmill-files", "check.txt",
+                "report.html") if interrupted and not is_there(place, "check.txt") else ()
     differences = [name for name in same(found, expected) if name not in left_out]
     t.check(differences == [], f"{what}: {differences}")
 
@@ -159,8 +160,10 @@ def stopped_after(arguments, seconds, number):
         process.send_signal(number)
     error = process.communicate()[1]
     # Killed by the signal itself: it came while the initial state was being made.
-    t.check(process.returncode in ((0, -number) if number == signal.SIGKILL else (0, -number, 128 + number)),
-            f"exit code {process.returncode}: {error}")
+    t.check(
+        process.returncode in ((0, -number) if number == signal.SIGKILL else
+                               (0, -number, 128 + number)),
+        f"exit code {process.returncode}: {error}")
     return running, process.returncode
 
 
@@ -188,7 +191,8 @@ def kills_of_runs():
         check_same(place, f"killed run {ends}")
         shutil.rmtree(place)
         ends += 1
-    t.check(resumed_kills > kills_wanted // 4, f"only {resumed_kills} of {kills} kills hit a resumed run")
+    t.check(resumed_kills > kills_wanted // 4,
+            f"only {resumed_kills} of {kills} kills hit a resumed run")
     print(f"{kills} kills in {ends} runs, {resumed_kills} of them during a resume: all ended alike")
 
 
@@ -209,9 +213,14 @@ def interrupts_of_runs():
                 # Whole lines of the undisturbed run, up to the interrupt; nothing yet after another
                 # run's rows.
                 log = found["collisions.csv"]
-                t.check(len(log) > 0 and expected["collisions.csv"].startswith(log) and log.endswith(b"\n"), "collisions.csv of an interrupted run")
-                t.check(log.count(b"\n") == said["impacts_since_start"] + 1, "rows of an interrupted run")
-                t.check(found["all_runs.csv"] == b"rows of another run\n", "rows of an interrupted run after those of another")
+                t.check(
+                    len(log) > 0 and expected["collisions.csv"].startswith(log) and
+                    log.endswith(b"\n"), "collisions.csv of an interrupted run")
+                t.check(
+                    log.count(b"\n") == said["impacts_since_start"] + 1,
+                    "rows of an interrupted run")
+                t.check(found["all_runs.csv"] == b"rows of another run\n",
+                        "rows of an interrupted run after those of another")
                 later = "snapshot", "paraview/", "check.txt"  # what decides the dose rate is for runs that reach their end
                 t.check({name for name in expected if not name.startswith(later)} <= set(found),
                         f"missing after an interrupt: {set(expected) - set(found)}")
@@ -236,7 +245,10 @@ replicas = 2
         return ["sweep", "study.sweep.toml", "--quiet", "--jobs", "2", "--out", place]
 
     def tables(place):
-        return {name: pathlib.Path(place, name).read_bytes() for name in ("sweep.csv", "runs.csv", "sweep.h5")}
+        return {
+            name: pathlib.Path(place, name).read_bytes()
+            for name in ("sweep.csv", "runs.csv", "sweep.h5")
+        }
 
     begun = time.monotonic()
     edmill(*study("whole"), code=0)
@@ -247,7 +259,8 @@ replicas = 2
         place = f"study-{studies}"
         running = True
         while running:
-            running, code = stopped_after(study(place), seconds * rng.uniform(0.05, 1.1), signal.SIGKILL)
+            running, code = stopped_after(study(place), seconds * rng.uniform(0.05, 1.1),
+                                          signal.SIGKILL)
             kills += running and code == -signal.SIGKILL
         t.check(tables(place) == expected_tables, f"the tables of killed study {studies}")
         shutil.rmtree(place)
@@ -261,7 +274,8 @@ def kills_of_reports():
     before = page.read_bytes()
     kills = 0
     while kills < kills_wanted // 3:
-        running, code = stopped_after(["report", "reference", "--quiet"], rng.uniform(0.0, 0.15), signal.SIGKILL)
+        running, code = stopped_after(["report", "reference", "--quiet"], rng.uniform(0.0, 0.15),
+                                      signal.SIGKILL)
         kills += running and code == -signal.SIGKILL
         t.check(page.read_bytes() == before, "the page after a kill")
     edmill("report", "reference", "--quiet", code=0)
@@ -275,7 +289,9 @@ with Trials() as t:
     edmill("run", "case.toml", "--quiet", "--report", "--out", folder("reference"), code=0)
     whole = time.monotonic() - begun
     expected = results("reference", without=())
-    t.check(len(expected) > 30 and expected["all_runs.csv"].startswith(b"rows of another run\n"), "the reference run")
+    t.check(
+        len(expected) > 30 and expected["all_runs.csv"].startswith(b"rows of another run\n"),
+        "the reference run")
     # Checkpoints do not change the results.
     edmill(*begin(folder("undisturbed"), "0.05 s simulated"), code=0)
     check_same("undisturbed", "a run with checkpoints")

@@ -19,7 +19,10 @@ trials = int(sys.argv[2]) if len(sys.argv) > 2 else 12
 seed = 20110101
 rng = random.Random(seed)
 RECORD = ".edmill-files"
-USERS = {"notes.txt": b"mine", "report/mine.csv": b"1,2", "paraview/view.pvsm": b"<x/>", "tables/own/a.csv": b"3", "sweep.csv": b"x"}
+USERS = {
+    "notes.txt": b"mine", "report/mine.csv": b"1,2", "paraview/view.pvsm": b"<x/>",
+    "tables/own/a.csv": b"3", "sweep.csv": b"x"
+}
 
 
 def draw():
@@ -50,11 +53,13 @@ def one_after_the_other(t, trial):
     run("both", *second)
     run("alone", *second)
     expected, found = results("alone"), results("both")
-    t.check(all(found.get(name) == content for name, content in USERS.items()), f"{what}: files of the user")
+    t.check(all(found.get(name) == content for name, content in USERS.items()),
+            f"{what}: files of the user")
     found = {name: content for name, content in found.items() if name not in USERS}
     t.check(same(found, expected) == [], f"{what}: {same(found, expected)}")
     recorded = set(expected[RECORD].decode().splitlines()[1:])
-    t.check(recorded == expected.keys() - {RECORD}, f"{what}: the record: {recorded ^ expected.keys()}")
+    t.check(recorded == expected.keys() - {RECORD},
+            f"{what}: the record: {recorded ^ expected.keys()}")
     for place in ("both", "alone"):
         shutil.rmtree(place)
 
@@ -75,9 +80,11 @@ def failures(t):
         t.check(same(results("old"), before) == [], f"{what}: {same(results('old'), before)}")
 
     out = ["--quiet", "--out", "old"]
-    t.check(edmill("run", "case.toml", *out, "--set", "balls.0.count=0").returncode == 2, "a bad case")
+    t.check(
+        edmill("run", "case.toml", *out, "--set", "balls.0.count=0").returncode == 2, "a bad case")
     as_before("a bad case")
-    t.check(edmill("run", "case.toml", *out, "--set", "balls.0.count=4000").returncode == 2, "no room")
+    t.check(
+        edmill("run", "case.toml", *out, "--set", "balls.0.count=4000").returncode == 2, "no room")
     as_before("no room for the balls")
     for size in (1, 100, 1500, 5000, 20000, 100000):
         done = edmill("run", "case.toml", *out, preexec_fn=lambda: small_files(size))
@@ -85,12 +92,15 @@ def failures(t):
         as_before(f"files of {size} bytes")
     # Room for some of its files, not for all: the last ones are the tables that are written at the
     # end.
-    fresh = [f'output=[{{type="spectra"}},{{type="trends",interval="1 ms",columns=[{{variable="milling_dose",statistics=["sum"]}}]}}]']
+    fresh = [
+        f'output=[{{type="spectra"}},{{type="trends",interval="1 ms",columns=[{{variable="milling_dose",statistics=["sum"]}}]}}]'
+    ]
     done = edmill("run", "case.toml", *out, "--set", *fresh, preexec_fn=lambda: small_files(30000))
     t.refused(done, "the second output does not fit", "file size limit", code=1)
     as_before("the second output does not fit")
     for kill in (signal.SIGKILL, signal.SIGTERM):
-        pathlib.Path("case.toml").write_text(text.replace('end_time = "2 s"', 'end_time = "1000 s"', 1))
+        pathlib.Path("case.toml").write_text(
+            text.replace('end_time = "2 s"', 'end_time = "1000 s"', 1))
         earlier = set(pathlib.Path("old").glob("*.partial-*"))
         process = start("run", "case.toml", *out)
         while not set(pathlib.Path("old").glob("*.partial-*")) - earlier:
@@ -98,16 +108,21 @@ def failures(t):
         if kill == signal.SIGKILL:
             process.send_signal(kill)
             process.wait()
-            found = {name: content for name, content in results("old").items() if ".partial-" not in name}
+            found = {
+                name: content for name, content in results("old").items() if ".partial-" not in name
+            }
             t.check(same(found, before) == [], f"killed: {same(found, before)}")
             pathlib.Path("case.toml").write_text(text)
-            t.check(edmill("run", "case.toml", *out, "--set", "balls.0.count=4000").returncode == 2, "no room")
+            t.check(
+                edmill("run", "case.toml", *out, "--set", "balls.0.count=4000").returncode == 2,
+                "no room")
         else:  # it has results, which are put in place
             time.sleep(0.3)
             process.send_signal(kill)
             t.check(process.wait() == 128 + kill, "exit code after SIGTERM")
             t.no_partials("interrupted")
-            t.check("report.html" not in results("old") and "events.h5" not in results("old"), "files of the older run")
+            t.check("report.html" not in results("old") and "events.h5" not in results("old"),
+                    "files of the older run")
 
 
 def foreign(t):
@@ -118,24 +133,32 @@ def foreign(t):
     pathlib.Path("my.sweep.toml").write_text(sweep)
     commands = {("run", "case.toml"): ("case.toml", "summary.json", "final_state.csv"),
                 ("run", "case.toml", "--seeds", "2"): ("seeds.csv", "runs.csv", "seeds.html"),
-                ("sweep", "my.sweep.toml"): ("sweep.csv", "runs.csv", "sweep.h5", "sweep_log.csv", "sweep.html")}
+                ("sweep", "my.sweep.toml"):
+                    ("sweep.csv", "runs.csv", "sweep.h5", "sweep_log.csv", "sweep.html")}
     for command, names in commands.items():
         for name in names:
             place = pathlib.Path("foreign")
             place.mkdir()
             (place / name).write_text("mine")
-            t.refused(edmill(*command, "--quiet", "--out", place), f"{command} over {name}", place / name, "has not written")
-            t.check({p.name: p.read_text() for p in place.iterdir()} == {name: "mine"}, f"{command}: {name} is as it was")
+            t.refused(edmill(*command, "--quiet", "--out", place), f"{command} over {name}",
+                      place / name, "has not written")
+            t.check({p.name: p.read_text() for p in place.iterdir()} == {name: "mine"},
+                    f"{command}: {name} is as it was")
             shutil.rmtree(place)
     done = edmill("sweep", "my.sweep.toml", "--out", "foreign")
-    t.check(done.returncode == 5 and '1 run failed: --set contact.restitution=2: key \'contact.restitution\': found "2"' in done.stdout,
-            f"why a run failed: {done.stdout} {done.stderr}")
+    t.check(
+        done.returncode == 5 and
+        '1 run failed: --set contact.restitution=2: key \'contact.restitution\': found "2"'
+        in done.stdout, f"why a run failed: {done.stdout} {done.stderr}")
     before = results("foreign")
-    t.refused(edmill("run", "case.toml", "--quiet", "--out", "foreign"), "a run over a sweep", "foreign", "sweep")
+    t.refused(edmill("run", "case.toml", "--quiet", "--out", "foreign"), "a run over a sweep",
+              "foreign", "sweep")
     t.check(same(results("foreign"), before) == [], "the sweep is as it was")
     t.refused(edmill("report", "foreign"), "the page of a sweep", "foreign/sweep.html")
     t.refused(edmill("sweep", "case.toml"), "a sweep of a case", "found a case file", "edmill run")
-    t.check(edmill("run", "case.toml", "--quiet", "--out", ".", "--set", "run.seed = 2").returncode == 2, "over the case itself")
+    t.check(
+        edmill("run", "case.toml", "--quiet", "--out", ".", "--set",
+               "run.seed = 2").returncode == 2, "over the case itself")
 
 
 with Trials() as t:
@@ -143,4 +166,6 @@ with Trials() as t:
     for trial in range(trials):
         one_after_the_other(t, trial)
     failures(t)
-print(f"{trials} pairs of runs, seed {seed}, {t.checks} checks: nothing of an earlier run stays beside a later one")
+print(
+    f"{trials} pairs of runs, seed {seed}, {t.checks} checks: nothing of an earlier run stays beside a later one"
+)

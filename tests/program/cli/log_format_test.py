@@ -28,8 +28,12 @@ def described(t, log):
 
 def rows(rng, count=30):
     times = sorted(rng.uniform(0, 1) for _ in range(count))
-    return [[f"{time:.17g}", str(rng.randrange(5)), *rng.choice([("wall", str(rng.randrange(3))), ("ball", str(5 + rng.randrange(5)))]),
-             f"{rng.uniform(0, 3):.17g}", *(f"{rng.gauss(0, 1):.17g}" for _ in range(3))] for time in times]
+    return [[
+        f"{time:.17g}",
+        str(rng.randrange(5)), *rng.choice([("wall", str(rng.randrange(3))),
+                                            ("ball", str(5 + rng.randrange(5)))]),
+        f"{rng.uniform(0, 3):.17g}", *(f"{rng.gauss(0, 1):.17g}" for _ in range(3))
+    ] for time in times]
 
 
 def text_of(table, header=HEADER):
@@ -62,18 +66,21 @@ def check_faults(t, rng):
         spoil(table, k)
         open("bad.csv", "w").write(text_of(table))
         done = edmill("check", "bad.csv")
-        t.check(done.returncode == 2 and f"bad.csv:{k + 2}" in done.stderr and words in done.stderr, f"{name}, line {k + 2}: {done.stderr}")
+        t.check(done.returncode == 2 and f"bad.csv:{k + 2}" in done.stderr and words in done.stderr,
+                f"{name}, line {k + 2}: {done.stderr}")
     # Two faults at once are both named.
     table = rows(rng)
     FAULTS["a word as time"][0](table, 4)
     FAULTS["an earlier time"][0](table, 9)
     open("bad.csv", "w").write(text_of(table))
     done = edmill("check", "bad.csv")
-    t.check("bad.csv:6" in done.stderr and "bad.csv:11" in done.stderr, f"two faults: {done.stderr}")
+    t.check("bad.csv:6" in done.stderr and "bad.csv:11" in done.stderr,
+            f"two faults: {done.stderr}")
     for missing in ("time", "ball", "partner"):
         open("bad.csv", "w").write(text_of(rows(rng), HEADER.replace(missing + ",", "other,", 1)))
         done = edmill("check", "bad.csv")
-        t.check(done.returncode == 2 and f"'{missing}'" in done.stderr, f"no column {missing}: {done.stderr}")
+        t.check(done.returncode == 2 and f"'{missing}'" in done.stderr,
+                f"no column {missing}: {done.stderr}")
     open("bad.csv", "w").write("# collision log 2\n" + text_of(rows(rng)))
     t.check("version 2" in edmill("check", "bad.csv").stderr, "another version")
 
@@ -84,12 +91,19 @@ def check_recognition(t, rng):
     for separator in ",;\t":
         open("log", "w").write(text_of(table).replace(",", separator))
         found = described(t, "log")
-        t.check(found["rows"] == len(table) and found["skipped"] == [] and len(found["columns"]) == 8, f"separator {separator!r}: {found}")
-    open("log", "w").write(text_of([row + ["7"] for row in table], HEADER + ',"impulse [N s], total"'))
-    t.check(described(t, "log")["skipped"] == ["impulse [N s], total"], "a quoted name of a further column")
-    for first in ("[run] # a case, and not a log; really", "# a, comment\n\n[run]", "run.seed = 1 # one, two", "run = { seed = 1, end_time = \"1 s\" }"):
+        t.check(
+            found["rows"] == len(table) and found["skipped"] == [] and len(found["columns"]) == 8,
+            f"separator {separator!r}: {found}")
+    open("log",
+         "w").write(text_of([row + ["7"] for row in table], HEADER + ',"impulse [N s], total"'))
+    t.check(
+        described(t, "log")["skipped"] == ["impulse [N s], total"],
+        "a quoted name of a further column")
+    for first in ("[run] # a case, and not a log; really", "# a, comment\n\n[run]",
+                  "run.seed = 1 # one, two", "run = { seed = 1, end_time = \"1 s\" }"):
         open("case", "w").write(first + "\n")
-        t.check("column" not in edmill("check", "case").stderr, f"a case that begins with {first!r}")
+        t.check("column" not in edmill("check", "case").stderr,
+                f"a case that begins with {first!r}")
 
 
 def check_crate(t):
@@ -102,13 +116,21 @@ def check_crate(t):
     entities = {entity["@id"]: entity for entity in json.loads(text)["@graph"]}
     t.check(entities["./"]["datePublished"] == "2011-03-13", "the date")
     listed = {part["@id"] for part in entities["./"]["hasPart"]}
-    there = {str(os.path.relpath(os.path.join(folder, name), "one")) for folder, _, names in os.walk("one") for name in names}
-    t.check(listed == there - {".edmill-files", "ro-crate-metadata.json"}, f"files that are listed or there alone: {listed ^ there}")
-    t.check(all(entities[name]["@type"] == "File" and "encodingFormat" in entities[name] for name in listed), "each has its kind")
+    there = {
+        str(os.path.relpath(os.path.join(folder, name), "one"))
+        for folder, _, names in os.walk("one") for name in names
+    }
+    t.check(listed == there - {".edmill-files", "ro-crate-metadata.json"},
+            f"files that are listed or there alone: {listed ^ there}")
+    t.check(
+        all(entities[name]["@type"] == "File" and "encodingFormat" in entities[name]
+            for name in listed), "each has its kind")
     for entity in entities.values():  # no reference without its entity
         for value in entity.values():
             for one in value if isinstance(value, list) else [value]:
-                t.check(not isinstance(one, dict) or one["@id"] in entities or one["@id"].startswith("https:"), f"no entity {one}")
+                t.check(
+                    not isinstance(one, dict) or one["@id"] in entities or
+                    one["@id"].startswith("https:"), f"no entity {one}")
 
 
 def main():
@@ -123,14 +145,23 @@ def main():
         check_crate(t)
         own = described(t, "one/collisions.csv")
         columns = [column["name"] for column in own["columns"]]
-        t.check(own["balls"] == 12 and own["walls"] == 3 and own["skipped"] == [], f"edmill's own log: {own}")
+        t.check(own["balls"] == 12 and own["walls"] == 3 and own["skipped"] == [],
+                f"edmill's own log: {own}")
         page = (DOCS / "log-format.md").read_text()
-        named = [name for row in re.findall(r"^\| (`.*?) \|", page, re.M) for name in re.findall(r"`(\w+)`", row)]
-        without = {name for name in columns if not name.endswith("_after") and not re.match("partner_[vwxyz]", name)} - set(named)
+        named = [
+            name for row in re.findall(r"^\| (`.*?) \|", page, re.M)
+            for name in re.findall(r"`(\w+)`", row)
+        ]
+        without = {
+            name for name in columns
+            if not name.endswith("_after") and not re.match("partner_[vwxyz]", name)
+        } - set(named)
         t.check(not without, f"columns that the page lacks: {without}")
         done = edmill("check", "one/final_state.csv")
-        t.check(done.returncode == 2 and "no column 'partner'" in done.stderr, "a table that is no log")
-        t.check(edmill("check", "case.toml").stdout.startswith("case.toml is a valid case"), "a case")
+        t.check(done.returncode == 2 and "no column 'partner'" in done.stderr,
+                "a table that is no log")
+        t.check(
+            edmill("check", "case.toml").stdout.startswith("case.toml is a valid case"), "a case")
         check_faults(t, rng)
         check_recognition(t, rng)
         print(t.checks, "checks")

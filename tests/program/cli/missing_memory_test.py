@@ -17,13 +17,15 @@ NEEDED = 40_000_000  # [bytes] more than any of the commands can do without, bes
 
 COMMANDS = ("run case.toml --out out --quiet", "check case.toml",
             "certify case.toml --collisions 3 --out events.csv",
-            "prove case.toml --collisions 3 --out events.csv", "run case.toml --out out --quiet --precision float128",
+            "prove case.toml --collisions 3 --out events.csv",
+            "run case.toml --out out --quiet --precision float128",
             "sweep my.sweep.toml --jobs 1 --out study --quiet")
 SENTENCE = f"not enough memory for {BALLS} balls"
 
 
 def limited(command, limit):
-    return edmill(*command.split(), preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+    return edmill(*command.split(),
+                  preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
 
 
 def least_to_start():
@@ -40,11 +42,13 @@ def least_to_start():
 
 with Trials() as t:
     text = case(end="1 us").replace("count = 12", f"count = {BALLS}")
-    pathlib.Path("case.toml").write_text(text.replace('"38 mm"', '"3.8 m"').replace('"57 mm"', '"5.7 m"'))
+    pathlib.Path("case.toml").write_text(
+        text.replace('"38 mm"', '"3.8 m"').replace('"57 mm"', '"5.7 m"'))
     pathlib.Path("my.sweep.toml").write_text('[sweep]\ncase = "case.toml"\nreplicas = 1\n')
     print("seed", SEED)
     draws = random.Random(SEED)
-    start = least_to_start() + 24_000_000  # the first structures of TBB and of Debian 13's UCX: they do not survive their lack
+    start = least_to_start(
+    ) + 24_000_000  # the first structures of TBB and of Debian 13's UCX: they do not survive their lack
     short = dict.fromkeys(COMMANDS, 0)
     for command in COMMANDS:
         slow = command.split()[0] in ("certify", "prove")

@@ -20,10 +20,12 @@ OUTPUTS = ("collisions", "events", "trends", "paraview")
 
 def begun(place, *options, **settings):
     """A run that has simulated for some time."""
-    process = start("run", "case.toml", "--quiet", "--out", place, *options, stderr=subprocess.PIPE, text=True, **settings)
+    process = start("run", "case.toml", "--quiet", "--out", place, *options, stderr=subprocess.PIPE,
+                    text=True, **settings)
     log = None
     while log is None or log.stat().st_size == 0:
-        log = next(iter(pathlib.Path(place).glob("collisions.csv.partial-*")), None) if os.path.isdir(place) else None
+        log = next(iter(pathlib.Path(place).glob("collisions.csv.partial-*")),
+                   None) if os.path.isdir(place) else None
         time.sleep(0.005)
     return process
 
@@ -45,15 +47,19 @@ def saves(t, number, expected):
     for options in ((), ("--checkpoint", "0.5 s simulated")):
         process = begun("run", *options)
         process.send_signal(number)
-        if number not in (signal.SIGINT, signal.SIGTERM):  # batch systems repeat them, and lose patience
+        if number not in (signal.SIGINT,
+                          signal.SIGTERM):  # batch systems repeat them, and lose patience
             for _ in range(20):
                 process.send_signal(number)
             until_taken(process)  # of two that wait, the later one would be handled first
             process.send_signal(signal.SIGTERM)
         code, error = ended(process)
-        t.check(code == 128 + number and error == "", f"{number.name} {options}: exit code {code} {error}")
+        t.check(code == 128 + number and error == "",
+                f"{number.name} {options}: exit code {code} {error}")
         t.check(summary("run")["end_reason"] == "interrupted", f"{number.name}: results")
-        t.check(os.path.exists("run/checkpoint") == bool(options), f"{number.name} {options}: checkpoint")
+        t.check(
+            os.path.exists("run/checkpoint") == bool(options),
+            f"{number.name} {options}: checkpoint")
         t.no_partials(number.name)
         if options:
             t.check(edmill("resume", "run", "--quiet").returncode == 0, f"{number.name}: resume")
@@ -63,7 +69,8 @@ def saves(t, number, expected):
 
 def other_commands(t):
     pathlib.Path("my.sweep.toml").write_text('[sweep]\ncase = "case.toml"\nreplicas = 8\n')
-    for command in ("sweep my.sweep.toml --out study --jobs 1 --quiet", "certify case.toml --collisions 100000 --quiet"):
+    for command in ("sweep my.sweep.toml --out study --jobs 1 --quiet",
+                    "certify case.toml --collisions 100000 --quiet"):
         process = start(*command.split(), stderr=subprocess.PIPE, text=True)
         time.sleep(0.7)
         process.send_signal(signal.SIGUSR1)
@@ -77,10 +84,12 @@ def waits_for_input(t):
     """A log that nobody writes, or goes on writing: one request ends the wait."""
     os.mkfifo("silent")
     log = pathlib.Path("whole/collisions.csv").read_text()
-    for command in ("audit case.toml LOG", "compare LOG whole", "compare whole LOG", "import LOG --case case.toml"):
+    for command in ("audit case.toml LOG", "compare LOG whole", "compare whole LOG",
+                    "import LOG --case case.toml"):
         for source in ("silent", "-"):
             for beginning in ("", log[:3000]) if source == "-" else ("",):
-                process = start(*command.replace("LOG", source).split(), "--quiet", stdin=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+                process = start(*command.replace("LOG", source).split(), "--quiet",
+                                stdin=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
                 process.stdin.write(beginning)
                 process.stdin.flush()
                 time.sleep(0.3)
@@ -91,14 +100,16 @@ def waits_for_input(t):
                 except subprocess.TimeoutExpired:
                     process.kill()
                     code = None
-                t.check(code in (128 + signal.SIGTERM, -signal.SIGTERM), f"{command} from {source}: exit code {code}")
+                t.check(code in (128 + signal.SIGTERM, -signal.SIGTERM),
+                        f"{command} from {source}: exit code {code}")
                 t.check(time.time() - begin < 5, f"{command} from {source}: ends at once")
                 t.no_partials(command)
 
 
 with Trials() as t:
     pathlib.Path("case.toml").write_text(case(*OUTPUTS, end="6 s"))
-    t.check(edmill("run", "case.toml", "--quiet", "--out", "whole").returncode == 0, "the whole run")
+    t.check(
+        edmill("run", "case.toml", "--quiet", "--out", "whole").returncode == 0, "the whole run")
     expected = results("whole")
     for number in SAVING:
         saves(t, number, expected)
@@ -127,10 +138,13 @@ with Trials() as t:
             resource.setrlimit(resource.RLIMIT_FSIZE, (3000, 3000))
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN if ignored else signal.SIG_DFL)
         for name in OUTPUTS:
-            setting = "output=[{type=\"%s\"%s}]" % (name, ',interval="1 ms",columns=[{variable="milling_dose",statistics=["sum"]}]'
-                                                    if name == "trends" else "")
-            done = edmill("run", "case.toml", "--quiet", "--out", f"limit-{name}", "--set", setting, preexec_fn=limit)
-            t.refused(done, f"a file size limit and {name}", "could not be written: the file size limit is reached", code=1)
+            setting = "output=[{type=\"%s\"%s}]" % (
+                name, ',interval="1 ms",columns=[{variable="milling_dose",statistics=["sum"]}]'
+                if name == "trends" else "")
+            done = edmill("run", "case.toml", "--quiet", "--out", f"limit-{name}", "--set", setting,
+                          preexec_fn=limit)
+            t.refused(done, f"a file size limit and {name}",
+                      "could not be written: the file size limit is reached", code=1)
     other_commands(t)
     pathlib.Path("case.toml").write_text(case(*OUTPUTS, end="6 s"))
     waits_for_input(t)

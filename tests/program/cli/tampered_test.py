@@ -17,7 +17,8 @@ from program import Trials, case, edmill, results, same, start
 trials = int(sys.argv[2]) if len(sys.argv) > 2 else 16
 seed = 20110101
 rng = random.Random(seed)
-OUTPUTS = ("collisions", "events", "trends", "spectra", "paraview", "milling_dose", "vessel_load", "animation")
+OUTPUTS = ("collisions", "events", "trends", "spectra", "paraview", "milling_dose", "vessel_load",
+           "animation")
 OTHERS = "rows of another run\n"
 APPENDED = '[[output]]\ntype = "collisions"\nfile = "all.csv"\nappend = true\n'
 
@@ -25,8 +26,11 @@ APPENDED = '[[output]]\ntype = "collisions"\nfile = "all.csv"\nappend = true\n'
 def files_of(place):
     """Files that hold what the run has written: all but the checkpoint and those of no use to
     it."""
-    return [p for p in sorted(pathlib.Path(place).rglob("*")) if p.is_file() and not p.is_symlink() and p.stat().st_size > 0
-            and p.name not in ("checkpoint", "summary.json", "case.toml", "final_state.csv", ".edmill-files")]
+    return [
+        p for p in sorted(pathlib.Path(place).rglob("*"))
+        if p.is_file() and not p.is_symlink() and p.stat().st_size > 0 and p.name not in (
+            "checkpoint", "summary.json", "case.toml", "final_state.csv", ".edmill-files")
+    ]
 
 
 def flip(file, at):
@@ -40,7 +44,10 @@ def tamper(place, other):
     files = files_of(place)
     file = rng.choice(files)
     size = file.stat().st_size
-    how = rng.choice(["flip", "flip", "truncate", "empty", "remove", "extend", "swap", "of another run", "a line less", "checkpoint"])
+    how = rng.choice([
+        "flip", "flip", "truncate", "empty", "remove", "extend", "swap", "of another run",
+        "a line less", "checkpoint"
+    ])
     if how == "flip":
         flip(file, rng.randrange(size))
     elif how == "truncate":
@@ -76,13 +83,15 @@ def unfinished(place, killed, run_seed):
     """A run that was killed after a checkpoint, or interrupted."""
     os.makedirs(place)
     pathlib.Path(place, "all.csv").write_text(OTHERS)
-    process = start("run", "case.toml", "--quiet", "--out", place, "--checkpoint", "0.1 s simulated", "--set", f"run.seed={run_seed}")
+    process = start("run", "case.toml", "--quiet", "--out", place, "--checkpoint",
+                    "0.1 s simulated", "--set", f"run.seed={run_seed}")
     # Until a checkpoint covers some blocks of rows in events.h5, however slow the machine is.
     while not any(p.stat().st_size > 200_000 for p in pathlib.Path(place).glob("events.h5*")):
         assert process.poll() is None, "the run ended before"
         time.sleep(0.002)
     begun = time.time_ns()
-    while not os.path.exists(f"{place}/checkpoint") or os.stat(f"{place}/checkpoint").st_mtime_ns < begun:
+    while not os.path.exists(
+            f"{place}/checkpoint") or os.stat(f"{place}/checkpoint").st_mtime_ns < begun:
         assert process.poll() is None, "the run ended before"
         time.sleep(0.002)
     time.sleep(rng.uniform(0.05, 0.3))
@@ -95,14 +104,21 @@ with Trials() as t:
     pathlib.Path("case.toml").write_text(case(*OUTPUTS, end="6 s") + APPENDED)
     os.makedirs("whole")
     pathlib.Path("whole/all.csv").write_text(OTHERS)
-    t.check(edmill("run", "case.toml", "--quiet", "--out", "whole", "--set", "run.seed=5").returncode == 0, "the whole run")
+    t.check(
+        edmill("run", "case.toml", "--quiet", "--out", "whole", "--set",
+               "run.seed=5").returncode == 0, "the whole run")
     expected = results("whole")
     kinds = {}
     for killed in (True, False):
-        t.check(unfinished(f"left-{killed}", killed, 5) and unfinished(f"other-{killed}", killed, 6), "unfinished runs")
+        t.check(
+            unfinished(f"left-{killed}", killed, 5) and unfinished(f"other-{killed}", killed, 6),
+            "unfinished runs")
         shutil.copytree(f"left-{killed}", "untouched", symlinks=True)
-        t.check(edmill("resume", "untouched", "--quiet").returncode == 0, "an untouched run resumes")
-        t.check(same(results("untouched"), expected) == [], f"an untouched run: {same(results('untouched'), expected)}")
+        t.check(
+            edmill("resume", "untouched", "--quiet").returncode == 0, "an untouched run resumes")
+        t.check(
+            same(results("untouched"), expected) == [],
+            f"an untouched run: {same(results('untouched'), expected)}")
         shutil.rmtree("untouched")
         for trial in range(trials // 2):
             what = f"{'killed' if killed else 'interrupted'}, trial {trial} of seed {seed}"
@@ -116,14 +132,19 @@ with Trials() as t:
                 found = results("run")
                 if "all.csv" in done:  # rows of others are not its own
                     found.pop("all.csv", None)
-                differing = [name for name in same(found, expected) if name != "all.csv" or name in found]
+                differing = [
+                    name for name in same(found, expected) if name != "all.csv" or name in found
+                ]
                 t.check(differing == [], f"{what}: {done}: other results in {differing}")
             else:
                 t.refused(resumed, f"{what}: {done}", "run/")
-                t.check(before is None or same(results("run"), before) == [], f"{what}: {done}: a refusal changes files")
+                t.check(before is None or same(results("run"), before) == [],
+                        f"{what}: {done}: a refusal changes files")
             shutil.rmtree("run")
-    t.check(kinds.get("remove", [0, 1])[1] > 0 and sum(refused for _, refused in kinds.values()) > trials // 4,
-            f"what was done mattered: {kinds}")
+    t.check(
+        kinds.get("remove", [0, 1])[1] > 0 and
+        sum(refused for _, refused in kinds.values()) > trials // 4,
+        f"what was done mattered: {kinds}")
     # A byte of what the last checkpoint covers, wherever it is: the beginning is covered.
     for name in ("collisions.csv", "events.h5", "trends.csv", "paraview"):
         for killed in (True, False):

@@ -14,8 +14,12 @@ from program import SOURCE, said
 def helped():
     """Options by command, of --help."""
     listed = said("--help")
-    names = re.findall(r"^  ([a-z]+) {2,}\S", listed[listed.index("Subcommands:"):listed.index("Exit codes")], re.M)
-    return {name: set(re.findall(r"^  (?:-\w,)?(--[\w-]+)", said(name, "--help"), re.M)) - {"--help"} for name in names}
+    names = re.findall(r"^  ([a-z]+) {2,}\S",
+                       listed[listed.index("Subcommands:"):listed.index("Exit codes")], re.M)
+    return {
+        name: set(re.findall(r"^  (?:-\w,)?(--[\w-]+)", said(name, "--help"), re.M)) - {"--help"}
+        for name in names
+    }
 
 
 def synopsis():
@@ -33,8 +37,13 @@ def synopsis():
 
 
 program, page = helped(), synopsis()
-problems = [f"edmill {name}: --help has {sorted(options)}, docs/usage.md {sorted(page.get(name, []))}"
-            for name, options in program.items() if page.get(name) != options]
+problems = [
+    f"edmill {name}: --help has {sorted(options)}, docs/usage.md {sorted(page.get(name, []))}"
+    for name, options in program.items() if page.get(name) != options
+]
 problems += [f"docs/usage.md: edmill {name} is no command" for name in page.keys() - program.keys()]
-print("\n".join(problems) or f"{len(program)} commands with {sum(map(len, program.values()))} options are those of docs/usage.md")
+print(
+    "\n".join(problems) or
+    f"{len(program)} commands with {sum(map(len, program.values()))} options are those of docs/usage.md"
+)
 sys.exit(1 if problems or len(program) < 20 else 0)

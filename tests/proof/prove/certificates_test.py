@@ -23,8 +23,13 @@ from program import edmill, rows
 getcontext().prec = 60
 WITHOUT_ARB = "--without-arb" in sys.argv
 CHECKER, REFERENCE, FOLDER = sys.argv[2], pathlib.Path(sys.argv[3]), pathlib.Path(sys.argv[4])
-SHIPPED = {"one_ball": 500, "three_balls": 500, "balls_28": 2000, "planetary": 500, "box": 500, "stirred": 500}
-SHORT = {"one_ball": 20, "three_balls": 40, "balls_28": 60, "planetary": 40, "box": 40, "stirred": 60}
+SHIPPED = {
+    "one_ball": 500, "three_balls": 500, "balls_28": 2000, "planetary": 500, "box": 500,
+    "stirred": 500
+}
+SHORT = {
+    "one_ball": 20, "three_balls": 40, "balls_28": 60, "planetary": 40, "box": 40, "stirred": 60
+}
 
 
 def fail(text):
@@ -64,7 +69,8 @@ def moved(text):
     """An enclosure whose midpoint is two radii farther."""
     m, e, r, f = (int(part, 16) for part in text.split())
     low = min(e, f)
-    return " ".join(format(part, "x") for part in ((m << (e - low)) + 2 * (r << (f - low)), low, r, f))
+    return " ".join(
+        format(part, "x") for part in ((m << (e - low)) + 2 * (r << (f - low)), low, r, f))
 
 
 def tamperings(lines):
@@ -76,7 +82,8 @@ def tamperings(lines):
     events = range(1, len(lines) - 1)
     wall = next(k for k in events if k > 5 and "wall" in lines[k])
     pair = next((k for k in events if k > 2 and "partner" in lines[k]), None)
-    deep = next(k for k in events if k > 3 and any(re.search(r"[prf][1-9].*f", t) for t in lines[k]["windows"][0]))
+    deep = next(k for k in events
+                if k > 3 and any(re.search(r"[prf][1-9].*f", t) for t in lines[k]["windows"][0]))
     balls = len(lines[0]["balls"])
 
     def renumbered(new):
@@ -118,16 +125,23 @@ def tamperings(lines):
     yield changed("an event left out, and the others numbered anew", left_out)
     yield changed("two events swapped", swapped)
     yield changed("two events swapped and numbered anew", exchanged)
-    yield changed("the velocity's enclosure too narrow by one unit", at("v", 0, lambda t: scaled(t, radius=-1)), wall)
-    yield changed("the position's enclosure too narrow by one unit", at("r", 1, lambda t: scaled(t, radius=-1)), wall)
-    yield changed("the spin's enclosure too narrow by one unit", at("s", 2, lambda t: scaled(t, radius=-1)), wall)
+    yield changed("the velocity's enclosure too narrow by one unit",
+                  at("v", 0, lambda t: scaled(t, radius=-1)), wall)
+    yield changed("the position's enclosure too narrow by one unit",
+                  at("r", 1, lambda t: scaled(t, radius=-1)), wall)
+    yield changed("the spin's enclosure too narrow by one unit",
+                  at("s", 2, lambda t: scaled(t, radius=-1)), wall)
     yield changed("an enclosure with half the radius", at("v", 1, half), wall)
     yield changed("an enclosure beside the true one", at("v", 0, moved), wall)
-    yield changed("a bracket beside the true one", lambda line: put("time", moved(line["time"]))(line), wall)
-    yield changed("a bracket with half the radius", lambda line: put("time", half(line["time"]))(line), wall)
-    yield changed("another wall", lambda line: put("wall", (line["wall"] + 1) % len(lines[0]["walls"]))(line), wall)
+    yield changed("a bracket beside the true one", lambda line: put("time", moved(line["time"]))
+                  (line), wall)
+    yield changed("a bracket with half the radius", lambda line: put("time", half(line["time"]))
+                  (line), wall)
+    yield changed("another wall",
+                  lambda line: put("wall", (line["wall"] + 1) % len(lines[0]["walls"]))(line), wall)
     if balls > 1:
-        yield changed("another ball", lambda line: put("ball", (line["ball"] + 1) % balls)(line), wall)
+        yield changed("another ball", lambda line: put("ball", (line["ball"] + 1) % balls)(line),
+                      wall)
         yield changed("last line without a ball", lambda line: line["windows"].popitem(), -1)
     if pair:
         def turned(line):
@@ -135,41 +149,57 @@ def tamperings(lines):
             line["states"].reverse(), line["windows"].reverse()
         yield changed("ball and partner in the other order", turned, pair)
     if pair and balls > 2:
-        other = next(b for b in range(balls) if b not in (lines[pair]["ball"], lines[pair]["partner"]))
+        other = next(
+            b for b in range(balls) if b not in (lines[pair]["ball"], lines[pair]["partner"]))
         yield changed("another partner", put("partner", other), pair)
-        yield changed("the states of two balls exchanged", lambda line: line["states"].reverse(), pair)
+        yield changed("the states of two balls exchanged", lambda line: line["states"].reverse(),
+                      pair)
     yield changed("windows that do not leave out the contacts at the ends", coarse, deep)
     yield changed("windows that leave the end of a flight out", cut, deep)
     yield changed("windows that claim a contact that is none", claimed, deep)
     yield changed("windows of one wall left out", lambda line: line["windows"][0].pop(), wall)
-    yield changed("another case: friction", put("laws", [{**law, "friction": "41/100"} for law in lines[0]["laws"]]), 0)
-    yield changed("another case: restitution", put("laws", [{**law, "restitution": "51/100"} for law in lines[0]["laws"]]), 0)
+    yield changed("another case: friction",
+                  put("laws", [{**law, "friction": "41/100"} for law in lines[0]["laws"]]), 0)
+    yield changed("another case: restitution",
+                  put("laws", [{**law, "restitution": "51/100"} for law in lines[0]["laws"]]), 0)
     yield changed("another case: gravity", put("gravity", ["0", "-981/100", "0"]), 0)
     yield changed("another case: start", put("start", "1/1000"), 0)
-    yield changed("another case: a ball's place", lambda h: put("position", ["1/1000", "1/1000", "1/1000"])(h["balls"][0]), 0)
-    yield changed("another case: radius of a ball", lambda h: put("radius", "1/251")(h["balls"][0]), 0)
-    yield changed("another case: a negative restitution", put("laws", [{**law, "restitution": "-2"} for law in lines[0]["laws"]]), 0)
-    yield changed("another case: a density below zero", lambda h: put("density", "-1")(h["balls"][0]), 0)
-    yield changed("another case: a law that creates slip", put("laws", [{**law, "min_tangential": "2"} for law in lines[0]["laws"]]), 0)
+    yield changed("another case: a ball's place",
+                  lambda h: put("position", ["1/1000", "1/1000", "1/1000"])(h["balls"][0]), 0)
+    yield changed("another case: radius of a ball", lambda h: put("radius", "1/251")(h["balls"][0]),
+                  0)
+    yield changed("another case: a negative restitution",
+                  put("laws", [{**law, "restitution": "-2"} for law in lines[0]["laws"]]), 0)
+    yield changed("another case: a density below zero", lambda h: put("density", "-1")
+                  (h["balls"][0]), 0)
+    yield changed("another case: a law that creates slip",
+                  put("laws", [{**law, "min_tangential": "2"} for law in lines[0]["laws"]]), 0)
     round_solids = [k for k, w in enumerate(lines[0]["walls"]) if w.get("solid") == "cylinder"]
     solid = next((lines[k]["wall"] for k in events if lines[k].get("wall") in round_solids), None)
     if round_solids:
         a, b, _ = lines[0]["walls"][solid]["half"]
         def in_solid(key, value):
             return lambda h: put(key, value)(h["walls"][solid])
-        yield changed("another case: a solid of another size", in_solid("half", ["7/1000", b, "7/1000"]), 0)
-        yield changed("another case: a cylinder with two radii", in_solid("half", [a, b, "7/1000"]), 0)
-        yield changed("another case: a solid of negative size", in_solid("half", ["-" + a, b, "-" + a]), 0)
+
+        yield changed("another case: a solid of another size",
+                      in_solid("half", ["7/1000", b, "7/1000"]), 0)
+        yield changed("another case: a cylinder with two radii", in_solid("half", [a, b, "7/1000"]),
+                      0)
+        yield changed("another case: a solid of negative size",
+                      in_solid("half", ["-" + a, b, "-" + a]), 0)
         yield changed("another case: the rounding of a solid", in_solid("rounding", "1/1000"), 0)
         yield changed("another case: a negative rounding", in_solid("rounding", "-1/1000"), 0)
         yield changed("another case: a box in place of a cylinder", in_solid("solid", "box"), 0)
         yield changed("another case: a solid of an unknown kind", in_solid("solid", "cone"), 0)
-        yield changed("another case: a solid at rest", lambda h: put("joints", [])(h["walls"][solid]), 0)
+        yield changed("another case: a solid at rest", lambda h: put("joints", [])
+                      (h["walls"][solid]), 0)
         yield changed("another case: a solid left out", lambda h: h["walls"].pop(), 0)
         yield changed("another case: a version without solids", put("version", 1), 0)
     yield changed("numbers with what a reader does not see", put("start", "0\0/7"), 0)
-    yield changed("fewer bits than the enclosures were computed with", lambda h: put("bits", h["bits"] - 32)(h), 0)
-    yield changed("more events announced than there are", lambda h: put("events", h["events"] + 1)(h), 0)
+    yield changed("fewer bits than the enclosures were computed with",
+                  lambda h: put("bits", h["bits"] - 32)(h), 0)
+    yield changed("more events announced than there are", lambda h: put("events", h["events"] + 1)
+                  (h), 0)
     yield changed("a key of the header that no page names", put("note", "1"), 0)
     yield changed("a key of an event that no page names", put("note", "1"), wall)
     yield changed("last line left out", lambda new: new.pop())
@@ -183,7 +213,8 @@ def check_headers(name, case, text):
         done = edmill("prove", "--check", "header", case, *more)
         return done.returncode, (done.stdout + done.stderr).strip()
     header = json.loads(text[0])
-    for what, line in (("as proven", text[0]), ("another name", json.dumps({**header, "case": "b.toml", "digest": "0"}))):
+    for what, line in (("as proven", text[0]),
+                       ("another name", json.dumps({**header, "case": "b.toml", "digest": "0"}))):
         code, said = says(line)
         if code != 0:
             fail(f"{name}: prove --check, {what}: exit code {code}: {said}")
@@ -207,15 +238,18 @@ def check_headers(name, case, text):
         for key in path[:-1]:
             at = at[key]
         old = at[path[-1]]
-        at[path[-1]] = not old if isinstance(old, bool) else old + 1 if isinstance(old, int) else "7/11" if old != "7/11" else "1"
+        at[path[-1]] = not old if isinstance(
+            old, bool) else old + 1 if isinstance(old, int) else "7/11" if old != "7/11" else "1"
         code, said = says(json.dumps(tampered))
         if code != 6 or "/" + "/".join(map(str, path)) not in said:
             fail(f"{name}: prove --check with another {path}: exit code {code}: {said}")
         changed += 1
     code, said = says(text[0], "--set", "contact.restitution=0.51")
     if code != 6:
-        fail(f"{name}: prove --check with another restitution in the case: exit code {code}: {said}")
-    for line in ("", "{}", "no json", text[1], text[0][:-1], json.dumps({**header, "version": 3}), text[0].replace('"bits"', '"bits":1,"bits"')):
+        fail(
+            f"{name}: prove --check with another restitution in the case: exit code {code}: {said}")
+    for line in ("", "{}", "no json", text[1], text[0][:-1], json.dumps({**header, "version": 3}),
+                 text[0].replace('"bits"', '"bits":1,"bits"')):
         code, said = says(line)
         if code != 2 or said.count("\n") or "header: the first line" not in said:
             fail(f"{name}: prove --check of {line[:40]!r}: exit code {code}: {said}")
@@ -233,7 +267,8 @@ def check_short(name, events):
         fail(f"{name}: the checker says {said}")
     # What is proven holds what two scalars agree on.
     for one, two in zip(rows(f"{name}.csv"), rows(REFERENCE / f"{name}.events.csv")):
-        if (one["ball"], one["partner_kind"], one["partner"]) != (two["ball"], two["partner_kind"], two["partner"]):
+        if (one["ball"], one["partner_kind"], one["partner"]) != (two["ball"], two["partner_kind"],
+                                                                  two["partner"]):
             fail(f"{name}: event {one['index']} is another one in {name}.events.csv")
         for column in ("time", "approach_speed", "slip_speed"):
             off = abs(Decimal(one[column]) - Decimal(two[column]))
@@ -249,7 +284,8 @@ def check_short(name, events):
         if not no_mill and (code != 1 or not said.startswith("rejected: ")):
             fail(f"{name}: {what}: exit code {code}: {said}")
         rejected += 1
-    for what, key in (("the header", '"gravity"'), ("a ball of the header", '"radius"'), ("an event", '"time"'), ("a state", '"v"')):
+    for what, key in (("the header", '"gravity"'), ("a ball of the header", '"radius"'),
+                      ("an event", '"time"'), ("a state", '"v"')):
         k = next(k for k, line in enumerate(text) if key + ":" in line)
         twice = re.sub(f"({key}:(\\[[^]]*\\]|[^,}}]*))", r"\1,\1", text[k], count=1)
         code, said = verdict([*text[:k], twice, *text[k + 1:]])
@@ -257,7 +293,9 @@ def check_short(name, events):
             fail(f"{name}: a key twice in {what}: exit code {code}: {said}")
         rejected += 1
     check_headers(name, case, text)
-    print(f"claim {name}: {events} events proven and accepted, {rejected} of {rejected} kinds of tampering rejected")
+    print(
+        f"claim {name}: {events} events proven and accepted, {rejected} of {rejected} kinds of tampering rejected"
+    )
     return rejected
 
 
@@ -316,7 +354,9 @@ def check_shipped(name, events, again):
     packed = (REFERENCE / f"{name}.certificate.xz").read_bytes()
     digest = hashlib.sha256(packed).hexdigest()
     if f"`{digest}`" not in (REFERENCE / "README.md").read_text():
-        fail(f"{name}.certificate.xz has the digest {digest}, which regression/reference/README.md does not name")
+        fail(
+            f"{name}.certificate.xz has the digest {digest}, which regression/reference/README.md does not name"
+        )
     pathlib.Path("shipped").write_bytes(lzma.decompress(packed))
     code, said = checked("shipped")
     if code != 0 or not said.startswith(f"accepted: {events} events"):
@@ -327,7 +367,8 @@ def check_shipped(name, events, again):
         fail(f"{name}.certificate.xz is of another case: edmill check prints\n{told}")
     if again:
         done = prove(str(REFERENCE / f"{name}.toml"), events, "again")
-        if done.returncode or pathlib.Path("again").read_bytes() != pathlib.Path("shipped").read_bytes():
+        if done.returncode or pathlib.Path("again").read_bytes() != pathlib.Path(
+                "shipped").read_bytes():
             fail(f"{name}: another certificate than the one that is shipped: {done.stderr}")
         print(done.stdout.splitlines()[-1])
     print(f"claim {name}.certificate.xz: {said}")

@@ -95,10 +95,14 @@ class Run(unittest.TestCase):
         """State after the ball's last impact up to a time, or nothing: (time, position, velocity,
         spin)."""
         e = self.events
-        mine = [(e["ball"] == ball, "ball_"), ((e["partner"] == ball) & (e["with_wall"] == 0), "partner_")]
-        found = max(((np.flatnonzero(rows & (e["time"] <= time)).max(initial=-1), body) for rows, body in mine))
+        mine = [(e["ball"] == ball, "ball_"),
+                ((e["partner"] == ball) & (e["with_wall"] == 0), "partner_")]
+        found = max(((np.flatnonzero(rows & (e["time"] <= time)).max(initial=-1), body)
+                     for rows, body in mine))
         k, body = found
-        return None if k < 0 else (e["time"][k], *(e[body + name][k] for name in ("position", "velocity_after", "spin_after")))
+        return None if k < 0 else (
+            e["time"][k],
+            *(e[body + name][k] for name in ("position", "velocity_after", "spin_after")))
 
 
 class Hdf5(Run):
@@ -109,7 +113,8 @@ class Hdf5(Run):
             self.assertEqual((file.attrs["precision"], file.attrs["seed"]), ("double", "1"))
             columns = list(file["events"].values())
             self.assertEqual(len(columns), 19)
-            beside = ("final_time", "final_position", "final_velocity", "final_spin", "ball_diameter", "ball_mass")
+            beside = ("final_time", "final_position", "final_velocity", "final_spin",
+                      "ball_diameter", "ball_mass")
             for data in [*columns, *(file[name] for name in beside)]:
                 self.assertTrue(data.attrs["unit"], data.name)
                 self.assertTrue(data.attrs["description"], data.name)
@@ -123,7 +128,8 @@ class Hdf5(Run):
                 np.testing.assert_array_equal(file["final_" + name][:], expected)
             self.assertEqual(file["final_time"][0], 0.2)
             np.testing.assert_allclose(file["ball_diameter"][:], 28 * [0.00476], rtol=1e-15)
-            np.testing.assert_allclose(file["ball_mass"][:], 28 * [8000 * math.pi / 6 * 0.00476**3], rtol=1e-15)
+            np.testing.assert_allclose(file["ball_mass"][:],
+                                       28 * [8000 * math.pi / 6 * 0.00476 ** 3], rtol=1e-15)
 
     def test_energy_of_every_impact_closes_with_the_states(self):
         e = self.events
@@ -138,7 +144,8 @@ class Hdf5(Run):
         # A slower body leaves with the least separation speed, 1 cm/s.
         effective = np.where(np.isnan(e["partner_spin_before"]).any(axis=1), mass, mass / 2)
         supplied = effective / 2 * np.maximum(0, 0.01**2 - e["approach_speed"] ** 2)
-        np.testing.assert_allclose(change, e["wall_work"] - e["milling_dose"] + supplied, atol=1e-16)
+        np.testing.assert_allclose(change, e["wall_work"] - e["milling_dose"] + supplied,
+                                   atol=1e-16)
         self.assertGreater(supplied.max(), 1e-9)
         self.assertGreater(e["milling_dose"].sum(), 0.1)
 
@@ -155,12 +162,16 @@ class Hdf5(Run):
         files = sorted((folder / "first").glob("*.h5"))
         self.assertEqual(len(files), 12)
         for file in files:
-            self.assertTrue(filecmp.cmp(file, folder / "second" / file.name, shallow=False), file.name)
+            self.assertTrue(filecmp.cmp(file, folder / "second" / file.name, shallow=False),
+                            file.name)
             lines = rows(file.with_suffix(".csv"))
             self.assertTrue(lines, file.name)
             with h5py.File(file) as data:
                 self.assertEqual(data.attrs["seed"], "1")
-                by_title = {column.attrs["title"]: column for column in data.values() if "title" in column.attrs}
+                by_title = {
+                    column.attrs["title"]: column for column in data.values()
+                    if "title" in column.attrs
+                }
                 self.assertEqual(set(by_title), set(lines[0]))
                 for title, column in by_title.items():
                     self.assertNotIn(column.attrs["description"], ("", column.name.strip("/")))
@@ -170,12 +181,17 @@ class Hdf5(Run):
                     if column.dtype.kind == "S":
                         self.assertEqual([text.decode() for text in column[:]], cells)
                     else:
-                        np.testing.assert_array_equal(column[:], [float(cell or "nan") for cell in cells], f"{file.name} {title}")
+                        np.testing.assert_array_equal(column[:],
+                                                      [float(cell or "nan") for cell in cells],
+                                                      f"{file.name} {title}")
 
     def test_a_second_run_writes_the_same_bytes(self):
         again = pathlib.Path(self.scratch.name) / "again"
         edmill("run", CASE, "--quiet", "--out", again, code=0)
-        files = [file.relative_to(self.out) for file in self.out.rglob("*") if file.is_file() and file.name != "summary.json"]
+        files = [
+            file.relative_to(self.out) for file in self.out.rglob("*")
+            if file.is_file() and file.name != "summary.json"
+        ]
         self.assertGreater(len(files), 40)
         for file in files:
             self.assertTrue(filecmp.cmp(self.out / file, again / file, shallow=False), file)
@@ -199,7 +215,10 @@ class ParaView(Run):
     def balls(self, name):
         data = self.read(name)
         arrays = data.GetPointData()
-        found = {arrays.GetArrayName(k): vtk_to_numpy(arrays.GetArray(k)) for k in range(arrays.GetNumberOfArrays())}
+        found = {
+            arrays.GetArrayName(k): vtk_to_numpy(arrays.GetArray(k))
+            for k in range(arrays.GetNumberOfArrays())
+        }
         return {"position": vtk_to_numpy(data.GetPoints().GetData()), **found}
 
     def test_frames_come_at_their_times(self):
@@ -208,14 +227,17 @@ class ParaView(Run):
         for time, files in frames.items():
             self.assertEqual(len(files), 2)
             for name in files:
-                self.assertEqual(self.read(name).GetFieldData().GetArray("TimeValue").GetValue(0), time)
+                self.assertEqual(
+                    self.read(name).GetFieldData().GetArray("TimeValue").GetValue(0), time)
 
     def test_balls_of_the_last_frame_are_those_of_the_final_state(self):
         frames = self.frames()
         found = self.balls(frames[max(frames)][0])
         balls = rows(self.out / "final_state.csv")
-        for name, title in (("position", "position"), ("velocity", "velocity [m/s]"), ("spin", "spin [rad/s]")):
-            np.testing.assert_array_equal(found[title], [[float(row[f"{name}_{axis}"]) for axis in "xyz"] for row in balls])
+        for name, title in (("position", "position"), ("velocity", "velocity [m/s]"),
+                            ("spin", "spin [rad/s]")):
+            np.testing.assert_array_equal(
+                found[title], [[float(row[f"{name}_{axis}"]) for axis in "xyz"] for row in balls])
         np.testing.assert_array_equal(found["diameter [m]"], 28 * [0.00476])
         np.testing.assert_array_equal(found["ball"], range(28))
 
@@ -229,8 +251,11 @@ class ParaView(Run):
                     continue
                 when, place, velocity, spin = impact
                 flown = time - when
-                np.testing.assert_allclose(found["position"][ball], place + velocity * flown + GRAVITY * flown**2 / 2, atol=1e-13)
-                np.testing.assert_allclose(found["velocity [m/s]"][ball], velocity + GRAVITY * flown, atol=1e-13)
+                np.testing.assert_allclose(found["position"][ball],
+                                           place + velocity * flown + GRAVITY * flown ** 2 / 2,
+                                           atol=1e-13)
+                np.testing.assert_allclose(found["velocity [m/s]"][ball],
+                                           velocity + GRAVITY * flown, atol=1e-13)
                 np.testing.assert_array_equal(found["spin [rad/s]"][ball], spin)
                 checked += 1
         self.assertGreater(checked, 400)
@@ -243,16 +268,20 @@ class ParaView(Run):
             np.add.at(expected, e["ball"][before], e["milling_dose"][before])
             pairs = before & (e["with_wall"] == 0)
             np.add.at(expected, e["partner"][pairs], e["milling_dose"][pairs])
-            np.testing.assert_allclose(self.balls(files[0])["milling_dose [J]"], expected, rtol=1e-12, atol=1e-18)
+            np.testing.assert_allclose(
+                self.balls(files[0])["milling_dose [J]"], expected, rtol=1e-12, atol=1e-18)
 
     def test_vessel_stands_where_the_drive_puts_it(self):
         for time, files in self.frames().items():
             data = self.read(files[1])
             x, y, z = vtk_to_numpy(data.GetPoints().GetData()).T
             phase = 2 * math.pi * 1054 / 60 * time
-            theta, gamma = math.pi / 2 + math.pi / 12 * math.cos(phase), math.pi / 12 * math.sin(phase)
-            along, across = x * math.cos(theta) + y * math.sin(theta) - 0.1, y * math.cos(theta) - x * math.sin(theta)
-            height, depth = across * math.cos(gamma) + z * math.sin(gamma), z * math.cos(gamma) - across * math.sin(gamma)
+            theta, gamma = math.pi / 2 + math.pi / 12 * math.cos(phase), math.pi / 12 * math.sin(
+                phase)
+            along, across = x * math.cos(theta) + y * math.sin(theta) - 0.1, y * math.cos(
+                theta) - x * math.sin(theta)
+            height, depth = across * math.cos(gamma) + z * math.sin(gamma), z * math.cos(
+                gamma) - across * math.sin(gamma)
             np.testing.assert_allclose(np.hypot(along, depth), 0.019, rtol=1e-9)
             np.testing.assert_allclose(np.abs(height), 0.0285, rtol=1e-9)
             walls = vtk_to_numpy(data.GetCellData().GetArray("wall"))
@@ -270,7 +299,8 @@ class X3d(Run):
         return pages
 
     def validates(self, page, schema):
-        return subprocess.run(["xmllint", "--nonet", "--noout", "--schema", schema, page], capture_output=True, check=False)
+        return subprocess.run(["xmllint", "--nonet", "--noout", "--schema", schema, page],
+                              capture_output=True, check=False)
 
     def test_pages_validate(self):
         for page in self.pages():
@@ -281,31 +311,40 @@ class X3d(Run):
     def loaded(self, page):
         """What an X3D program makes of a page: it writes it down again, in single precision. Debian
         12 has it in view3dscene, Debian 13 in castle-model-viewer."""
-        command = ["tovrmlx3d", page] if shutil.which("tovrmlx3d") else ["castle-model-converter", page, "-", "--stdout-url=page.x3dv"]
+        command = ["tovrmlx3d", page] if shutil.which("tovrmlx3d") else [
+            "castle-model-converter", page, "-", "--stdout-url=page.x3dv"
+        ]
         return subprocess.run(command, capture_output=True, text=True, check=False)
 
     def test_pages_load_without_a_warning(self):
         for page in self.pages():
             result = self.loaded(page)
             self.assertEqual((result.returncode, result.stderr), (0, ""), page.name)
-            places = re.findall(r"DEF ball_\d+ Transform \{\s*translation (\S+ \S+ \S+)", result.stdout)
-            expected = [node.get("translation") for node in ElementTree.parse(page).iter("Transform")
-                        if re.fullmatch(r"ball_\d+", node.get("DEF") or "")]
+            places = re.findall(r"DEF ball_\d+ Transform \{\s*translation (\S+ \S+ \S+)",
+                                result.stdout)
+            expected = [
+                node.get("translation") for node in ElementTree.parse(page).iter("Transform")
+                if re.fullmatch(r"ball_\d+",
+                                node.get("DEF") or "")
+            ]
             self.assertEqual(len(places), 28)
-            np.testing.assert_allclose([numbers(place) for place in places], [numbers(place) for place in expected], rtol=1e-7)
+            np.testing.assert_allclose([numbers(place) for place in places],
+                                       [numbers(place) for place in expected], rtol=1e-7)
 
     def test_loading_finds_what_is_wrong(self):
         text = (self.out / "animation.x3d").read_text()
         page = pathlib.Path(self.scratch.name) / "wrong.x3d"
-        for right, wrong in (("diffuseColor", "difuseColor"), ("cycleInterval", "cycle"), ("<Sphere ", "<Ball "),
-                             ("toNode=\"ball_0\"", "toNode=\"ball_99\""), ("set_rotation", "set_rot")):
+        for right, wrong in (("diffuseColor", "difuseColor"), ("cycleInterval", "cycle"),
+                             ("<Sphere ", "<Ball "), ("toNode=\"ball_0\"", "toNode=\"ball_99\""),
+                             ("set_rotation", "set_rot")):
             self.assertIn(right, text)
             page.write_text(text.replace(right, wrong, 1))
             self.assertTrue(self.loaded(page).stderr, wrong)
 
     def test_the_schema_finds_what_is_wrong(self):
         text = (self.out / "animation.x3d").read_text()
-        for right, wrong in (("diffuseColor=\"0 0 1\"", "diffuseColor=\"0 0 2\""), ("cycleInterval", "cycle"),
+        for right, wrong in (("diffuseColor=\"0 0 1\"", "diffuseColor=\"0 0 2\""), ("cycleInterval",
+                                                                                    "cycle"),
                              ("<Sphere ", "<Ball "), ("coordIndex=\"0", "coordIndex=\"-2")):
             self.assertIn(right, text)
             page = pathlib.Path(self.scratch.name) / "wrong.x3d"
@@ -329,16 +368,21 @@ class X3d(Run):
 
     def test_balls_of_the_snapshot_touch_and_fly_as_in_the_log(self):
         scene = ElementTree.parse(self.out / "snapshot_100.x3d").getroot().find("Scene")
-        places = {node.get("DEF"): vectors(node.get("translation"))[0] for node in scene.iter("Transform")
-                  if (node.get("DEF") or "").startswith("ball_")}
+        places = {
+            node.get("DEF"): vectors(node.get("translation"))[0] for node in scene.iter("Transform")
+            if (node.get("DEF") or "").startswith("ball_")
+        }
         self.assertEqual(len(places), 28)
         e, time = self.events, self.events["time"][100]
-        np.testing.assert_allclose(places[f"ball_{e['ball'][100]}"], e["ball_position"][100], atol=1e-15)
+        np.testing.assert_allclose(places[f"ball_{e['ball'][100]}"], e["ball_position"][100],
+                                   atol=1e-15)
         for ball in range(28):
             impact = self.last_impact(ball, time)
             if impact is not None:
                 flown = time - impact[0]
-                np.testing.assert_allclose(places[f"ball_{ball}"], impact[1] + impact[2] * flown + GRAVITY * flown**2 / 2, atol=1e-13)
+                np.testing.assert_allclose(places[f"ball_{ball}"],
+                                           impact[1] + impact[2] * flown + GRAVITY * flown ** 2 / 2,
+                                           atol=1e-13)
 
     def test_balls_of_the_animation_pass_through_their_impacts(self):
         scene = ElementTree.parse(self.out / "animation.x3d").getroot().find("Scene")
@@ -355,11 +399,13 @@ class X3d(Run):
 
 class Page(Run):
     def test_python_of_the_page_runs_in_the_folder_of_a_run(self):
-        snippets = re.findall(r"^```python\n(.*?)^```", (SOURCE / "docs/files.md").read_text(), re.MULTILINE | re.DOTALL)
+        snippets = re.findall(r"^```python\n(.*?)^```", (SOURCE / "docs/files.md").read_text(),
+                              re.MULTILINE | re.DOTALL)
         self.assertEqual(len(snippets), 5)  # CSV, HDF5, JSON, VTP and PVD, X3D
         for snippet in snippets:
             self.assertLessEqual(len(snippet.splitlines()), 6)
-            result = subprocess.run([sys.executable, "-c", snippet], cwd=self.out, capture_output=True, text=True, check=False)
+            result = subprocess.run([sys.executable, "-c", snippet], cwd=self.out,
+                                    capture_output=True, text=True, check=False)
             self.assertEqual(result.returncode, 0, snippet + result.stderr)
             self.assertTrue(result.stdout.strip(), snippet)
 
