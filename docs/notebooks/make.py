@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Runs the notebooks of this folder and keeps what they print and draw. Whole pages are left out: a notebook that is run shows them.
+"""Runs the notebooks of this folder and keeps what they print and draw. Whole pages are left out: a
+notebook that is run shows them.
 
 usage: PYTHONPATH=FOLDER_OF_THE_PACKAGE /usr/bin/python3 docs/notebooks/make.py
 """

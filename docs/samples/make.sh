@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The pages of this folder: the report of a run, a comparison of two, a sweep. They have neither commit nor times, so that they
-# are the same wherever they are made.
+# The pages of this folder: the report of a run, a comparison of two, a sweep. They have neither
+# commit nor times, so that they are the same wherever they are made.
 # usage: make.sh EDMILL FOLDER
 set -euo pipefail
 edmill=$(realpath "$1")

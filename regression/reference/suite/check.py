@@ -1,16 +1,19 @@
 #!/usr/bin/env python3
 """Checks the output of any code against the cases of this suite; needs Python alone. CC0 1.0.
 
-usage: check.py CASE FILE [--tolerance T] [--factor F] [--junit OUT.xml]    one case: a log or statistics
-       check.py FOLDER [--tolerance T] [--factor F] [--junit OUT.xml]       all cases that FOLDER has files for
+usage: check.py CASE FILE [OPTIONS]    one case: a log or statistics
+       check.py FOLDER [OPTIONS]       all cases that FOLDER has files for
+       OPTIONS: [--tolerance T] [--factor F] [--junit OUT.xml]
 
-CASE is a case of the suite by its name or folder, or a DEM case (.yaml). FILE is a log, CSV with a line for each impact, or statistics:
-CSV with the header name,value[,uncertainty], or JSON, {"name": value} or {"name": [value, uncertainty]}. FOLDER has
-CASE.csv (log), CASE.statistics.csv or CASE.statistics.json, and for a DEM case CASE.csv (statistics).
+CASE is a case of the suite by its name or folder, or a DEM case (.yaml). FILE is a log, CSV with a
+line for each impact, or statistics: CSV with the header name,value[,uncertainty], or JSON, {"name":
+value} or {"name": [value, uncertainty]}. FOLDER has CASE.csv (log), CASE.statistics.csv or
+CASE.statistics.json, and for a DEM case CASE.csv (statistics).
 
-Of a log, the columns that both have are compared, relative to the largest magnitude of a column, with the tolerance of
-the case (default) or T. A value of statistics agrees if it differs by no more than the tolerance of the case and F
-(default: 3) combined standard uncertainties. Exit code: 0 all agree, 1 one differs, 2 a file cannot be read."""
+Of a log, the columns that both have are compared, relative to the largest magnitude of a column,
+with the tolerance of the case (default) or T. A value of statistics agrees if it differs by no more
+than the tolerance of the case and F (default: 3) combined standard uncertainties. Exit code: 0 all
+agree, 1 one differs, 2 a file cannot be read."""
 import argparse
 import csv
 import json
@@ -86,7 +89,8 @@ def values_in(file):
 
 
 def expected_statistics(place):
-    """Name to value, standard uncertainty, tolerance and unit: of a folder of the suite, or of a DEM case."""
+    """Name to value, standard uncertainty, tolerance and unit: of a folder of the suite, or of a
+    DEM case."""
     if place.suffix != ".yaml":
         columns = ("value", "standard_uncertainty", "tolerance")
         return {

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""Exact events and limits of cases with closed forms, in 40 digits, by Python's decimal numbers; edmill has no part in it.
+"""Exact events and limits of cases with closed forms, in 40 digits, by Python's decimal numbers;
+edmill has no part in it.
 
-usage: closed_forms.py FOLDER     writes events.csv, statistics.csv and suite.json of these cases below FOLDER"""
+usage: closed_forms.py FOLDER     writes events.csv, statistics.csv and suite.json of these cases
+    below FOLDER"""
 import json
 import pathlib
 import re
@@ -46,7 +48,8 @@ def mass(ball):
 
 
 def stopped_slip(contact, normal, slip):
-    """(2.24): e_t and the change of the centre's speed along the slip; `normal` is the change of the normal speed."""
+    """(2.24): e_t and the change of the centre's speed along the slip; `normal` is the change of
+    the normal speed."""
     mu, beta = Decimal(contact["friction"]), Decimal(contact["min_tangential"])
     e_t = max(beta, 1 - mu * K * normal / abs(slip)) if slip else beta
     return e_t, -(1 - e_t) * slip / K
@@ -110,7 +113,8 @@ def oblique_impact():
 
 
 def slipping():
-    """What slipping_particle has: case, radius, the centre's height at the floor, v0, g, mu, and its normal speed there."""
+    """What slipping_particle has: case, radius, the centre's height at the floor, v0, g, mu, and
+    its normal speed there."""
     c = case("slipping_particle")
     ball, g = c["ball"][0], number(c["run"]["gravity"])
     radius = number(ball["diameter"]) / 2
@@ -120,7 +124,8 @@ def slipping():
 
 
 def slipping_particle():
-    """Elastic hops of 2 v_s/g; in each impact friction takes mu 2 v_s from the speed until the slip is stopped."""
+    """Elastic hops of 2 v_s/g; in each impact friction takes mu 2 v_s from the speed until the slip
+    is stopped."""
     c, radius, low, speed, g, _, v_s = slipping()
     x, _, z = vector(c["ball"][0]["position"])
     time, flight, slip, spin = Decimal(0), v_s / g, speed, Decimal(0)
@@ -134,7 +139,8 @@ def slipping_particle():
 
 
 def slipping_particle_limits():
-    """Sliding and rolling in lasting contact, the limit v_s -> 0; friction acts in portions of one hop, 2 v_s/g."""
+    """Sliding and rolling in lasting contact, the limit v_s -> 0; friction acts in portions of one
+    hop, 2 v_s/g."""
     c, radius, _, v, g, mu, v_s = slipping()
     m, hop = mass(c["ball"][0]), 2 * v_s / g
     return [
@@ -150,7 +156,8 @@ def slipping_particle_limits():
 
 
 def stacked_particles():
-    """Both balls fall alike and so approach each other at a constant speed; floor and ceiling are met on parabolas."""
+    """Both balls fall alike and so approach each other at a constant speed; floor and ceiling are
+    met on parabolas."""
     c = case("stacked_particles")
     g, e, top = number(
         c["run"]["gravity"]), c["contact"]["restitution"], number(c["vessel"]["size"][0]) / 2
@@ -184,8 +191,9 @@ def stacked_particles():
 
 
 def stacked_particles_limits():
-    """Mean forces over 50 s from the start: weights, but for the momentum that the balls can have at the end by their energy
-    and, at the start, the upper ball's own; both balls together have none."""
+    """Mean forces over 50 s from the start: weights, but for the momentum that the balls can have
+    at the end by their energy and, at the start, the upper ball's own; both balls together have
+    none."""
     c = case("stacked_particles")
     g, top, duration = number(c["run"]["gravity"]), number(c["vessel"]["size"][0]) / 2, 50
     radius, m = number(c["ball"][0]["diameter"]) / 2, [mass(b) for b in c["ball"]]
@@ -199,8 +207,8 @@ def stacked_particles_limits():
 
 
 def rolling_drum():
-    """Without gravity a ball flies along chords, which end at equal angles: its normal speed stays the same. Friction acts on
-    the slip against the wall's speed w R_v."""
+    """Without gravity a ball flies along chords, which end at equal angles: its normal speed stays
+    the same. Friction acts on the slip against the wall's speed w R_v."""
     c = case("rolling_drum")
     w, wall = number(c["mill"]["speed"]), number(c["vessel"]["diameter"]) / 2
     rows = []
@@ -231,10 +239,11 @@ def rolling_drum():
 
 
 def drum_detachment_limits():
-    """Rolling on a wall of constant speed the ball has 7/10 v^2 + g l (1 - cos psi) per mass, seen from the axis; it leaves
-    where v^2/l + g cos psi = 0. The force per mass falls like j t, and the flight begins up to t0 = sqrt(8 v_s/(3 j)) before
-    that or t0/2 after it. In a hop of up to 3/2 t0 gravity makes g sin(psi) 3/2 t0 of slip, half of it on either side of
-    rolling, of which 2/7 are in the speed."""
+    """Rolling on a wall of constant speed the ball has 7/10 v^2 + g l (1 - cos psi) per mass, seen
+    from the axis; it leaves where v^2/l + g cos psi = 0. The force per mass falls like j t, and the
+    flight begins up to t0 = sqrt(8 v_s/(3 j)) before that or t0/2 after it. In a hop of up to 3/2
+    t0 gravity makes g sin(psi) 3/2 t0 of slip, half of it on either side of rolling, of which 2/7
+    are in the speed."""
     c = case("drum_detachment")
     ball, g, v_s = c["ball"][0], number(c["run"]["gravity"]), number(
         c["contact"]["least_separation"])

@@ -3,8 +3,9 @@
 
 usage: edmill_statistics.py EDMILL CASE FOUND.csv [--short] [--write]
 
-FOUND.csv gets name,value,uncertainty for check.py. --short makes few and short runs with other seeds; their
-uncertainties are those of statistics.csv, scaled by the root of the time that was simulated. Runs are made below ./CASE."""
+FOUND.csv gets name,value,uncertainty for check.py. --short makes few and short runs with other
+seeds; their uncertainties are those of statistics.csv, scaled by the root of the time that was
+simulated. Runs are made below ./CASE."""
 import argparse
 import csv
 import json
@@ -129,8 +130,8 @@ def spex(folder, _):
     return found
 
 
-# Case: what makes its quantities, begin and end of the record of a full and end of a short run [s], replicas of a short one
-# (0: the case is deterministic), settings.
+# Case: what makes its quantities, begin and end of the record of a full and end of a short run [s],
+# replicas of a short one (0: the case is deterministic), settings.
 STATISTICS = '{{type="statistics",start_time="{start} s",columns=[{columns}]}}'.replace(
     "{columns}",
     '{{variable="collision",statistics=["rate"]}},{{variable="normal_impulse",statistics=["rate"]}}'

@@ -7,11 +7,13 @@ from closed_forms import PI, case, mass, number, vector
 def elastic_gas():
     """Name of a quantity to its value and whether it is exact.
 
-    Velocities are uniform on the sphere of constant energy wherever the balls are, so all means of them are exact for any N,
-    and so is the virial. The force on the walls is an approximation, and the virial gives the rates from it. It has Carnahan
-    and Starling's pressure p(n) of the bulk; the walls' surface tension by scaled particle theory, but with its true third
-    coefficient, 149/35 in place of 4; the edges to n^3; and, since N is fixed, a term in 1/N. Monte Carlo integration of the
-    third cluster integral, 1e8 triples, gave 0.1894 of the edges and 0.8754 ± 0.0001 for 149 pi^2/1680 = 0.8753."""
+    Velocities are uniform on the sphere of constant energy wherever the balls are, so all means of
+    them are exact for any N, and so is the virial. The force on the walls is an approximation, and
+    the virial gives the rates from it. It has Carnahan and Starling's pressure p(n) of the bulk;
+    the walls' surface tension by scaled particle theory, but with its true third coefficient,
+    149/35 in place of 4; the edges to n^3; and, since N is fixed, a term in 1/N. Monte Carlo
+    integration of the third cluster integral, 1e8 triples, gave 0.1894 of the edges and 0.8754 ±
+    0.0001 for 149 pi^2/1680 = 0.8753."""
     c = case("elastic_gas")
     ball, count = c["balls"][0], sum(b["count"] for b in c["balls"])
     sigma, u, m = number(ball["diameter"]), abs(vector(ball["velocity"])[0]), mass(ball)

@@ -1,5 +1,5 @@
-// The steps of the page's run, with an engine that answers at once and takes the time that it is given: at a pace, paused, impact by impact,
-// and then to the end.
+// The steps of the page's run, with an engine that answers at once and takes the time that it is
+// given: at a pace, paused, impact by impact, and then to the end.
 //
 // usage: node steps_test.js SOURCE
 'use strict';
