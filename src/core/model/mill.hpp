@@ -80,7 +80,7 @@ struct Mill {
     if (bodies.empty()) [[likely]]
       return nullptr;
     const int k = wall - vessel.wall_count();
-    return k < 0 ? nullptr : &bodies[static_cast<std::size_t>(k)];
+    return k < 0 ? nullptr : &bodies[k];
   }
 
   const ContactLaw<Real>& law_between(const BallProperties<Real>& one,
@@ -89,7 +89,7 @@ struct Mill {
       return ball_ball;
     const int law = pairs.of_balls[static_cast<std::size_t>(one.material) * pairs.materials +
                                    static_cast<std::size_t>(other.material)];
-    return law < 0 ? ball_ball : pairs.laws[static_cast<std::size_t>(law)];
+    return law < 0 ? ball_ball : pairs.laws[law];
   }
   const ContactLaw<Real>& law_with_wall(const BallProperties<Real>& ball, int wall) const {
     if (pairs.empty()) [[likely]]
@@ -97,7 +97,7 @@ struct Mill {
     const std::size_t walls = pairs.of_walls.size() / pairs.materials;
     const int law =
         pairs.of_walls[static_cast<std::size_t>(ball.material) * walls + static_cast<std::size_t>(wall)];
-    return law < 0 ? ball_wall : pairs.laws[static_cast<std::size_t>(law)];
+    return law < 0 ? ball_wall : pairs.laws[law];
   }
   /// The smallest and the largest least separation speed of all laws [m/s].
   std::pair<Real, Real> least_separations() const {

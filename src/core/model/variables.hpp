@@ -77,7 +77,7 @@ Real ball_variable(int row, const BallProperties<Real>& ball, const BallState<Re
 #include "model/ball_variables.def"
   };
 #undef EDMILL_BALL_VARIABLE
-  return formulas[static_cast<std::size_t>(row)]({ball, state, pi});
+  return formulas[row]({ball, state, pi});
 }
 
 }  // namespace edmill::model

@@ -161,7 +161,7 @@ TangentMap::~TangentMap() = default;
 void TangentMap::with_wall(const ImpactAt& impact, int wall, const Struck& struck,
                            std::span<Tangent<double>> directions) const {
   const auto& mill = mill_->mill;
-  const auto& ball = mill_->balls[static_cast<std::size_t>(struck.ball)];
+  const auto& ball = mill_->balls[struck.ball];
   const auto& law = mill.law_with_wall(ball, wall);
   for (auto& direction : directions) {
     const double later = delay(impact.normal, direction.position, impact.approach_speed);
@@ -176,8 +176,7 @@ void TangentMap::with_wall(const ImpactAt& impact, int wall, const Struck& struc
 
 void TangentMap::of_pair(const ImpactAt& impact, const Struck& one, const Struck& two,
                          std::span<Tangent<double>> of_one, std::span<Tangent<double>> of_two) const {
-  const auto &ball = mill_->balls[static_cast<std::size_t>(one.ball)],
-             &partner = mill_->balls[static_cast<std::size_t>(two.ball)];
+  const auto &ball = mill_->balls[one.ball], &partner = mill_->balls[two.ball];
   const auto& law = mill_->mill.law_between(ball, partner);
   for (std::size_t k = 0; k < of_one.size(); ++k) {
     const double later = delay(impact.normal, of_one[k].position - of_two[k].position, impact.approach_speed);
@@ -209,7 +208,7 @@ Spectrum::Spectrum(const model::Mill<double>& mill, const Balls& balls, const In
 }
 
 void Spectrum::fly(int ball, const Instant<double>& now) {
-  auto& since = state_.since[static_cast<std::size_t>(ball)];
+  auto& since = state_.since[ball];
   const double dt = clock_.elapsed(since, now);
   for (auto& direction : of_ball(ball)) direction.fly(dt);
   since = now;
@@ -233,8 +232,8 @@ void Spectrum::of_pair(const ImpactAt& impact, const Struck& one, const Struck& 
 /// restitution. Sixteen digits suffice for many such collisions, but not for a ball that hops.
 void Spectrum::count_impact(const Instant<double>& now, int ball, int partner) {
   constexpr std::int64_t most_of_ball = 8;
-  auto& of_one = ++state_.of_ball[static_cast<std::size_t>(ball)];
-  auto& of_other = state_.of_ball[static_cast<std::size_t>(partner)];
+  auto& of_one = ++state_.of_ball[ball];
+  auto& of_other = state_.of_ball[partner];
   if (partner != ball) ++of_other;
   if (++state_.since_orthonormal >= balls_ || std::max(of_one, of_other) >= most_of_ball) orthonormalise(now);
 }

@@ -87,7 +87,7 @@ class RoundedBody {
     if (is_round_) {
       outside_ = {squared_across(p) > half_[0] * half_[0] ? 1 : 0, side(1, p), 0};
     } else {
-      for (int i = 0; i < 3; ++i) outside_[static_cast<std::size_t>(i)] = side(i, p);
+      for (int i = 0; i < 3; ++i) outside_[i] = side(i, p);
     }
     return 9 * outside_[0] + 3 * outside_[1] + outside_[2];
   }
@@ -156,7 +156,7 @@ class RoundedBody {
 
   PerWall<Real> gaps(const Vec3<Real>& p) const {
     PerWall<Real> all;
-    for (int f = 0; f < function_count(); ++f) all[static_cast<std::size_t>(f)] = gap(f, p);
+    for (int f = 0; f < function_count(); ++f) all[f] = gap(f, p);
     return all;
   }
   Real gap(int f, const Vec3<Real>& p) const {
@@ -181,9 +181,9 @@ class RoundedBody {
         if (counts(i)) sum += excess(i, p) * excess_rate(i, p, v);
     PerWall<Real> all{Real(2 * sum)};
     for (int f = 1; f < function_count(); ++f)
-      all[static_cast<std::size_t>(f)] = !is_border(f)        ? Real(0)
-                                         : is_round_ && f < 3 ? Real(sign(f) * 2 * moved)
-                                                              : Real(sign(f) * v[axis(f)]);
+      all[f] = !is_border(f)        ? Real(0)
+               : is_round_ && f < 3 ? Real(sign(f) * 2 * moved)
+                                    : Real(sign(f) * v[axis(f)]);
     return all;
   }
   PerWall<Real> curvatures(const Vec3<Real>& p, const Vec3<Real>& v, const Vec3<Real>& a) const {
@@ -193,21 +193,21 @@ class RoundedBody {
       for (int i = 0; i < 3; ++i)
         if (counts(i)) {
           const Real rate = excess_rate(i, p, v);
-          Real second = outside_[static_cast<std::size_t>(i)] < 0 ? Real(-a[i]) : a[i];
+          Real second = outside_[i] < 0 ? Real(-a[i]) : a[i];
           if (is_round_ && i == 0) second = (bent - rate * rate) / across(p);
           sum += rate * rate + excess(i, p) * second;
         }
     PerWall<Real> all{Real(2 * sum)};
     for (int f = 1; f < function_count(); ++f)
-      all[static_cast<std::size_t>(f)] = !is_border(f)        ? Real(0)
-                                         : is_round_ && f < 3 ? Real(sign(f) * 2 * bent)
-                                                              : Real(sign(f) * a[axis(f)]);
+      all[f] = !is_border(f)        ? Real(0)
+               : is_round_ && f < 3 ? Real(sign(f) * 2 * bent)
+                                    : Real(sign(f) * a[axis(f)]);
     return all;
   }
 
   PerWall<bool> active(const Vec3<Real>&) const {
     PerWall<bool> on;
-    for (int f = 0; f < function_count(); ++f) on[static_cast<std::size_t>(f)] = f == 0 || is_border(f);
+    for (int f = 0; f < function_count(); ++f) on[f] = f == 0 || is_border(f);
     return on;
   }
   /// True if p is in the region, to within the rounding of the gap.
@@ -231,7 +231,7 @@ class RoundedBody {
     if (squared_norm<Real>(from_core(p)) > near * near) return {};
     auto on = active(p);
     for (int f = 1; f < function_count(); ++f) {
-      auto& own = on[static_cast<std::size_t>(f)];
+      auto& own = on[f];
       if (own && !(is_round_ && f < 3)) own = !(border(f, p) > way);
     }
     return on;
@@ -306,14 +306,14 @@ class RoundedBody {
   }
   bool is_side() const { return is_round_ && outside_[0] != 0 && outside_[1] == 0; }
   /// True if an excess is part of the gap. The excess of a cylinder across its axis takes the place of x.
-  bool counts(int i) const { return outside_[static_cast<std::size_t>(i)] != 0; }
+  bool counts(int i) const { return outside_[i] != 0; }
   Real excess(int i, const Vec3<Real>& p) const {
     if (is_round_ && i == 0) return across(p) - half_[0];
-    return (outside_[static_cast<std::size_t>(i)] < 0 ? Real(-p[i]) : p[i]) - half_[i];
+    return (outside_[i] < 0 ? Real(-p[i]) : p[i]) - half_[i];
   }
   Real excess_rate(int i, const Vec3<Real>& p, const Vec3<Real>& v) const {
     if (is_round_ && i == 0) return (p[0] * v[0] + p[2] * v[2]) / across(p);
-    return outside_[static_cast<std::size_t>(i)] < 0 ? Real(-v[i]) : v[i];
+    return outside_[i] < 0 ? Real(-v[i]) : v[i];
   }
 
   // Borders: functions 2 i + 1 and 2 i + 2 belong to axis i. A region outside has the first of them, one
@@ -326,7 +326,7 @@ class RoundedBody {
   }
   /// The sign of the derivative along the axis or, for a cylinder, across its axis.
   int sign(int f) const {
-    const int own = outside_[static_cast<std::size_t>(axis(f))];
+    const int own = outside_[axis(f)];
     if (is_round_ && f < 3) return own != 0 ? 1 : -1;
     return own != 0 ? own : f % 2 == 1 ? 1 : -1;
   }

@@ -2,16 +2,10 @@
 // section 1.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <optional>
-#include <vector>
+#include <tuple>
 
-#include "base/archive.hpp"
-#include "base/instant.hpp"
-#include "base/scalar.hpp"
-#include "base/trigonometry.hpp"
-#include "base/vector.hpp"
 #include "model/motions/joints.hpp"
 #include "model/parts/vessel_frame.hpp"
 
@@ -24,22 +18,19 @@ Vec3<Real> turned_about(const Vec3<Real>& v, const Vec3<Real>& axis, const numer
 }
 
 /// Bounds on a chain's motion that are valid at all times (docs/theory.md, section 3): on the norms, as
-/// observed in the moving frame, of the angular velocity and its first three derivatives, and of the
-/// acceleration of the origin and its first two.
+/// observed in the moving frame, of the angular velocity and the acceleration of the origin, and of their
+/// derivatives.
 template <class Real>
 struct ChainBounds {
-  enum class Speeds {
-    summed,  ///< constant speeds about parallel axes add with their signs: a jar may turn against its disc
-    apart    ///< their magnitudes are added, as rounding errors require
-  };
-
   std::array<Real, 4> turning{};       ///< [rad/s], [rad/s^2], ...
   std::array<Real, 3> acceleration{};  ///< [m/s^2], ...
   Real speed{0};                       ///< of the origin [m/s]
   Real distance{0};                    ///< of the origin from that of the ground [m]
-  Real errors{20};  ///< bound on the relative rounding errors of any of these quantities, in units of u
+  Real errors{20};                     ///< bound on the relative rounding errors of all of these [u]
 
-  ChainBounds(const Joints<Real>& joints, Speeds speeds) {
+  /// @param apart  the magnitudes of constant speeds are added, as rounding errors require; otherwise those
+  ///               about parallel axes count with their signs: a jar may turn against its disc
+  ChainBounds(const Joints<Real>& joints, bool apart) {
     std::optional<Vec3<Real>> common;  // direction of all axes so far, in the present frame
     bool parallel = true;
     Real sum(0), sizes(0);  // of the constant speeds about it
@@ -56,9 +47,9 @@ struct ChainBounds {
         if (common && dot<Real>(*common, axis) < 0) sum = -sum;
         common = axis;
         rotate(rates, parallel);
-        if (!parallel || speeds == Speeds::apart) continue;
-        const Real own = 2 * numerics::pi<Real>() * joint.speed,
-                   sum_of_sizes = magnitude(sum) + magnitude(own);
+        if (!parallel || apart) continue;
+        const Real own = 2 * numerics::pi<Real>() * joint.speed;
+        const Real sum_of_sizes = magnitude(sum) + magnitude(own);
         sum += own;
         sizes += magnitude(own);
         turning[0] += (magnitude(sum) - sum_of_sizes) + 8 * epsilon<Real>() * sizes;
@@ -71,20 +62,25 @@ struct ChainBounds {
     for (auto& bound : acceleration) bound *= up;
   }
 
+  /// Bounds on a ball in the frame, as in the concept Motion.
+  Real speed_in_vessel(const FlightBounds<Real>& f) const { return f.speed + speed + turning[0] * f.reach; }
+  Real acceleration_in_vessel(const FlightBounds<Real>& f) const {
+    return f.gravity + acceleration[0] + 2 * turning[0] * speed_in_vessel(f) + bend() * f.reach;
+  }
+  Real bend() const { return turning[1] + turning[0] * turning[0]; }
+
   static Vec3<Real> direction(const Joint<Real>& joint) {
-    const Vec3<Real> axis{joint.axis[0], joint.axis[1], joint.axis[2]};
+    const Vec3<Real> axis(joint.axis.data());
     const Real size = norm<Real>(axis);
     return size > 0 ? Vec3<Real>(axis / size) : axis;
   }
 
  private:
   /// Bounds on the joint's angle [rad] or shift [m] and its first four derivatives.
-  static std::array<Real, 5> rates_of(const Joint<Real>& joint, const std::array<Real, 2>& times) {
+  static Majorant<Real> rates_of(const Joint<Real>& joint, const std::array<Real, 2>& times) {
     const Real turn = 2 * numerics::pi<Real>();
     const Real unit = joint.rotates ? turn : Real(1);
-    const Vec3<Real> fixed{joint.shift[0], joint.shift[1], joint.shift[2]};
-    std::array<Real, 5> rates{norm<Real>(fixed), magnitude<Real>(unit * joint.speed), Real(0), Real(0),
-                              Real(0)};
+    Majorant<Real> rates{norm<Real>(Vec3<Real>(joint.shift.data())), magnitude<Real>(unit * joint.speed)};
     if (!joint.rotates) {
       const Real first = magnitude(times[0]), last = magnitude(times[1]);
       rates[0] += rates[1] * (first > last ? first : last);
@@ -98,17 +94,16 @@ struct ChainBounds {
     }
     return rates;
   }
-  /// Rounding errors of a joint in units of u: that of a phase, which is a few roundings of its number of
-  /// turns and 2 pi times as large in radians; then of a sine, and of products with a matrix and with the
-  /// vectors of the following frames.
+  /// Rounding errors of a joint in units of u: of a phase, a few roundings of its number of turns, 2 pi
+  /// times as large in radians; then of a sine, and of products with a matrix and the vectors of the
+  /// following frames.
   static Real error_of(const Joint<Real>& joint, const Real& period) {
     const auto of_phase = [&](const Real& frequency) {
       return Real(7 * (4 + 3 * magnitude<Real>(frequency * period)));
     };
     // Constant angles and phases count, too, if they exceed the one turn that is included above.
     const auto of_turns = [](const Real& turns) {
-      const Real size = magnitude(turns);
-      return size > 1 ? Real(14 * size) : Real(0);
+      return magnitude(turns) > 1 ? Real(14 * magnitude(turns)) : Real(0);
     };
     Real most = of_turns(joint.angle);
     if (!(joint.speed == 0)) most += joint.rotates ? of_phase(joint.speed) : Real(8);
@@ -122,9 +117,9 @@ struct ChainBounds {
     return squared_norm<Real>(cross<Real>(a, b)) < 64 * epsilon<Real>() * epsilon<Real>();
   }
 
-  /// The frame behind the joint turns about an axis: its angular velocity is E w + axis angle', and E b the
-  /// acceleration, where the derivatives of the matrix E follow from those of the angle. (Faa di Bruno)
-  void rotate(const std::array<Real, 5>& angle, bool parallel) {
+  /// The frame behind the joint turns about an axis: its angular velocity is E w + axis angle', E b the
+  /// acceleration; the derivatives of the matrix E follow from those of the angle. (Faa di Bruno)
+  void rotate(const Majorant<Real>& angle, bool parallel) {
     const Real &a = angle[1], &b = angle[2], &c = angle[3];
     const std::array<Real, 4> matrix{Real(1), a, a * a + b, a * a * a + 3 * a * b + c};
     const auto w = turning;
@@ -134,7 +129,7 @@ struct ChainBounds {
     for (int k = 0; k < 3; ++k) acceleration[k] = product_bound(matrix, 0, old, k);
   }
   /// (d + C)'' with C = shift in a frame that turns: d'' + 2 w x d' + w' x d + w x (w x d).
-  void shift(const std::array<Real, 5>& d) {
+  void shift(const Majorant<Real>& d) {
     std::array<Real, 3> square;
     for (int k = 0; k < 3; ++k) square[k] = product_bound(turning, 0, turning, k);
     for (int k = 0; k < 3; ++k)
@@ -144,23 +139,6 @@ struct ChainBounds {
     distance += d[0];
   }
 };
-
-/// Bounds over a box on the coordinate along an axis through the origin, and on the distance from this axis.
-template <class Real>
-Real bound_along(const Vec3<Real>& axis, const Vec3<Real>& middle, const Vec3<Real>& half) {
-  return magnitude<Real>(dot<Real>(axis, middle)) + dot<Real>(axis.cwiseAbs(), half);
-}
-template <class Real>
-Real bound_across(const Vec3<Real>& axis, const Vec3<Real>& middle, const Vec3<Real>& half) {
-  Real most(0);
-  for (int corner = 0; corner < 8; ++corner) {
-    Vec3<Real> p = middle;
-    for (int k = 0; k < 3; ++k) p[k] += (corner >> k) % 2 ? half[k] : Real(-half[k]);
-    const Real size = norm<Real>(cross<Real>(axis, p));
-    most = size > most ? size : most;
-  }
-  return most;
-}
 
 /// The box that a vessel of these half sizes sweeps: from the vessel to the ground, each joint turns or
 /// shifts the bounding box of the later joints.
@@ -173,8 +151,7 @@ SweptBox<Real> swept_box(const Joints<Real>& joints, const Vec3<Real>& sizes) {
     Real swing(0);
     for (const auto& s : joint->swings) swing += magnitude<Real>(s.amplitude);
     if (!joint->rotates) {
-      const Vec3<Real> shift{joint->shift[0], joint->shift[1], joint->shift[2]};
-      const Vec3<Real> way = axis.cwiseAbs() * swing;
+      const Vec3<Real> shift(joint->shift.data()), way = axis.cwiseAbs() * swing;
       const Vec3<Real> first = axis * Real(joint->speed * joints.times[0]),
                        last = axis * Real(joint->speed * joints.times[1]);
       box = {box.low + shift - way + first.cwiseMin(last), box.high + shift + way + first.cwiseMax(last)};
@@ -186,16 +163,21 @@ SweptBox<Real> swept_box(const Joints<Real>& joints, const Vec3<Real>& sizes) {
     const auto angle = numerics::sin_cos_turns<Real>(joint->angle);
     const Real more = joint->speed == 0 ? Real(2 * numerics::pi<Real>() * swing * farthest) : 2 * farthest;
     Vec3<Real> reach = Vec3<Real>::Constant(more);
-    for (int k = 0; k < 3; ++k) {
-      const Vec3<Real> unit = Vec3<Real>::Unit(k);
-      reach += turned_about<Real>(unit, axis, angle).cwiseAbs() * half[k];
-    }
+    for (int k = 0; k < 3; ++k)
+      reach += turned_about<Real>(Vec3<Real>::Unit(k), axis, angle).cwiseAbs() * half[k];
     const Vec3<Real> centre = turned_about<Real>(middle, axis, angle);
     // A rotation preserves the coordinate along its axis and the distance from it.
+    const Real along = magnitude<Real>(dot<Real>(axis, middle)) + dot<Real>(axis.cwiseAbs(), half);
+    Real across(0);
+    for (int corner = 0; corner < 8; ++corner) {
+      Vec3<Real> p = middle;
+      for (int k = 0; k < 3; ++k) p[k] += (corner >> k) % 2 ? half[k] : Real(-half[k]);
+      const Real size = norm<Real>(cross<Real>(axis, p));
+      across = size > across ? size : across;
+    }
     for (int k = 0; k < 3; ++k) {
-      const Real height = magnitude<Real>(axis[k]) * bound_along(axis, middle, half);
-      const Real away = sqrt(magnitude<Real>(1 - axis[k] * axis[k])) * bound_across(axis, middle, half);
-      const Real around = height + away;
+      const Real away = sqrt(magnitude<Real>(1 - axis[k] * axis[k])) * across;
+      const Real around = magnitude<Real>(axis[k]) * along + away;
       const Real low = centre[k] - reach[k], high = centre[k] + reach[k];
       box.low[k] = low < -around ? Real(-around) : low;
       box.high[k] = high > around ? around : high;
@@ -209,9 +191,10 @@ SweptBox<Real> swept_box(const Joints<Real>& joints, const Vec3<Real>& sizes) {
 /// Position, orientation and motion of the vessel frame, in inertial coordinates.
 template <class Real>
 struct ChainPose {
-  Vec3<Real> x, y, z;                         ///< axes of the vessel frame
-  Vec3<Real> centre, velocity, acceleration;  ///< of its origin [m], [m/s], [m/s^2]
-  Vec3<Real> omega, omega_rate;               ///< angular velocity and its rate [rad/s], [rad/s^2]
+  Vec3<Real> x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};  ///< axes of the vessel frame
+  /// Of its origin [m], [m/s], [m/s^2].
+  Vec3<Real> centre{0, 0, 0}, velocity{0, 0, 0}, acceleration{0, 0, 0};
+  Vec3<Real> omega{0, 0, 0}, omega_rate{0, 0, 0};  ///< angular velocity and its rate [rad/s], [rad/s^2]
 
   void archive(Archive& a) { a(x, y, z, centre, velocity, acceleration, omega, omega_rate); }
 };
@@ -227,32 +210,29 @@ class ChainMotion {
 
   ChainMotion() : ChainMotion(Joints<Real>{{}, Real(1)}) {}
   explicit ChainMotion(const Joints<Real>& joints)
-      : joints_(with_frequencies(joints)),
-        bounds_(joints_, ChainBounds<Real>::Speeds::summed),
-        terms_(joints_, ChainBounds<Real>::Speeds::apart) {
+      : joints_(with_frequencies(joints)), bounds_(joints_, false), terms_(joints_, true) {
     // State of the chain up to each joint, by which terms that vanish in every pose are omitted.
     bool level = true, turned = false, uneven = false;
     int common = -1;  // the one axis that all rotations are about
     for (const auto& joint : joints_.list) {
-      const bool drives = joint.rotates && !(joint.speed == 0);
-      const Real turn = 2 * numerics::pi<Real>();
+      const Real turning = joint.rotates ? joint.speed : Real(0);
       const int axis = joint.rotates ? aligned(joint.axis) : -1;
       const Swings<Real> swings(joint.swings);
-      const Step& step = steps_.emplace_back(Step{
-          .rotates = joint.rotates,
-          .axis = ChainBounds<Real>::direction(joint),
-          .aligned = axis,
-          .shift = {joint.shift[0], joint.shift[1], joint.shift[2]},
-          .angle = joint.angle,
-          .drive = drives ? Drive<Real>{joint.speed, turn * joint.speed, joint.per_period} : Drive<Real>{},
-          .slide = joint.rotates ? Real(0) : joint.speed,
-          .swings = swings,
-          .fixed = numerics::sin_cos_turns<Real>(joint.angle),
-          .moves = joint.speed != 0 || !swings.empty(),
-          .level = level,
-          .turned = turned,
-          .parallel = axis >= 0 && axis == common,
-          .uneven = uneven});
+      const Step& step =
+          steps_.emplace_back(Step{.rotates = joint.rotates,
+                                   .axis = ChainBounds<Real>::direction(joint),
+                                   .aligned = axis,
+                                   .shift = Vec3<Real>(joint.shift.data()),
+                                   .angle = joint.angle,
+                                   .drive = {turning, 2 * numerics::pi<Real>() * turning, joint.per_period},
+                                   .slide = joint.speed,
+                                   .swings = swings,
+                                   .fixed = numerics::sin_cos_turns<Real>(joint.angle),
+                                   .moves = joint.speed != 0 || !swings.empty(),
+                                   .level = level,
+                                   .turned = turned,
+                                   .parallel = axis >= 0 && axis == common,
+                                   .uneven = uneven});
       if (!step.rotates) continue;
       level = false;
       if (step.moves) uneven = uneven || !swings.empty() || (turned && !step.parallel);
@@ -274,28 +254,27 @@ class ChainMotion {
   Pose place(const Instant<Real>& when) const { return made<false>(when); }
   /// Computed without the known pose, whose rates would need derivatives beyond those that it has.
   Pose pose_nearby(const Instant<Real>& when, const Pose&, const Instant<Real>&) const { return pose(when); }
-  /// `position_in_vessel` at an instant of the same period as `known`, from the pose at `known`. With R and C
-  /// the orientation and the centre, R' = [w] R and R'' = [w'] R + [w]^2 R: for at most `moment_` their
-  /// Taylor polynomials are as accurate as the scalar.
-  Vec3<Real> position_nearby(const Instant<Real>& when, const Pose& pose_known, const Instant<Real>& known,
+  /// In the period of `known`. With R and C the orientation and the centre, R' = [w] R and R'' = [w'] R +
+  /// [w]^2 R: for at most `moment_` their Taylor polynomials are as accurate as the scalar.
+  Vec3<Real> position_nearby(const Instant<Real>& when, const Pose& pose, const Instant<Real>& known,
                              const Vec3<Real>& position) const {
     const Real dt = when.offset - known.offset;
     const auto short_dt = static_cast<Hint<Real>>(dt);
     if (!(short_dt <= moment_ && short_dt >= -moment_)) [[unlikely]]
       return position_in_vessel(made<false>(when), position);
     const Real half = dt / 2;
-    const Vec3<Real> turn = (pose_known.omega + pose_known.omega_rate * half) * dt;
-    const Vec3<Real> centre = pose_known.centre + (pose_known.velocity + pose_known.acceleration * half) * dt;
+    const Vec3<Real> turn = (pose.omega + pose.omega_rate * half) * dt;
+    const Vec3<Real> centre = pose.centre + (pose.velocity + pose.acceleration * half) * dt;
     const Vec3<Real> d = position - centre;
     const Vec3<Real> first = cross<Real>(turn, d);
-    return to_vessel(pose_known, d - (first - cross<Real>(turn, first) / Real(2)));
+    return to_vessel(pose, d - (first - cross<Real>(turn, first) / Real(2)));
   }
 
   static const Vec3<Real>& axis_x(const Pose& p) { return p.x; }
   static const Vec3<Real>& axis_y(const Pose& p) { return p.y; }
   static const Vec3<Real>& axis_z(const Pose& p) { return p.z; }
-  static Vec3<Real> direction_to_inertial(const Pose& pose, const Vec3<Real>& n) {
-    const auto along = [&](int k) { return Real(pose.x[k] * n[0] + pose.y[k] * n[1] + pose.z[k] * n[2]); };
+  static Vec3<Real> direction_to_inertial(const Pose& p, const Vec3<Real>& n) {
+    const auto along = [&](int k) { return Real(p.x[k] * n[0] + p.y[k] * n[1] + p.z[k] * n[2]); };
     return {along(0), along(1), along(2)};
   }
   static Vec3<Real> to_inertial(const Pose& pose, const Vec3<Real>& p) {
@@ -304,16 +283,16 @@ class ChainMotion {
   static Vec3<Real> position_in_vessel(const Pose& pose, const Vec3<Real>& position) {
     return to_vessel(pose, position - pose.centre);
   }
-  static VesselFrameState<Real> to_vessel_frame(const Pose& pose, const Vec3<Real>& position,
+  static VesselFrameState<Real> to_vessel_frame(const Pose& p, const Vec3<Real>& position,
                                                 const Vec3<Real>& velocity) {
-    const Vec3<Real> d = position - pose.centre;
-    return {to_vessel(pose, d), to_vessel(pose, velocity - (pose.velocity + cross<Real>(pose.omega, d)))};
+    const Vec3<Real> d = position - p.centre;
+    return {to_vessel(p, d), to_vessel(p, velocity - (p.velocity + cross<Real>(p.omega, d)))};
   }
-  static Vec3<Real> vessel_frame_acceleration(const Pose& pose, const VesselFrameState<Real>& state,
+  static Vec3<Real> vessel_frame_acceleration(const Pose& p, const VesselFrameState<Real>& state,
                                               const Vec3<Real>&, const Vec3<Real>& gravity) {
-    const Vec3<Real> d = direction_to_inertial(pose, state.position);
-    const Vec3<Real> v = direction_to_inertial(pose, state.velocity);
-    return to_vessel(pose, gravity - (acceleration_at(pose, d) + cross<Real>(pose.omega, v) * Real(2)));
+    const Vec3<Real> d = direction_to_inertial(p, state.position);
+    const Vec3<Real> v = direction_to_inertial(p, state.velocity);
+    return to_vessel(p, gravity - (acceleration_at(p, d) + cross<Real>(p.omega, v) * Real(2)));
   }
   static Vec3<Real> angular_velocity(const Pose& pose) { return pose.omega; }
   static Vec3<Real> wall_velocity(const Pose& pose, const Vec3<Real>& point) {
@@ -333,17 +312,13 @@ class ChainMotion {
   }
   Real speed_within(const Real& distance) const { return wall_speed(distance + bounds_.distance); }
   Real acceleration_within(const Real& distance) const {
-    return bounds_.acceleration[0] + bend(bounds_) * (distance + bounds_.distance);
+    return bounds_.acceleration[0] + bounds_.bend() * (distance + bounds_.distance);
   }
-  Real longest_window() const {
-    const Real& turning = bounds_.turning[0];
-    const Real quarter = turning > 0 ? Real(1 / (4 * turning)) : period();
-    return period() / 8 < quarter ? Real(period() / 8) : quarter;
-  }
+  Real longest_window() const { return window_of(period(), bounds_.turning[0]); }
   SweptBox<Real> swept(const Vec3<Real>& sizes, const Real&) const { return swept_box<Real>(joints_, sizes); }
 
-  /// With p' and p the velocity and place in the frame, R its rotation and b the acceleration of its origin:
-  /// p'' = R g - b - 2 w x p' - w' x p - w x (w x p), and its derivatives by Leibniz' rule.
+  /// With p the place in the frame, R its rotation, b the acceleration of its origin: p'' = R g - b - 2 w x
+  /// p' - w' x p - w x (w x p), and its derivatives by Leibniz' rule.
   CoordinateBounds<Real> coordinate_bounds(const Vec3<Real>& sizes, const Real& vessel_reach,
                                            const Real& gravity, const Real& speed, const Real& length) const {
     const auto& w = bounds_.turning;
@@ -359,11 +334,9 @@ class ChainMotion {
     return {along(0), along(1), along(2)};
   }
 
-  Real speed_in_vessel(const FlightBounds<Real>& f) const { return speed_in_vessel(bounds_, f); }
-  Real acceleration_in_vessel(const FlightBounds<Real>& f) const {
-    return acceleration_in_vessel(bounds_, f);
-  }
-  /// Errors of the flight's position and velocity, and of all parts of the pose by ChainBounds::errors.
+  Real speed_in_vessel(const FlightBounds<Real>& f) const { return bounds_.speed_in_vessel(f); }
+  Real acceleration_in_vessel(const FlightBounds<Real>& f) const { return bounds_.acceleration_in_vessel(f); }
+  /// Errors of the flight and, by ChainBounds::errors, of all parts of the pose.
   ErrorBounds<Real> coordinate_errors(const Real& u, const FlightBounds<Real>& f) const {
     const Real fallen = f.gravity * f.elapsed;
     const Real position = 12 * f.reach + 8 * (fallen * f.elapsed) + 2 * (f.speed * (f.elapsed + 3 * f.lag));
@@ -397,8 +370,7 @@ class ChainMotion {
 
   template <bool with_rates>
   Pose made(const Instant<Real>& when) const {
-    const Vec3<Real> zero = Vec3<Real>::Zero();
-    Pose p{Vec3<Real>::UnitX(), Vec3<Real>::UnitY(), Vec3<Real>::UnitZ(), zero, zero, zero, zero, zero};
+    Pose p;
     for (const auto& step : steps_) {
       if (step.rotates)
         rotate<with_rates>(p, step, when);
@@ -407,8 +379,8 @@ class ChainMotion {
     }
     return p;
   }
-  /// Computes frequencies from the turns per drive period, which are exact, so that the pose at the end of a
-  /// period is that at the begin of the next in every scalar.
+  /// Frequencies from the turns per drive period, which are exact: the pose at the end of a period is that at
+  /// the begin of the next in every scalar.
   static Joints<Real> with_frequencies(Joints<Real> joints) {
     for (auto& joint : joints.list) {
       if (joint.rotates) joint.speed = joint.per_period.template value<Real>() / joints.period;
@@ -419,19 +391,9 @@ class ChainMotion {
   }
   static int aligned(const std::array<Real, 3>& axis) {
     for (int k = 0; k < 3; ++k)
-      if (axis[static_cast<std::size_t>(k)] > 0 && axis[static_cast<std::size_t>((k + 1) % 3)] == 0 &&
-          axis[static_cast<std::size_t>((k + 2) % 3)] == 0)
-        return k;
+      if (axis[k] > 0 && axis[(k + 1) % 3] == 0 && axis[(k + 2) % 3] == 0) return k;
     return -1;
   }
-  static Real bend(const ChainBounds<Real>& b) { return b.turning[1] + b.turning[0] * b.turning[0]; }
-  static Real speed_in_vessel(const ChainBounds<Real>& b, const FlightBounds<Real>& f) {
-    return f.speed + b.speed + b.turning[0] * f.reach;
-  }
-  static Real acceleration_in_vessel(const ChainBounds<Real>& b, const FlightBounds<Real>& f) {
-    return f.gravity + b.acceleration[0] + 2 * b.turning[0] * speed_in_vessel(b, f) + bend(b) * f.reach;
-  }
-
   static Vec3<Real> to_vessel(const Pose& p, const Vec3<Real>& d) {
     return {dot<Real>(p.x, d), dot<Real>(p.y, d), dot<Real>(p.z, d)};
   }
@@ -468,15 +430,10 @@ class ChainMotion {
       return;
     }
     const auto made = [&](int k) {
-      const Vec3<Real> unit = Vec3<Real>::Unit(k);
-      return direction_to_inertial(p,
-                                   Vec3<Real>(unit * turned.cos + cross<Real>(step.axis, unit) * turned.sin +
-                                              step.axis * Real(step.axis[k] * (1 - turned.cos))));
+      const Vec3<Real> unit = Vec3<Real>::Unit(k), along = step.axis * Real(step.axis[k] * (1 - turned.cos));
+      return direction_to_inertial(p, unit * turned.cos + cross<Real>(step.axis, unit) * turned.sin + along);
     };
-    const Vec3<Real> x = made(0), y = made(1), z = made(2);
-    p.x = x;
-    p.y = y;
-    p.z = z;
+    std::tie(p.x, p.y, p.z) = std::tuple(made(0), made(1), made(2));
   }
   template <bool with_rates>
   void shift(Pose& p, const Step& step, const Instant<Real>& when) const {
@@ -511,8 +468,7 @@ class ChainMotion {
   static Vec3<Real>& column(Pose& p, int k) { return k == 0 ? p.x : k == 1 ? p.y : p.z; }
 
   /// Longest interval [s] for which the Taylor polynomials of second order have an error below u/4 of a turn
-  /// and of the centre's distance. It is the period over a power of two, so that it is the same on every
-  /// machine.
+  /// and of the centre's distance: the period over a power of two, the same on every machine.
   Hint<Real> moment() const {
     const auto& w = bounds_.turning;
     const auto& b = bounds_.acceleration;
@@ -529,10 +485,10 @@ class ChainMotion {
   ErrorBounds<Real> through_pose(const Real& u, const FlightBounds<Real>& f, const Real& position,
                                  const Real& velocity) const {
     const Real& w = terms_.turning[0];
-    return {
-        u * (position + terms_.errors * f.reach),
-        u * (velocity + w * position + terms_.errors * speed_in_vessel(terms_, f)),
-        u * (2 * w * velocity + bend(terms_) * position + terms_.errors * acceleration_in_vessel(terms_, f))};
+    const Real of_pose = terms_.errors * terms_.acceleration_in_vessel(f);
+    return {u * (position + terms_.errors * f.reach),
+            u * (velocity + w * position + terms_.errors * terms_.speed_in_vessel(f)),
+            u * (2 * w * velocity + terms_.bend() * position + of_pose)};
   }
 
   Joints<Real> joints_;

@@ -27,9 +27,7 @@ inline constexpr std::array<CoordinateInfo, 5> coordinate_infos = {{
     {"u", "m", "along the wall's first edge from its centre"},
     {"v", "m", "along the wall's second edge from its centre"},
 }};
-constexpr const CoordinateInfo& info_of(Coordinate c) {
-  return coordinate_infos[static_cast<std::size_t>(c)];
-}
+constexpr const CoordinateInfo& info_of(Coordinate c) { return coordinate_infos[static_cast<int>(c)]; }
 
 /// A position on a wall in coordinates from 0 to 1 that preserve area: equal parts of u and of v have equal
 /// areas.
@@ -238,7 +236,7 @@ struct Rectangle {
   }
   Real area() const { return 4 * norm<Real>(halves[0]) * norm<Real>(halves[1]); }
   Real edge(int axis, std::size_t k, std::size_t n) const {
-    return norm<Real>(halves[static_cast<std::size_t>(axis)]) * (2 * Real(k) / Real(n) - 1);
+    return norm<Real>(halves[axis]) * (2 * Real(k) / Real(n) - 1);
   }
   Rings<Real> rings() const {
     const Real low(0), high(1);

@@ -64,6 +64,14 @@ struct FlightBounds {
   Real vessel_speed{0}, vessel_acceleration{0};  ///< of the ball in the vessel frame at most [m/s], [m/s^2]
 };
 
+/// Longest window [s] for which coordinate bounds are valid: an eighth of a period, or the time of a quarter
+/// of a radian at the largest angular speed.
+template <class Real>
+Real window_of(const Real& period, const Real& turning) {
+  const Real quarter = turning > 0 ? Real(1 / (4 * turning)) : period;
+  return period / 8 < quarter ? Real(period / 8) : quarter;
+}
+
 /// The box that a vessel sweeps, in inertial coordinates [m].
 template <class Real>
 struct SweptBox {

@@ -36,7 +36,7 @@ struct AlgebraicForm {
   AlgebraicForm by(int axis) const {
     AlgebraicForm derivative;
     for (auto t : terms) {
-      auto& power = t.powers[static_cast<std::size_t>(axis)];
+      auto& power = t.powers[axis];
       if (power == 0) continue;
       t.factor = t.factor * Real(power--);
       derivative.terms.push_back(std::move(t));
@@ -57,7 +57,7 @@ struct AlgebraicForm {
   static Real product(Real factor, const Polynomial<double>::Powers& powers, const Vec3<Real>& p,
                       const Real& r) {
     for (int axis = 0; axis < 3; ++axis)
-      for (int k = 0; k < powers[static_cast<std::size_t>(axis)]; ++k) factor *= p[axis];
+      for (int k = 0; k < powers[axis]; ++k) factor *= p[axis];
     for (int k = 0; k < powers[3]; ++k) factor *= r;
     return factor;
   }
@@ -166,7 +166,7 @@ class AlgebraicVessel {
         Majorant<Real> bound{Real(1), Real(0), Real(0), Real(0), Real(0)};
         const auto multiply = [&](const Majorant<Real>& by) {
           Majorant<Real> product;
-          for (int m = 0; m <= 4; ++m) product[static_cast<std::size_t>(m)] = product_bound(bound, 0, by, m);
+          for (int m = 0; m <= 4; ++m) product[m] = product_bound(bound, 0, by, m);
           bound = product;
         };
         for (int n = 0; n < t.powers[0]; ++n) multiply(c.x);
@@ -174,7 +174,7 @@ class AlgebraicVessel {
         for (int n = 0; n < t.powers[2]; ++n) multiply(c.z);
         for (int n = 0; n < t.powers[3]; ++n)
           for (auto& b : bound) b *= radius_;
-        sum += magnitude(t.factor) * bound[static_cast<std::size_t>(k)];
+        sum += magnitude(t.factor) * bound[k];
       }
       return sum;
     });
@@ -273,7 +273,7 @@ class AlgebraicVessel {
     return r;
   }
 
-  const Wall& of(int wall) const { return shape_->walls[static_cast<std::size_t>(wall)]; }
+  const Wall& of(int wall) const { return shape_->walls[wall]; }
   PerWall<Real> each(const auto& f) const {
     PerWall<Real> values;
     for (const auto& wall : shape_->walls) values.push_back(f(wall));

@@ -94,7 +94,7 @@ class PolyhedronVessel {
     return gaps;
   }
   Real gap(int wall, const Vec3<Real>& p) const {
-    const auto& plane = planes_[static_cast<std::size_t>(wall)];
+    const auto& plane = planes_[wall];
     return plane.distance - dot<Real>(plane.normal, p);
   }
   PerWall<Real> rates(const Vec3<Real>&, const Vec3<Real>& u) const {
@@ -126,14 +126,12 @@ class PolyhedronVessel {
   ErrorBounds<Real> curved_errors(int wall, const ErrorBounds<Real>& coordinate, const Real& u,
                                   const Real& frame_speed, const Real& acceleration,
                                   const Real& beyond) const {
-    const Real n = planes_[static_cast<std::size_t>(wall)].normal.cwiseAbs().sum();
+    const Real n = planes_[wall].normal.cwiseAbs().sum();
     return {n * coordinate.value + 16 * u * (reach_ + beyond), n * coordinate.rate + 16 * u * frame_speed,
             n * coordinate.second + 16 * u * acceleration};
   }
 
-  Vec3<Real> normal(int wall, const Vec3<Real>&) const {
-    return -planes_[static_cast<std::size_t>(wall)].normal;
-  }
+  Vec3<Real> normal(int wall, const Vec3<Real>&) const { return -planes_[wall].normal; }
   Real overlap(int wall, const Vec3<Real>& p) const { return -gap(wall, p); }
 
  private:

@@ -288,7 +288,7 @@ class RoundedVessel {
   int along_y(int f) const {
     if (is_cap(f)) return f == 3 ? 1 : -1;
     constexpr std::array signs{-1, 1, 1, -1, 0, 0};
-    return f < wall_count() ? 0 : signs[static_cast<std::size_t>(f - wall_count())];
+    return f < wall_count() ? 0 : signs[f - wall_count()];
   }
   int across_y(int f) const { return f == 2 || f == wall_count() + 4 ? -1 : 1; }
   /// True if the border bounds the region of the wall.
@@ -298,7 +298,7 @@ class RoundedVessel {
                                                         {true, true, false, false, false, true},
                                                         {false, false, false, true, true, false},
                                                         {false, false, true, false, true, false}}};
-    return of[static_cast<std::size_t>(wall)][border];
+    return of[wall][border];
   }
   Real radial(const Real& square) const {
     using std::sqrt;
