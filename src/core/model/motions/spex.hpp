@@ -2,7 +2,6 @@
 // Source: Barahona 2011, section 2.2.2 and (2.2)-(2.16), as corrected in docs/theory.md, section 1.
 #pragma once
 
-#include "base/archive.hpp"
 #include "base/instant.hpp"
 #include "base/trigonometry.hpp"
 #include "model/parts/vessel_frame.hpp"
@@ -32,32 +31,28 @@ class SpexMotion {
   using Pose = SpexPose<Real>;
 
   SpexMotion() = default;
-  /// @param arm           l, fulcrum to vessel centre [m]
-  /// @param theta_max     [rad]
-  /// @param gamma_max     [rad]
-  /// @param drive_period  [s]
-  SpexMotion(const Real& arm, const Real& theta_max, const Real& gamma_max, const Real& drive_period)
+  /// @param arm  l, fulcrum to vessel centre [m]  @param theta_max, gamma_max  [rad]  @param period  [s]
+  SpexMotion(const Real& arm, const Real& theta_max, const Real& gamma_max, const Real& period)
       : arm_(arm),
         theta_max_(theta_max),
         gamma_max_(gamma_max),
-        period_(drive_period),
-        angular_speed_(2 * numerics::pi<Real>() / drive_period),
-        frequency_(1 / drive_period),
+        period_(period),
+        angular_speed_(2 * numerics::pi<Real>() / period),
+        frequency_(1 / period),
         theta_speed_(theta_max * angular_speed_),
         gamma_speed_(gamma_max * angular_speed_),
         speed_squared_(angular_speed_ * angular_speed_),
         turning_((theta_max + gamma_max) * angular_speed_) {}
   template <class To>
   SpexMotion<To> cast() const {
-    return {static_cast<To>(arm_), static_cast<To>(theta_max_), static_cast<To>(gamma_max_),
-            static_cast<To>(period_)};
+    return {To(arm_), To(theta_max_), To(gamma_max_), To(period_)};
   }
 
-  const Real& arm() const { return arm_; }                      ///< l [m]
-  const Real& theta_max() const { return theta_max_; }          ///< [rad]
-  const Real& gamma_max() const { return gamma_max_; }          ///< [rad]
-  const Real& period() const { return period_; }                ///< of the drive [s]
-  const Real& angular_speed() const { return angular_speed_; }  ///< w = 2 pi / period [rad/s]
+  const Real& arm() const { return arm_; }
+  const Real& theta_max() const { return theta_max_; }
+  const Real& gamma_max() const { return gamma_max_; }
+  const Real& period() const { return period_; }
+  const Real& angular_speed() const { return angular_speed_; }
 
   /// (2.2), (2.5)
   Pose pose(const Instant<Real>& when) const {
@@ -65,20 +60,17 @@ class SpexMotion {
     const Real alpha = theta_max_ * phase.cos;
     const Real gamma = gamma_max_ * phase.sin;
     const auto a = numerics::sin_cos<Real>(alpha), g = numerics::sin_cos<Real>(gamma);
-    const Real alpha_rate = -theta_speed_ * phase.sin;
-    const Real gamma_rate = gamma_speed_ * phase.cos;
     return {.sin_alpha = a.sin,
             .cos_alpha = a.cos,
             .sin_gamma = g.sin,
             .cos_gamma = g.cos,
-            .theta_rate = alpha_rate,
-            .gamma_rate = gamma_rate,
+            .theta_rate = -theta_speed_ * phase.sin,
+            .gamma_rate = gamma_speed_ * phase.cos,
             .theta_acceleration = -speed_squared_ * alpha,
             .gamma_acceleration = -speed_squared_ * gamma};
   }
-  /// The pose at an instant, given the one at `known` in the same period. Both angles swing harmonically,
-  /// alpha'' = -w^2 alpha, so with x = w dt they grow by alpha' sin(x) / w + alpha'' (1 - cos(x)) / w^2.
-  /// Error: two roundings more than `pose`. @param with_rates  asks for rates and accelerations too
+  /// In the period of `known`. Both angles swing harmonically, alpha'' = -w^2 alpha, so with x = w dt they
+  /// grow by alpha' sin(x) / w + alpha'' (1 - cos(x)) / w^2. Error: two roundings more than `pose`.
   template <bool with_rates = true>
   Pose pose_nearby(const Instant<Real>& when, const Pose& pose_known, const Instant<Real>& known) const {
     const Real dt = when.offset - known.offset;
@@ -100,7 +92,6 @@ class SpexMotion {
     swing(next.sin_gamma, next.cos_gamma, next.gamma_rate, next.gamma_acceleration);
     return next;
   }
-  /// `position_in_vessel` at the pose of `pose_nearby`.
   Vec3<Real> position_nearby(const Instant<Real>& when, const Pose& pose, const Instant<Real>& known,
                              const Vec3<Real>& position) const {
     return position_in_vessel(pose_nearby<false>(when, pose, known), position);
@@ -130,18 +121,16 @@ class SpexMotion {
   }
   /// (2.16'): where a body is in the vessel.
   Vec3<Real> position_in_vessel(const Pose& pose, const Vec3<Real>& position) const {
-    const Real a = position[1] * pose.cos_alpha - position[0] * pose.sin_alpha;
-    const Real b = -(position[0] * pose.cos_alpha + position[1] * pose.sin_alpha);
+    const auto [a, b] = in_plane(pose, position);
     return {a - arm_, b * pose.cos_gamma + position[2] * pose.sin_gamma,
             position[2] * pose.cos_gamma - b * pose.sin_gamma};
   }
   /// (2.16') and its time derivative for a body at `position` moving with `velocity`.
   VesselFrameState<Real> to_vessel_frame(const Pose& pose, const Vec3<Real>& position,
                                          const Vec3<Real>& velocity) const {
-    const Real a = position[1] * pose.cos_alpha - position[0] * pose.sin_alpha;
-    const Real b = -(position[0] * pose.cos_alpha + position[1] * pose.sin_alpha);
-    const Real a_rate = (velocity[1] * pose.cos_alpha - velocity[0] * pose.sin_alpha) + pose.theta_rate * b;
-    const Real b_rate = -(velocity[0] * pose.cos_alpha + velocity[1] * pose.sin_alpha) - pose.theta_rate * a;
+    const auto [a, b] = in_plane(pose, position);
+    const auto [velocity_a, velocity_b] = in_plane(pose, velocity);
+    const Real a_rate = velocity_a + pose.theta_rate * b, b_rate = velocity_b - pose.theta_rate * a;
     const Real y = b * pose.cos_gamma + position[2] * pose.sin_gamma;
     const Real z = position[2] * pose.cos_gamma - b * pose.sin_gamma;
     const Real y_rate = (b_rate * pose.cos_gamma + velocity[2] * pose.sin_gamma) + pose.gamma_rate * z;
@@ -153,24 +142,19 @@ class SpexMotion {
   Vec3<Real> vessel_frame_acceleration(const Pose& pose, const VesselFrameState<Real>& state,
                                        const Vec3<Real>& velocity, const Vec3<Real>& gravity) const {
     const auto &p = state.position, &u = state.velocity;
-    const Real &sa = pose.sin_alpha, &ca = pose.cos_alpha, &sg = pose.sin_gamma, &cg = pose.cos_gamma;
+    const Real &sg = pose.sin_gamma, &cg = pose.cos_gamma;
+    const Real &turn = pose.theta_rate, &turn_rate = pose.theta_acceleration;
+    const Real &tilt = pose.gamma_rate, &tilt_rate = pose.gamma_acceleration;
     const Real a = p[0] + arm_, b = p[1] * cg - p[2] * sg;
-    const Real velocity_a = velocity[1] * ca - velocity[0] * sa,
-               velocity_b = -(velocity[0] * ca + velocity[1] * sa);
-    const Real gravity_a = gravity[1] * ca - gravity[0] * sa,
-               gravity_b = -(gravity[0] * ca + gravity[1] * sa);
-    const Real b_rate = velocity_b - pose.theta_rate * a;
-    const Real a_second =
-        gravity_a + pose.theta_rate * velocity_b + (pose.theta_acceleration * b + pose.theta_rate * b_rate);
-    const Real b_second =
-        gravity_b - pose.theta_rate * velocity_a - (pose.theta_acceleration * a + pose.theta_rate * u[0]);
+    const auto [velocity_a, velocity_b] = in_plane(pose, velocity);
+    const auto [gravity_a, gravity_b] = in_plane(pose, gravity);
+    const Real b_rate = velocity_b - turn * a;
+    const Real a_second = gravity_a + turn * velocity_b + (turn_rate * b + turn * b_rate);
+    const Real b_second = gravity_b - turn * velocity_a - (turn_rate * a + turn * u[0]);
     // y' = b' cos + V_Z sin + gamma' z and z' = V_Z cos - b' sin - gamma' y, once more.
     const Real turned = velocity[2] * cg - b_rate * sg, raised = b_rate * cg + velocity[2] * sg;
-    const Real y_second = (b_second * cg + gravity[2] * sg) + pose.gamma_rate * turned +
-                          (pose.gamma_acceleration * p[2] + pose.gamma_rate * u[2]);
-    const Real z_second = (gravity[2] * cg - b_second * sg) - pose.gamma_rate * raised -
-                          (pose.gamma_acceleration * p[1] + pose.gamma_rate * u[1]);
-    return {a_second, y_second, z_second};
+    return {a_second, (b_second * cg + gravity[2] * sg) + tilt * turned + (tilt_rate * p[2] + tilt * u[2]),
+            (gravity[2] * cg - b_second * sg) - tilt * raised - (tilt_rate * p[1] + tilt * u[1])};
   }
   /// Inertial angular velocity of the vessel: theta' about Z plus gamma' about x'.
   static Vec3<Real> angular_velocity(const Pose& pose) {
@@ -181,24 +165,19 @@ class SpexMotion {
     const Vec3<Real> centre{-pose.sin_alpha * arm_, pose.cos_alpha * arm_, Real(0)};
     const Vec3<Real> about_z{Real(0), Real(0), pose.theta_rate};
     const Vec3<Real> about_arm{-pose.sin_alpha * pose.gamma_rate, pose.cos_alpha * pose.gamma_rate, Real(0)};
-    const Vec3<Real> from_centre = point - centre;
-    return cross<Real>(about_z, point) + cross<Real>(about_arm, from_centre);
+    return cross<Real>(about_z, point) + cross<Real>(about_arm, point - centre);
   }
-  /// Inertial acceleration of the vessel's material point at `point` [m/s^2].
   Vec3<Real> wall_acceleration(const Pose& pose, const Vec3<Real>& point) const {
     const Vec3<Real> centre{-pose.sin_alpha * arm_, pose.cos_alpha * arm_, Real(0)};
     const Vec3<Real> about_z{Real(0), Real(0), pose.theta_rate};
     const Vec3<Real> about_z_rate{Real(0), Real(0), pose.theta_acceleration};
-    const Vec3<Real> omega = angular_velocity(pose);
-    const Vec3<Real> axis = axis_x(pose);
+    const Vec3<Real> omega = angular_velocity(pose), axis = axis_x(pose);
     // d/dt omega: the arm axis itself turns about Z.
-    const Vec3<Real> about_arm = axis * pose.gamma_rate;
-    const Vec3<Real> omega_rate =
-        about_z_rate + Vec3<Real>(axis * pose.gamma_acceleration) + cross<Real>(about_z, about_arm);
+    const Vec3<Real> about_arm = axis * pose.gamma_rate, speeding_up = axis * pose.gamma_acceleration;
+    const Vec3<Real> omega_rate = about_z_rate + speeding_up + cross<Real>(about_z, about_arm);
     const Vec3<Real> centre_acceleration =
         cross<Real>(about_z_rate, centre) + cross<Real>(about_z, cross<Real>(about_z, centre));
-    const Vec3<Real> d = point - centre;
-    const Vec3<Real> turning = cross<Real>(omega, d);
+    const Vec3<Real> d = point - centre, turning = cross<Real>(omega, d);
     return centre_acceleration + cross<Real>(omega_rate, d) + cross<Real>(omega, turning);
   }
 
@@ -207,29 +186,17 @@ class SpexMotion {
   /// Bound on the vessel's angular speed [rad/s].
   const Real& turning() const { return turning_; }
   Vec3<Real> middle() const { return {Real(0), arm_, Real(0)}; }
-  /// Upper bound on the distance from the origin of points within `vessel_reach` of the vessel's centre [m].
   Real reach(const Real& vessel_reach) const { return arm_ + vessel_reach; }
-  /// Upper bound on the speed of points of the vessel within `vessel_reach` of its centre [m/s].
   Real wall_speed(const Real& vessel_reach) const {
     const Real from_fulcrum = arm_ + vessel_reach;
     return angular_speed_ * (theta_max_ * from_fulcrum + gamma_max_ * (from_fulcrum - arm_));
   }
-  /// Upper bound on the speed of points of the vessel within `distance` of the origin [m/s].
   Real speed_within(const Real& distance) const { return turning() * distance; }
-  /// Upper bound on the acceleration of points of the vessel within `distance` of the origin [m/s^2].
   Real acceleration_within(const Real& distance) const { return turning() * angular_speed_ * distance; }
-  /// Longest window [s] for which `coordinate_bounds` is valid: an eighth of a period, or the time of a
-  /// quarter of a radian at the largest angular speed.
-  Real longest_window() const {
-    const Real quarter = turning() > 0 ? Real(1 / (4 * turning())) : period_;
-    return period_ / 8 < quarter ? Real(period_ / 8) : quarter;
-  }
-  /// @param sizes  of the vessel from its centre, along its axes [m]
+  Real longest_window() const { return window_of(period_, turning()); }
   SweptBox<Real> swept(const Vec3<Real>& sizes, const Real& vessel_reach) const {
-    const Real swing = theta_max_ < 1 ? theta_max_ : Real(1);
-    const Real tilt = gamma_max_ < 1 ? gamma_max_ : Real(1);
-    const Real sideways = arm_ * swing + vessel_reach;
-    const Real upright = sizes[2] + sizes[1] * tilt;
+    const Real swing = theta_max_ < 1 ? theta_max_ : Real(1), tilt = gamma_max_ < 1 ? gamma_max_ : Real(1);
+    const Real sideways = arm_ * swing + vessel_reach, upright = sizes[2] + sizes[1] * tilt;
     const Real along = sizes[0] + (sizes[1] + sizes[2] * tilt) * swing;
     const Real nearest = arm_ * (1 - swing * swing) - along;
     return {{-sideways, nearest, Real(-upright)}, {sideways, Real(arm_ + along), upright}};
@@ -253,15 +220,10 @@ class SpexMotion {
     const Real excursion = frame_speed * length;
 
     // Gravity and velocity in the frame that turns with theta: G' = alpha' G, V' = G + alpha' V.
-    Majorant<Real> g, v, v_z, a, b, x, y, z;
-    g[0] = gravity;
-    v[0] = speed;
-    v_z = {speed, g[0], Real(0), Real(0), Real(0)};
-    x[0] = sizes[0] + excursion;
-    y[0] = sizes[1] + excursion;
-    z[0] = sizes[2] + excursion;
-    a[0] = arm_ + x[0];
-    b[0] = y[0] + sine[0] * z[0];
+    Majorant<Real> g{gravity}, v{speed};
+    const Majorant<Real> v_z{speed, gravity};
+    Majorant<Real> x{sizes[0] + excursion}, y{sizes[1] + excursion}, z{sizes[2] + excursion};
+    Majorant<Real> a{arm_ + x[0]}, b{y[0] + sine[0] * z[0]};
     for (int k = 0; k < 4; ++k) {
       g[k + 1] = product_bound(alpha, 1, g, k);
       v[k + 1] = g[k] + product_bound(alpha, 1, v, k);
@@ -269,27 +231,21 @@ class SpexMotion {
       b[k + 1] = v[k] + product_bound(alpha, 1, a, k);
       x[k + 1] = a[k + 1];
       // The bounds on b' enter through b shifted by one derivative.
-      Real y_next = product_bound(v_z, 0, sine, k) + product_bound(gamma, 1, z, k);
-      Real z_next = product_bound(v_z, 0, cosine, k) + product_bound(gamma, 1, y, k);
+      y[k + 1] = product_bound(v_z, 0, sine, k) + product_bound(gamma, 1, z, k);
+      z[k + 1] = product_bound(v_z, 0, cosine, k) + product_bound(gamma, 1, y, k);
       for (int j = 0; j <= k; ++j) {
-        y_next += binomial[k][j] * b[j + 1] * cosine[k - j];
-        z_next += binomial[k][j] * b[j + 1] * sine[k - j];
+        y[k + 1] += binomial[k][j] * b[j + 1] * cosine[k - j];
+        z[k + 1] += binomial[k][j] * b[j + 1] * sine[k - j];
       }
-      y[k + 1] = y_next;
-      z[k + 1] = z_next;
     }
     return {x, y, z};
   }
 
-  /// Bound on the speed of a ball in the vessel frame [m/s].
   Real speed_in_vessel(const FlightBounds<Real>& f) const { return f.speed + turning() * f.reach; }
-  /// Bound on the second derivative of a vessel-frame coordinate, term by term [m/s^2].
   Real acceleration_in_vessel(const FlightBounds<Real>& f) const {
     return f.gravity + 4 * turning() * f.speed + 2 * turning() * (angular_speed_ + 2 * turning()) * f.reach;
   }
-  /// Bounds on the rounding of a coordinate in the vessel frame. The constants are derived in docs/theory.md,
-  /// section 4; a test compares them with measured errors.
-  /// @param u  half the distance from 1 to the next number
+  /// The constants are derived in docs/theory.md, section 4; a test compares them with measured errors.
   ErrorBounds<Real> coordinate_errors(const Real& u, const FlightBounds<Real>& f) const {
     const Real angle = 10 + 16 * angles();  // error of the pose and the products, in ulps of 1
     const Real time = f.elapsed + 3 * f.lag;
@@ -297,12 +253,10 @@ class SpexMotion {
     const Real y = u * (angle * f.reach + 2 * position);
     const Real y_rate = u * ((angle + 4) * f.speed + 28 * turning() * f.reach + 2 * turning() * position +
                              4 * f.gravity * f.elapsed);
-    const Real y_second = u * (32 + 16 * angles()) * f.vessel_acceleration + 4 * turning() * y_rate +
-                          2 * turning() * (angular_speed_ + turning()) * y;
-    return {y, y_rate, y_second};
+    return {y, y_rate, second_error(u * (32 + 16 * angles()), f, y, y_rate)};
   }
   /// Additional errors from rounding a wider flight and motion to this scalar, at offsets that are the same
-  /// numbers in both. Derivation: docs/theory.md, section 4.
+  /// numbers in both.
   ErrorBounds<Real> state_errors(const Real& u, const FlightBounds<Real>& f) const {
     const Real angle = 9 * angles();
     const Real time = period_ + f.lag;  // ulps of 1 s that the start and the whole periods leave
@@ -311,12 +265,23 @@ class SpexMotion {
     const Real y_rate = u * ((angle + 2) * f.speed + (angle + 10) * turning() * f.reach +
                              f.gravity * (2 * f.elapsed + time)) +
                         turning() * y;
-    const Real y_second = u * (32 + 9 * angles()) * f.vessel_acceleration + 4 * turning() * y_rate +
-                          2 * turning() * (angular_speed_ + turning()) * y;
-    return {y, y_rate, y_second};
+    return {y, y_rate, second_error(u * (32 + 9 * angles()), f, y, y_rate)};
   }
 
  private:
+  /// Components of an inertial vector in the plane of the arm's swing: along the arm, and across it.
+  struct InPlane {
+    Real a, b;
+  };
+  static InPlane in_plane(const Pose& pose, const Vec3<Real>& v) {
+    return {v[1] * pose.cos_alpha - v[0] * pose.sin_alpha, -(v[0] * pose.cos_alpha + v[1] * pose.sin_alpha)};
+  }
+  Real second_error(const Real& relative, const FlightBounds<Real>& f, const Real& y,
+                    const Real& y_rate) const {
+    return relative * f.vessel_acceleration + 4 * turning() * y_rate +
+           2 * turning() * (angular_speed_ + turning()) * y;
+  }
+
   Real arm_{0}, theta_max_{0}, gamma_max_{0};
   Real period_{0}, angular_speed_{0}, frequency_{0};
   Real theta_speed_{0}, gamma_speed_{0};  ///< largest theta' and gamma' [rad/s]
