@@ -19,8 +19,7 @@
 
 namespace edmill {
 
-/// Converts a number between the byte order of the machine and that of files, which is the same on most
-/// machines.
+/// Converts a number between the byte order of the machine and that of files, mostly the same.
 template <class T>
 T in_file_order(T value) {
   if constexpr (std::endian::native == std::endian::big) {
@@ -32,15 +31,13 @@ T in_file_order(T value) {
   return value;
 }
 
-/// Saves or loads the values it is called with. A class takes part with a function that lists its members,
-/// `void archive(Archive& a) { a(x_, y_); }`, a scalar with `archive_value` (base/scalar_list.hpp). Every bit
-/// is preserved, and the bytes are the same on every machine. Classes are not versioned: only the build that
-/// saved the bytes can load them.
+/// Saves or loads the values it is called with. A class takes part by a list of its members,
+/// `void archive(Archive& a) { a(x_, y_); }`, a scalar by `archive_value` (base/scalar_list.hpp). Every
+/// bit is preserved; the bytes are the same on every machine, but only the build that saved can load them.
 class Archive {
  public:
-  /// Saves.
   Archive() : loading_(false) {}
-  /// Loads from what another one has saved. @pre `bytes` outlive it
+  /// Loads what another one has saved. @pre `bytes` outlive it
   explicit Archive(std::string_view bytes) : loading_(true), rest_(bytes) {}
 
   bool loading() const { return loading_; }
@@ -52,16 +49,12 @@ class Archive {
     (one(values), ...);
   }
   void raw(void* data, std::size_t size) {
-    if (!loading_) {
-      bytes_.append(static_cast<const char*>(data), size);
-      return;
-    }
+    if (!loading_) return void(bytes_.append(static_cast<const char*>(data), size));
     need(size);
     rest_.copy(static_cast<char*>(data), size);
     rest_.remove_prefix(size);
   }
-  /// Saves or loads a number of elements. @throws InputError when the remaining bytes cannot contain that
-  /// many
+  /// Saves or loads a number of elements. @throws InputError when more than the remaining bytes
   std::size_t count(std::size_t size) {
     std::uint64_t number = size;
     (*this)(number);
@@ -89,17 +82,17 @@ inline void archive_value(Archive& a, std::string& text) {
   text.resize(a.count(text.size()));
   a.raw(text.data(), text.size());
 }
-/// A vector that is not empty before loading was sized by the case and keeps its length. An empty one grows
-/// as elements are read, so that a wrong number cannot allocate more memory than the bytes account for.
+/// A vector that is not empty before loading was sized by the case and keeps its length. An empty one
+/// grows with the elements read, so that a wrong number cannot allocate more than the bytes account for.
 template <class T, class Allocator>
 void archive_value(Archive& a, std::vector<T, Allocator>& values) {
   const std::size_t size = a.count(values.size());
-  if (values.size() == size) {
+  if (values.size() != size) {
+    if (!values.empty()) throw InputError("the saved state belongs to another case");
+    for (std::size_t k = 0; k < size; ++k) a(values.emplace_back());
+  } else {
     for (auto& value : values) a(value);
-    return;
   }
-  if (!values.empty()) throw InputError("the saved state belongs to another case");
-  for (std::size_t k = 0; k < size; ++k) a(values.emplace_back());
 }
 template <class T, std::size_t size>
 void archive_value(Archive& a, std::array<T, size>& values) {

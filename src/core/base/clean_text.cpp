@@ -46,7 +46,7 @@ std::string clean_text(std::string_view text) {
 
 std::string one_line(std::string_view text) {
   auto line = clean_text(text);
-  // The last three are U+0085, U+2028 and U+2029, which Python's splitlines() takes for line ends, too.
+  // Python's splitlines() takes U+0085, U+2028 and U+2029 for line ends, too.
   for (const std::string_view end : {"\n", "\r", "\xc2\x85", "\xe2\x80\xa8", "\xe2\x80\xa9"})
     for (auto at = line.find(end); at != line.npos; at = line.find(end)) line.replace(at, end.size(), " ");
   return line;

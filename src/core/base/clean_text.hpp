@@ -1,5 +1,4 @@
-// Cleans texts of arbitrary bytes, such as file names, for formats that restrict characters; formats
-// percentages, counts and numbers with intervals.
+// Cleans texts of any bytes for formats that restrict characters; formats shares, counts, intervals.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +22,7 @@ std::string percent(double share);
 
 /// "1 ball", "28 balls".
 std::string counted(std::uint64_t number, std::string_view noun);
-/// A number rounded to the precision of its interval: "27.92 ± 0.26", "(1.167 ± 0.035)e5"; to four digits if
-/// it has none.
+/// A number, to the digits of its interval: "27.92 ± 0.26", "(1.167 ± 0.035)e5"; four without one.
 std::string with_interval(double value, std::optional<double> half_width);
 /// A time in a convenient unit: "20.98 ± 0.29 min", "3.8 ± 0.2 days".
 std::string time_with_interval(double seconds, std::optional<double> half_width);

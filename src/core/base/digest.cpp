@@ -11,8 +11,7 @@ namespace edmill {
 
 namespace {
 
-// The first 32 bits of the fractional parts of the square roots of the first 8 primes, and of the cube roots
-// of the first 64.
+// First 32 bits after the point of the square roots of 8 primes, and of the cube roots of 64.
 constexpr std::array<std::uint32_t, 8> begin_state{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
                                                    0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
 constexpr std::array<std::uint32_t, 64> round_constants{

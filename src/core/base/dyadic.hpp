@@ -37,7 +37,7 @@ class Dyadic {
     exact.e_ = exact.n_ == 0 ? 0 : exponent;
     return exact;
   }
-  /// Exact where n has no more bits than the scalar; otherwise the error is a few units of the last place.
+  /// Exact where n has no more bits than the scalar, otherwise to a few units of the last place.
   template <class Real>
   Real to() const {
     using std::ldexp;

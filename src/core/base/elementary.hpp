@@ -35,8 +35,7 @@ Real odd_series(const Real& x, int sign) {
 /// @pre 0 <= t <= 1
 template <class Real>
 Real arctangent(const Real& t) {
-  // atan(t) = atan(c) + atan((t - c) / (1 + t c)) with c = 1/4, 1/2, 3/4 or 1; the angles atan(c) are
-  // computed in the same way.
+  // atan(t) = atan(c) + atan((t - c) / (1 + t c)) with c = 1/4, 1/2, 3/4 or 1; atan(c) likewise.
   const int quarters = static_cast<int>(4 * static_cast<double>(t) + 0.5);
   if (quarters == 0) return odd_series<Real>(t, 1);
   static const auto angles = [] {

@@ -1,5 +1,5 @@
-// Certified statements about a smooth function: on an interval, from its values and slopes at both ends, or
-// after one point, from its value and first two derivatives there.
+// Certified statements about a smooth function: on an interval, from values and slopes at both ends, or after
+// a point, from its value and first two derivatives there.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@ struct Point {
   Real slope;
 };
 
-/// Bounds on a function's derivatives over the interval in question, and on the rounding of its samples.
+/// Bounds on a function's derivatives over the interval, and on the rounding of its samples.
 template <class Real>
 struct CurveBounds {
   Real second, third, fourth;  ///< sup |f''|, sup |f'''|, sup |f''''|
@@ -24,29 +24,24 @@ struct CurveBounds {
 };
 
 /// Bernstein coefficients b_1..b_4 of a quartic lower bound of f on [left, right]; b_0 is the left value.
-///
-/// The two-point cubic Hermite interpolant errs by f''''(xi)/24 tau^2 (s-tau)^2. Raised to degree four, that
-/// error lowers the middle coefficient alone, by sup|f''''| s^4 / 144. Where all coefficients are positive
-/// the function is positive: a Bernstein polynomial lies in the hull of its coefficients. (theory.md, section
-/// 3)
+/// The cubic Hermite interpolant errs by f''''(xi)/24 tau^2 (s-tau)^2. Raised to degree four, that error
+/// lowers the middle coefficient alone, by sup|f''''| s^4 / 144. Where all coefficients are positive so is f:
+/// a Bernstein polynomial lies in the hull of its coefficients. (theory.md, section 3)
 template <class Real>
 struct QuarticLowerBound {
   Real b1, b2, b3, b4;
   Real slack;  ///< bound on the rounding error of any coefficient
 
   QuarticLowerBound(const Point<Real>& left, const Point<Real>& right, const CurveBounds<Real>& bounds) {
-    const Real s = right.t - left.t;
-    const Real s2 = s * s;
-    const Real left_slope = left.slope * s;
-    const Real right_slope = right.slope * s;
+    const Real s = right.t - left.t, s2 = s * s;
+    const Real left_slope = left.slope * s, right_slope = right.slope * s;
     b1 = left.value + left_slope / 4;
     b2 = (left.value + right.value) / 2 + (left_slope - right_slope) / 6 - bounds.fourth * (s2 * s2) / 144;
     b3 = right.value - right_slope / 4;
     b4 = right.value;
-    slack =
-        bounds.value_error + s * bounds.slope_error +
-        8 * epsilon<Real>() *
-            (magnitude(left.value) + magnitude(right.value) + magnitude(left_slope) + magnitude(right_slope));
+    const Real size =
+        magnitude(left.value) + magnitude(right.value) + magnitude(left_slope) + magnitude(right_slope);
+    slack = bounds.value_error + s * bounds.slope_error + 8 * epsilon<Real>() * size;
   }
 
   Real least() const {
@@ -64,23 +59,21 @@ template <class Real>
   return quartic.least() > quartic.slack;
 }
 
-/// True if a function that is zero within rounding at the start rises fast enough to prove its departure.
+/// True if f, zero within rounding at the start, rises fast enough to prove its departure.
 template <class Real>
 bool can_depart(const Point<Real>& left, const CurveBounds<Real>& bounds) {
   return left.slope > bounds.slope_error * 2 &&
          left.slope * left.slope > 16 * (bounds.second * bounds.value_error);
 }
 
-/// Proven: f, which is zero within rounding and rising at the left end, does not change its sign from
-/// positive to negative on (left, right]: it rises on the first part and is positive on the rest.
-/// @pre |left.value| <= value_error and can_depart(left, bounds)
+/// Proven: f, zero within rounding and rising at the left end, does not fall below zero on (left, right]: it
+/// rises at first and is positive then. @pre |left.value| <= value_error and can_depart(left, bounds)
 template <class Real>
 bool proven_departure(const Point<Real>& left, const Point<Real>& right, const CurveBounds<Real>& bounds) {
   const QuarticLowerBound<Real> quartic(left, right, bounds);
   const Real least = quartic.least() - quartic.slack - 2 * bounds.value_error;
   const Real s = right.t - left.t;
-  // f' > 0 up to the fraction x = f0' / (2 sup|f''| s); from there on the quartic is at least
-  // least * x - value_error.
+  // f' > 0 up to the fraction x = f0' / (2 sup|f''| s); then the quartic is >= least x - value_error.
   return least > 0 && least * left.slope > 8 * (bounds.value_error * bounds.second) * s;
 }
 
@@ -100,17 +93,16 @@ bool proven_increasing(const Point<Real>& left, const Point<Real>& right, const 
   return least - bounds.third * (s * s) / 8 - bounds.slope_error * 2 > 0;
 }
 
-/// Estimates the last root of the cubic Hermite interpolant, as a fraction of [left, right]; the result is
-/// outside (0, 1) if there is none. It only suggests where to split and decides nothing, so it is computed in
-/// double for every scalar.
+/// Estimates the last root of the cubic Hermite interpolant, as a fraction of [left, right]; outside (0, 1)
+/// if there is none. A hint, which decides nothing, so that double suffices for every scalar.
 /// @param precision  Newton's iteration for the cubic ends after a step below this fraction of the root
 /// @pre right.value < 0
 template <class Real>
 double last_root_hint(const Point<Real>& left, const Point<Real>& right, double precision = 1.0 / 64) {
   const Real s = right.t - left.t;
-  const double c0 = static_cast<double>(left.value), c1 = static_cast<double>(left.slope * s);
-  const double rise = static_cast<double>(right.value - left.value);
-  const double right_slope = static_cast<double>(right.slope * s);
+  const auto c0 = static_cast<double>(left.value), c1 = static_cast<double>(left.slope * s);
+  const auto rise = static_cast<double>(right.value - left.value);
+  const auto right_slope = static_cast<double>(right.slope * s);
   const double c2 = 3 * rise - 2 * c1 - right_slope, c3 = c1 + right_slope - 2 * rise;
   double x = 1;
   for (int step = 0; step < 12; ++step) {
@@ -126,17 +118,15 @@ double last_root_hint(const Point<Real>& left, const Point<Real>& right, double 
   return x;
 }
 
-/// Estimate of the root between two points of opposite signs, by inverse cubic interpolation; a hint as
-/// above.
+/// Estimates the root between two points by inverse cubic interpolation; a hint as above.
 /// @pre left.value > 0 > right.value, both slopes negative
 template <class Real>
 Real inverse_cubic_hint(const Point<Real>& left, const Point<Real>& right) {
   const Real s = right.t - left.t;
-  const double rise = static_cast<double>(right.value - left.value);
-  const double w = -static_cast<double>(left.value) / rise;
-  const double v = 1 - w;
-  const double left_slope = static_cast<double>(left.slope * s),
-               right_slope = static_cast<double>(right.slope * s);
+  const auto rise = static_cast<double>(right.value - left.value);
+  const double w = -static_cast<double>(left.value) / rise, v = 1 - w;
+  const auto left_slope = static_cast<double>(left.slope * s),
+             right_slope = static_cast<double>(right.slope * s);
   const double fraction = w * w * (1 + 2 * v) + rise * (w * v * v / left_slope - v * w * w / right_slope);
   return left.t + s * static_cast<Real>(fraction);
 }
@@ -150,14 +140,13 @@ struct CubicLowerBound {
 
   CubicLowerBound(const Point<Real>& start, const Real& curvature, const Real& length,
                   const CurveBounds<Real>& bounds) {
-    const Real rise = start.slope * length;
-    const Real bend = curvature * (length * length) / 2;
+    const Real rise = start.slope * length, bend = curvature * (length * length) / 2;
     b1 = start.value + rise / 3;
     b2 = start.value + (2 * rise + bend) / 3;
     b3 = start.value + rise + bend - bounds.third * (length * length * length) / 6;
-    slack =
-        bounds.value_error + length * bounds.slope_error + (length * length) / 2 * bounds.curvature_error +
-        8 * epsilon<Real>() * (magnitude(start.value) + magnitude(rise) + bounds.second * (length * length));
+    const Real size = magnitude(start.value) + magnitude(rise) + bounds.second * (length * length);
+    slack = bounds.value_error + length * bounds.slope_error +
+            (length * length) / 2 * bounds.curvature_error + 8 * epsilon<Real>() * size;
   }
 
   Real least() const {
@@ -179,12 +168,11 @@ bool proven_clear(const Point<Real>& start, const Real& curvature, const Real& l
 }
 
 /// Estimates the first positive root of the second Taylor polynomial, measured from the start; at least
-/// `length` if there is no root before. It is a hint and decides nothing, so it is computed in double for
-/// every scalar.
+/// `length` if there is no root before. A hint as above.
 template <class Real>
 double first_root_hint(const Point<Real>& start, const Real& second_derivative, const Real& length) {
   const double value = start.value > 0 ? static_cast<double>(start.value) : 0.0;
-  const double slope = static_cast<double>(start.slope), curvature = static_cast<double>(second_derivative);
+  const auto slope = static_cast<double>(start.slope), curvature = static_cast<double>(second_derivative);
   const double discriminant = slope * slope - 2 * curvature * value;
   if (discriminant < 0) return static_cast<double>(length);
   const double root = std::sqrt(discriminant);

@@ -1,4 +1,4 @@
-// Simulated time as whole drive periods and a remainder, so that late instants are as precise as early ones.
+// Simulated time as whole drive periods and a remainder: late instants are as precise as early ones.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace edmill {
 
-/// An instant on the simulation clock: `period` whole drive periods and `offset` [s] in [0, period).
+/// An instant: `period` whole drive periods and `offset` [s], from 0 to below the length of a period.
 template <class Real>
 struct Instant {
   std::int64_t period = 0;
@@ -34,8 +34,7 @@ struct Instant {
   static Instant long_ago() { return {-(std::int64_t{1} << 52), Real(0)}; }
 };
 
-/// Arithmetic of instants for one drive period [s]. For a vessel at rest the period is only a unit of the
-/// clock.
+/// Arithmetic of instants for one drive period [s], which for a vessel at rest is a mere unit.
 template <class Real>
 class DriveClock {
  public:
@@ -49,7 +48,7 @@ class DriveClock {
     return Real(to.period - from.period) * period_ + (to.offset - from.offset);
   }
 
-  /// The instant at `offset` [s] from the start of drive period `period`; the offset may lie outside [0, T).
+  /// The instant at any `offset` [s] from the start of drive period `period`.
   Instant<Real> instant(std::int64_t period, Real offset) const {
     using std::floor;
     if (offset >= period_ || offset < 0) {
@@ -75,10 +74,8 @@ class DriveClock {
     return instant(start.period, start.offset + dt);
   }
 
-  /// The instant at `time` [s] on the simulation clock.
+  /// The instant at `time` [s] on the simulation clock, and the reverse.
   Instant<Real> at(const Real& time) const { return instant(0, time); }
-
-  /// Time [s] on the simulation clock.
   Real seconds(const Instant<Real>& t) const { return Real(t.period) * period_ + t.offset; }
 
  private:

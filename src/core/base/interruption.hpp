@@ -7,8 +7,7 @@
 
 namespace edmill {
 
-/// During the lifetime of this object, computations of the thread that call `check` end once its flag is
-/// true.
+/// While this lives, computations of the thread that call `check` end once its flag is true.
 class Interruption {
  public:
   /// @param flag  null keeps the flag of the enclosing scope

@@ -11,7 +11,7 @@ namespace edmill {
 /// Prefetches the cache line at `address`, which need not be valid.
 inline void fetch(const void* address) {
   __builtin_prefetch(address);
-  // Otherwise compilers take a function that only prefetches for one without side effects and drop its calls.
+  // Without this, compilers drop calls of a function that only prefetches.
   asm volatile("");
 }
 
@@ -21,8 +21,8 @@ inline constexpr std::size_t large_page = std::size_t{1} << 21;  ///< [bytes]
 /// @throws std::bad_alloc
 void* allocate_pages(std::size_t size);
 
-/// An allocator that puts large arrays into large pages, where the system has them: an event among many balls
-/// accesses dozens of small pages, each of which needs an address translation.
+/// Puts large arrays into large pages, where the system has them: an event among many balls accesses dozens
+/// of small pages, each of which needs an address translation.
 template <class T>
 struct LargePages {
   using value_type = T;

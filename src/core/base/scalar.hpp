@@ -1,4 +1,4 @@
-// The requirements of the core on a scalar type. The scalars themselves are listed in base/scalar_list.hpp.
+// What the core requires of a scalar type. The scalars themselves are listed in base/scalar_list.hpp.
 #pragma once
 
 #include <cmath>
@@ -18,8 +18,7 @@ struct ScalarName;
 inline constexpr unsigned fewest_digits = 20, most_digits = 1'000'000;
 /// Numbers of digits that have a short name: "mpfr50" for "mpfr:50".
 inline constexpr unsigned named_digits[] = {50, 100, 200};
-/// The digits in the name of a scalar: 3000 for "mpfr:3000", 50 for "mpfr50"; 0 for other names and for
-/// numbers out of range.
+/// The digits in a scalar's name: 3000 for "mpfr:3000", 50 for "mpfr50"; 0 for others or out of range.
 inline unsigned chosen_digits_of(std::string_view name) {
   for (const unsigned digits : named_digits)
     if (name == "mpfr" + std::to_string(digits)) return digits;
@@ -66,8 +65,7 @@ Real magnitude(const Real& x) {
   return x < 0 ? Real(-x) : x;
 }
 
-/// A safety margin of 2^-20: far above the rounding of a few operations in any scalar, far below the slack of
-/// bounds.
+/// 2^-20: far above the rounding of a few operations in any scalar, far below the slack of bounds.
 template <class Real>
 Real rounding_margin() {
   return Real(1) / 1048576;
@@ -79,13 +77,12 @@ Real epsilon() {
   return std::numeric_limits<Real>::epsilon();
 }
 
-/// Binary digits of a scalar.
 template <class Real>
 constexpr int binary_digits() {
   return std::numeric_limits<Real>::digits;
 }
 
-/// A type for hints and bounds, which need few digits but the range of the scalar towards small numbers. For
+/// A type for hints and bounds, which need few digits but the scalar's range towards small numbers. For
 /// scalars whose digits are chosen at run time, see also `double_hints`.
 template <class Real>
 struct HintOf : std::type_identity<double> {};
@@ -97,8 +94,8 @@ constexpr bool double_hints() {
   return true;
 }
 
-/// Stores the digits that the thread has chosen when this is constructed, for a scalar whose digits are
-/// chosen at run time; `use` chooses them again for a scope. Empty for other scalars.
+/// For a scalar whose digits are chosen at run time: stores those of the thread at construction; `use`
+/// chooses them again for a scope. Empty for other scalars.
 template <class Real>
 struct ChosenDigits {
   struct Scope {
@@ -107,8 +104,8 @@ struct ChosenDigits {
   Scope use() const { return {}; }
 };
 
-/// Returns a scope in which sums of this number with narrower ones lose no digits, even if the thread has
-/// chosen fewer digits since the number was computed.
+/// A scope in which sums of this number with narrower ones lose no digits, even if the thread has chosen
+/// fewer digits since.
 template <class Real>
 typename ChosenDigits<Real>::Scope with_all_digits_of(const Real&) {
   return {};

@@ -19,7 +19,7 @@ template <>
 struct ScalarName<float128> {
   static constexpr std::string_view value = "float128";
 };
-/// A scalar with a fixed number of decimal digits, for the top of the decision ladder and for conversions.
+/// A scalar with a fixed number of digits, for the top of the decision ladder and for conversions.
 template <unsigned digits>
 using mpfr_of = boost::multiprecision::number<
 #if defined(EDMILL_WITHOUT_MPFR)

@@ -1,13 +1,12 @@
-// The floating-point environment that bounds and reproducible bits rely on, whatever the host program uses.
+// The floating-point environment that bounds and reproducible bits rely on, whatever the host's.
 #pragma once
 
 #include <cfenv>
 
 namespace edmill {
 
-/// Sets the default floating-point environment until the end of the scope: rounding to nearest, subnormal
-/// numbers, no traps. Then the thread gets its previous environment back. Threads that are started in the
-/// scope inherit it.
+/// Sets the default floating-point environment in a scope: rounding to nearest, subnormal numbers, no traps.
+/// Threads that are started in the scope inherit it.
 class StandardArithmetic {
  public:
   StandardArithmetic() {

@@ -1,4 +1,4 @@
-// First contact of a ball in free flight with the walls of the moving vessel, as a certified decision.
+// First contact of a ball in free flight with the moving walls, as a certified decision.
 #pragma once
 
 #include <functional>
@@ -52,8 +52,8 @@ class WallSearch {
 
   const Real& longest_window() const { return bounds_.longest_window(); }
 
-  /// The answer to a query. In a wide scalar, double first decides what it can prove for the wide flight too;
-  /// all else is searched in the wide scalar.
+  /// The answer to a query. In a wide scalar, double first decides what it can prove for the wide flight,
+  /// too.
   /// @pre the ball is inside the vessel at `begin`, up to rounding
   WallAnswer<Real> operator()(const WallQuery<Real>& query) const {
     if constexpr (is_wide) {
@@ -64,8 +64,7 @@ class WallSearch {
   }
 
   /// For each wall, whether a ball at `position` in the vessel can reach it in a window of `length` [s] with
-  /// a velocity below `speed` [m/s] in any direction. False is a proof, which needs no rates or curvatures.
-  /// theory.md, section 3
+  /// a speed below `speed` [m/s]. False is a proof, which needs no rates or curvatures. theory.md, section 3
   Walls within_reach(const Functions& functions, const Vec3<Real>& position, const Real& speed,
                      const Real& length) const;
 
@@ -73,15 +72,14 @@ class WallSearch {
   WallAnswer<Real> search(const WallQuery<Real>& query) const {
     return search(mill_.motion.pose(query.begin), query);
   }
-  /// The search in this scalar where the caller knows the vessel's pose at the window's begin.
+  /// @param pose  of the vessel at the window's begin
   WallAnswer<Real> search(const Pose& pose, const WallQuery<Real>& query) const;
 
   /// The search in double, with only the root computed in this scalar; undecided if double cannot prove the
   /// result. The window searched may be a few roundings of double longer than requested.
   WallAnswer<Real> search_by_double(const WallQuery<Real>& query) const;
 
-  /// The search on behalf of a wider scalar whose flight, radius and mill were rounded to this one, which is
-  /// double.
+  /// The search in double for a wider scalar, whose flight, radius and mill were rounded to it.
   RoughAnswer rough(const WallQuery<Real>& query) const;
 
   const MovingVessel<M, V>& mill() const { return mill_; }
@@ -98,6 +96,8 @@ class WallSearch {
     const Functions& functions;
     int wall;
     Bounds bounds;
+    Point start;            ///< of the window
+    const Real& curvature;  ///< there
     /// After which its search is undecided. In the widest scalar a rule would decide then; the bounds of
     /// bodies with round edges may need more steps.
     int most_steps = is_widest && is_body ? 100000 : 80;
@@ -108,51 +108,11 @@ class WallSearch {
   struct Bracket {
     Verdict verdict;
     Point left{}, right{};
-    Real time_error{0};  ///< of a contact at once whose time does not follow from the gap's slope [s]
-    Real guess{0};  ///< the only root, if the gap rises at first and is concave throughout; otherwise zero
+    Real time_error{0};    ///< of a contact at once whose time does not follow from the gap's slope [s]
+    Real guess{0};         ///< the only root, if the gap rises at first and is concave throughout; or zero
     bool at_once = false;  ///< the contact is certain, at the begin of the window
     bool by_rule = false;  ///< no precision decides; see isolate_by_rule
   };
-  [[gnu::noinline]] Bracket isolate_exactly(const Curve& curve, const WallQuery<Real>& query,
-                                            const Real& end) const;
-  [[gnu::noinline]] std::optional<int> exact_order(const WallQuery<Real>& query, int one, bool one_at_once,
-                                                   int other, bool other_at_once) const;
-  [[gnu::noinline]] bool has_exact_gap(int wall) const;
-
-  /// If `rounded`, every bound includes the rounding of the flight and the mill, and `rough` is filled.
-  template <bool rounded>
-  WallAnswer<Real> first_contact(const Functions& functions, const Start& first, Walls reachable,
-                                 const Real& speed, const WallQuery<Real>& query, RoughAnswer* rough) const;
-  template <class CurveOf>
-  bool drop_clear(const Start& first, const CurveOf& curve_of, Walls& reachable, Real& length,
-                  const DerivativeBounds<V>& derivatives) const;
-  void require_length(const WallQuery<Real>& query) const;
-  Real clear_time(const Functions& functions, const Vec3<Real>& position, const Real& speed) const;
-  /// The query with its window shortened so that all active gap functions are smooth in it; unchanged if they
-  /// always are.
-  decltype(auto) smooth(const WallQuery<Real>& query, const Functions& functions, const Vec3<Real>& position,
-                        const Real& speed) const;
-  Real top_speed(const Vec3<Real>& velocity, const Real& length) const {
-    return norm<Real>(velocity) + mill_.gravity_size * length;
-  }
-  [[gnu::noinline]] Bracket isolate_further(const Curve& curve, const Start& first, const Sample& last,
-                                            const WallQuery<Real>& query, const Real& end,
-                                            const Bracket& found) const;
-  template <bool rounded>
-  Bracket isolate_from_start(const Curve& curve, const Start& first, const Sample& last) const;
-  Bracket isolate(const Curve& curve, Point left, const Point& right) const;
-  std::optional<Bracket> isolate_hop(const Curve& curve, const Point& left, const Real& curvature,
-                                     const Point& right) const;
-  Bracket isolate_outside(const Curve& curve, Point left, const Point& right, bool departing) const;
-  Bracket isolate_touching(const Curve& curve, const Point& left, Point right) const;
-  Bracket isolate_by_rule(const Curve& curve, const Point& start, const Point& right) const;
-  Bracket isolate_rising(const Curve& curve, const Point& start, const Real& curvature,
-                         const Point& right) const;
-  Bracket isolate_resting(const Curve& curve, const Point& left, const Real& curvature,
-                          const Point& right) const;
-  Bracket follow_overlap(const Curve& curve, const Point& left, const Point& right) const;
-  Sample sample_of_end(const Functions& functions, const Walls& reachable, const Errors& errors,
-                       const Real& from, Real& end) const;
   /// A root and the uncertainty of its time: the gap's rounding error over its slope.
   struct Root {
     Real t;
@@ -160,6 +120,42 @@ class WallSearch {
     [[no_unique_address]] ContactPose<Real> pose{};
     bool at_once = false;  ///< see Bracket
   };
+  [[gnu::noinline]] Bracket isolate_exactly(const Curve& curve, const WallQuery<Real>& query,
+                                            const Real& end) const;
+  [[gnu::noinline]] std::optional<int> exact_order(const WallQuery<Real>& query, int one,
+                                                   const Root& one_root, int other,
+                                                   const Root& other_root) const;
+  [[gnu::noinline]] bool has_exact_gap(int wall) const;
+
+  /// If `rounded`, every bound includes the rounding of the flight and the mill, and `rough` is filled.
+  template <bool rounded>
+  WallAnswer<Real> first_contact(const Functions& functions, const Start& first, Walls reachable,
+                                 const Real& speed, const WallQuery<Real>& query, RoughAnswer* rough) const;
+  bool drop_clear(const auto& curve_of, Walls& reachable, Real& length,
+                  const DerivativeBounds<V>& derivatives) const;
+  void require_length(const WallQuery<Real>& query) const;
+  Real clear_time(const Functions& functions, const Vec3<Real>& position, const Real& speed) const;
+  /// The query with its window shortened so that all active gap functions are smooth in it.
+  decltype(auto) smooth(const WallQuery<Real>& query, const Functions& functions, const Vec3<Real>& position,
+                        const Real& speed) const;
+  Real top_speed(const Vec3<Real>& velocity, const Real& length) const {
+    return norm<Real>(velocity) + mill_.gravity_size * length;
+  }
+  [[gnu::noinline]] Bracket isolate_further(const Curve& curve, const Point& right,
+                                            const WallQuery<Real>& query, const Real& end,
+                                            const Bracket& found) const;
+  template <bool rounded>
+  Bracket isolate_from_start(const Curve& curve, const Point& right) const;
+  Bracket isolate(const Curve& curve, Point left, const Point& right) const;
+  std::optional<Bracket> isolate_hop(const Curve& curve, const Point& right) const;
+  Bracket isolate_outside(const Curve& curve, Point left, const Point& right, bool departing) const;
+  Bracket isolate_touching(const Curve& curve, const Point& left, Point right) const;
+  Bracket isolate_by_rule(const Curve& curve, const Point& right) const;
+  Bracket isolate_rising(const Curve& curve, const Point& right) const;
+  Bracket isolate_resting(const Curve& curve, const Point& right) const;
+  Bracket follow_overlap(const Curve& curve, const Point& left, const Point& right) const;
+  Sample sample_of_end(const Functions& functions, const Walls& reachable, const Errors& errors,
+                       const Real& from, Real& end) const;
   /// Data of a decreasing gap for Newton's iteration.
   struct Approach {
     Real guess;  ///< of the root
@@ -171,16 +167,15 @@ class WallSearch {
   std::optional<Root> polish(const Curve& curve, const Bracket& bracket) const;
   std::optional<Root> close_in(const Functions& functions, int wall, const Real& from, const Real& to,
                                const Approach& approach, const Real& value_error) const;
-  /// Termination criterion for the bracket of a root: 7/8 of the resolution. toms748 begins with a bracket of
-  /// one resolution, so that a first step which removes an eighth of it is the last.
+  /// The end of a search for a root: a bracket of 7/8 of the resolution. toms748 begins with one resolution,
+  /// so that a first step which removes an eighth of it is the last.
   auto closed() const {
     return [this](const Real& low, const Real& high) {
       const Real middle = low + (high - low) / 2;
       return high - low <= resolution() * 7 / 8 || middle <= low || middle >= high;
     };
   }
-  /// Time resolution of a root [s]: well above the rounding of a computed gap over its slope, otherwise
-  /// toms748 would follow noise.
+  /// Time resolution of a root [s], far above the rounding of a gap over its slope: toms748 follows no noise.
   Real resolution() const { return 8 * epsilon<Real>() * mill_.clock.period(); }
 
   MovingVessel<M, V> mill_;
@@ -198,10 +193,9 @@ struct RoughSearchOf<Real, model::RoundedBody<Real>> {
   using Type = std::conditional_t<std::is_same_v<Real, double>, NoSearch, BodySearch<double>>;
 };
 
-/// The wall search of a run, whose motion and vessel are known only when the case is read. In double there
-/// are specialised searches with everything inlined for a cylinder on a SPEX and on a chain. All other
-/// combinations use a general search that selects the types of motion and vessel at every step. All give the
-/// same bits.
+/// The wall search of a run, whose motion and vessel are known only when the case is read. In double,
+/// cylinders on a SPEX and on a chain have searches with everything inlined. All others use a general one
+/// that selects the types of motion and vessel at every step. All give the same bits.
 template <class Real>
 class AnyWallSearch {
  public:

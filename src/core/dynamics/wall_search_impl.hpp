@@ -24,9 +24,8 @@ WallSearch<M, V>::WallSearch(const M& motion, const V& vessel, const Vec3<Real>&
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::within_reach(const Functions& functions, const Vec3<Real>& position, const Real& speed,
                                     const Real& length) const -> Walls {
-  // A millionth covers the rounding of all this.
-  const Real way = (speed + mill_.wall_speed) * length * (1 + rounding_margin<Real>()) +
-                   mill_.reach * rounding_margin<Real>();
+  const Real margin = rounding_margin<Real>();
+  const Real way = (speed + mill_.wall_speed) * length * (1 + margin) + mill_.reach * margin;
   auto near = functions.room().within(position, way);
   if (const auto* pistons = model::pistons_of(mill_.vessel))
     for (std::size_t k = 0; k < pistons->count(); ++k) near[pistons->wall(k)] = true;
@@ -36,16 +35,14 @@ auto WallSearch<M, V>::within_reach(const Functions& functions, const Vec3<Real>
 /// For how long a ball cannot reach a body, however it flies [s]: their distance changes by no more than both
 /// move, in whatever frame it is measured.
 template <model::Motion M, model::Vessel V>
-auto WallSearch<M, V>::clear_time([[maybe_unused]] const Functions& functions,
-                                  [[maybe_unused]] const Vec3<Real>& position,
-                                  [[maybe_unused]] const Real& speed) const -> Real {
-  if constexpr (is_body) {
-    const Real rounding = mill_.reach * rounding_margin<Real>();
-    return (functions.room().clearance(position) - rounding) /
-           ((speed + own_speed_) * (1 + rounding_margin<Real>()));
-  } else {
+auto WallSearch<M, V>::clear_time(const Functions& functions, const Vec3<Real>& position,
+                                  const Real& speed) const -> Real {
+  const Real margin = rounding_margin<Real>();
+  if constexpr (is_body)
+    return (functions.room().clearance(position) - mill_.reach * margin) /
+           ((speed + own_speed_) * (1 + margin));
+  else
     return Real(0);
-  }
 }
 
 template <model::Motion M, model::Vessel V>
@@ -55,10 +52,8 @@ auto WallSearch<M, V>::require_length(const WallQuery<Real>& query) const -> voi
 }
 
 template <model::Motion M, model::Vessel V>
-decltype(auto) WallSearch<M, V>::smooth(const WallQuery<Real>& query,
-                                        [[maybe_unused]] const Functions& functions,
-                                        [[maybe_unused]] const Vec3<Real>& position,
-                                        [[maybe_unused]] const Real& speed) const {
+decltype(auto) WallSearch<M, V>::smooth(const WallQuery<Real>& query, const Functions& functions,
+                                        const Vec3<Real>& position, const Real& speed) const {
   if constexpr (model::HasRegions<V>) {
     auto shorter = query;
     const auto way = functions.room().smooth_way(position);
@@ -87,29 +82,26 @@ auto WallSearch<M, V>::search(const Pose& pose, const WallQuery<Real>& query) co
                               smooth(query, functions, ball.state.position, speed), nullptr);
 }
 
-/// Removes the walls that are provably not hit within `length`; for most walls the state at the start
-/// suffices for this.
+/// Removes the walls that the state at the start proves not to be hit within `length`, which are most.
 /// @return true if any wall is left; `length` is then shortened to the window that must be searched
 template <model::Motion M, model::Vessel V>
-template <class CurveOf>
-bool WallSearch<M, V>::drop_clear(const Start& first, const CurveOf& curve_of, Walls& reachable, Real& length,
+bool WallSearch<M, V>::drop_clear(const auto& curve_of, Walls& reachable, Real& length,
                                   const DerivativeBounds<V>& derivatives) const {
   const Real whole = length;
   bool any = false;
   for (int wall = 0; wall < model::function_count(mill_.vessel); ++wall) {
     if (!reachable[wall]) continue;
     const Curve curve = curve_of(wall, derivatives);
-    const Point start = curve.of(first);
-    reachable[wall] = !numerics::proven_clear(start, first.curvature[wall], whole, curve.bounds);
+    const Point& start = curve.start;
+    reachable[wall] = !numerics::proven_clear(start, curve.curvature, whole, curve.bounds);
     if (!reachable[wall]) continue;
     any = true;
     // The window can end a little after the first possible contact, but not so early that rounding hides the
     // contact of a ball that touches the wall.
     Point hinted = start;
-    if (start.slope < 0 && start.value < 8 * curve.bounds.value_error)
-      hinted.value += 4 * curve.bounds.value_error;
-    const Real hint =
-        static_cast<Real>(numerics::first_root_hint(hinted, first.curvature[wall], whole) * 9 / 8);
+    const Real& error = curve.bounds.value_error;
+    if (start.slope < 0 && start.value < 8 * error) hinted.value += 4 * error;
+    const auto hint = static_cast<Real>(numerics::first_root_hint(hinted, curve.curvature, whole) * 9 / 8);
     if (hint < length && hint > 64 * resolution()) length = hint;
   }
   return any;
@@ -119,18 +111,21 @@ template <model::Motion M, model::Vessel V>
 template <bool rounded>
 auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& first, Walls reachable,
                                      const Real& speed, const WallQuery<Real>& query,
-                                     [[maybe_unused]] RoughAnswer* rough) const -> WallAnswer<Real> {
+                                     RoughAnswer* rough) const -> WallAnswer<Real> {
   const Real begin = query.begin.offset, oldest = functions.elapsed(begin + query.length);
   const auto own_errors = functions.errors(oldest, speed, reachable);
   auto errors = own_errors;
   if constexpr (rounded) errors = errors + functions.state_errors(oldest, speed);
   const auto curve_of = [&](int wall, const DerivativeBounds<V>& derivatives) {
     const auto& d = derivatives[functions.room().kind_of(wall)];
-    return Curve{
-        functions, wall, {d[0], d[1], d[2], errors.gap[wall], errors.rate[wall], errors.curvature[wall]}};
+    return Curve{functions,
+                 wall,
+                 {d[0], d[1], d[2], errors.gap[wall], errors.rate[wall], errors.curvature[wall]},
+                 {first.offset, first.gap[wall], first.rate[wall]},
+                 first.curvature[wall]};
   };
   Real length = query.length;
-  if (!drop_clear(first, curve_of, reachable, length, bounds_.at(speed, query.length)))
+  if (!drop_clear(curve_of, reachable, length, bounds_.at(speed, query.length)))
     return WallAnswer<Real>::none(query.length);
 
   const auto derivatives = bounds_.at(speed, length);
@@ -142,12 +137,13 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
   for (int wall = 0; wall < model::function_count(mill_.vessel); ++wall) {
     if (!reachable[wall]) continue;
     const Curve curve = curve_of(wall, derivatives);
-    Bracket found = isolate_from_start<rounded>(curve, first, last);
+    const Point right = curve.of(last);
+    Bracket found = isolate_from_start<rounded>(curve, right);
     if (!rounded && (found.verdict == Verdict::undecided || is_widest)) [[unlikely]]
-      found = isolate_further(curve, first, last, query, end, found);
+      found = isolate_further(curve, right, query, end, found);
     by_rule |= found.by_rule;
     if (found.verdict == Verdict::none) continue;
-    // The bracket also contains the root of the wide gap only if the gap is certainly positive at the start.
+    // The bracket contains the root of the wide gap, too, only if the gap is positive at the start.
     const bool doubtful = rounded && !(found.left.value > curve.bounds.value_error);
     if (found.verdict == Verdict::undecided || doubtful) return {Verdict::undecided};
     auto root = polish(curve, found);
@@ -162,8 +158,8 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
       if (!*first_of_two) continue;
     }
     best = *root;
-    answer =
-        WallAnswer<Real>::contact(wall, mill_.clock.instant(query.begin.period, best.t), best.time_error);
+    const auto time = mill_.clock.instant(query.begin.period, best.t);
+    answer = WallAnswer<Real>::contact(wall, time, best.time_error);
     if constexpr (rounded)
       *rough = {.wall = wall,
                 .left = found.left.t,
@@ -186,9 +182,8 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
 }
 
 /// Samples the gaps at the end of a window. A gap that is zero within rounding there would leave the window
-/// undecided in every scalar: the end is moved towards `from`, and the rest of the window is left to the next
-/// one. A gap that is zero at two successive ends stays zero for long, so that a shorter window does not
-/// help.
+/// undecided in every scalar: the end is moved towards `from`. A gap that is zero at two successive ends
+/// stays zero for long, so that a shorter window does not help.
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::sample_of_end(const Functions& functions, const Walls& reachable, const Errors& errors,
                                      const Real& from, Real& end) const -> Sample {
@@ -218,43 +213,41 @@ auto WallSearch<M, V>::sample_of_end(const Functions& functions, const Walls& re
 /// Isolates a root in the first part of a window, where the second derivative is known too.
 template <model::Motion M, model::Vessel V>
 template <bool rounded>
-auto WallSearch<M, V>::isolate_from_start(const Curve& curve, const Start& first, const Sample& last) const
-    -> Bracket {
-  const Point start = curve.of(first), right = curve.of(last);
-  const Real& curvature = first.curvature[curve.wall];
+auto WallSearch<M, V>::isolate_from_start(const Curve& curve, const Point& right) const -> Bracket {
+  const Point& start = curve.start;
   const Bounds& b = curve.bounds;
   if (start.value > b.value_error) return isolate(curve, start, right);
   const bool level = start.slope <= 2 * b.slope_error && start.slope >= -2 * b.slope_error;
-  if (level) return isolate_resting(curve, start, curvature, right);
+  if (level) return isolate_resting(curve, right);
   if constexpr (!rounded)
-    if (const auto hop = isolate_hop(curve, start, curvature, right)) return *hop;
+    if (const auto hop = isolate_hop(curve, right)) return *hop;
   if constexpr (is_widest && !rounded)
-    if (start.slope > b.slope_error && curvature > b.curvature_error)
-      return isolate_rising(curve, start, curvature, right);
+    if (start.slope > b.slope_error && curve.curvature > b.curvature_error)
+      return isolate_rising(curve, right);
   return isolate(curve, start, right);
 }
 
 /// A rising gap keeps rising while its second derivative is positive, so that one long step suffices at
-/// first, also from an overlap. Where the third derivative is zero, it covers the whole window.
+/// first, also from an overlap. Where the third derivative is zero, it covers the window.
 template <model::Motion M, model::Vessel V>
-auto WallSearch<M, V>::isolate_rising(const Curve& curve, const Point& start, const Real& curvature,
-                                      const Point& right) const -> Bracket {
-  const Real t = start.t + (curvature - curve.bounds.curvature_error) / (2 * curve.bounds.third);
+auto WallSearch<M, V>::isolate_rising(const Curve& curve, const Point& right) const -> Bracket {
+  const Bounds& b = curve.bounds;
+  const Real t = curve.start.t + (curve.curvature - b.curvature_error) / (2 * b.third);
   return t < right.t ? isolate(curve, curve.at(t), right) : Bracket{Verdict::none};
 }
 
 /// Isolates the root for a ball that has just left the wall and whose gap is provably concave throughout the
 /// window: the gap has one maximum and one root after it.
 template <model::Motion M, model::Vessel V>
-auto WallSearch<M, V>::isolate_hop(const Curve& curve, const Point& left, const Real& curvature,
-                                   const Point& right) const -> std::optional<Bracket> {
+auto WallSearch<M, V>::isolate_hop(const Curve& curve, const Point& right) const -> std::optional<Bracket> {
   const Bounds& b = curve.bounds;
+  const Point& left = curve.start;
   const Real length = right.t - left.t;
-  const bool bends = curvature + b.curvature_error + b.third * length < 0;
+  const bool bends = curve.curvature + b.curvature_error + b.third * length < 0;
   const bool ends_below = right.value < -b.value_error && right.slope < -b.slope_error;
   if (!(bends & ends_below) || left.value < -b.value_error || !numerics::can_depart(left, b))
     return std::nullopt;
-  const Real fraction = static_cast<Real>(numerics::last_root_hint(left, right, 1e-4));
+  const auto fraction = static_cast<Real>(numerics::last_root_hint(left, right, 1e-4));
   return Bracket{Verdict::contact, left, right, Real(0), left.t + fraction * length};
 }
 
@@ -272,9 +265,9 @@ auto WallSearch<M, V>::isolate(const Curve& curve, Point left, const Point& righ
     return {Verdict::undecided};
   }
   if (numerics::can_depart(left, b)) {
-    if (numerics::proven_departure(left, right, b)) return {Verdict::none};
     // A window that another wall has shortened may end before the gap is provably open.
-    if (numerics::proven_increasing(left, right, b)) return {Verdict::none};
+    if (numerics::proven_departure(left, right, b) || numerics::proven_increasing(left, right, b))
+      return {Verdict::none};
     return isolate_outside(curve, left, right, true);
   }
   if (left.slope < -2 * b.slope_error) return isolate_touching(curve, left, right);
@@ -295,8 +288,8 @@ auto WallSearch<M, V>::isolate_outside(const Curve& curve, Point left, const Poi
     if (steps % 32 == 0) {
       Interruption::check();
       // A gap that hardly changes is excluded on short windows only.
-      if (steps >= curve.most_steps || (steps == 64 && has_exact_gap(curve.wall)))
-        return {Verdict::undecided};
+      const bool enough = steps >= curve.most_steps || (steps == 64 && has_exact_gap(curve.wall));
+      if (enough) return {Verdict::undecided};
     }
     const Point& end = ends[count - 1];
     if (departing ? numerics::proven_departure(left, end, b) : numerics::proven_positive(left, end, b)) {
@@ -329,8 +322,8 @@ auto WallSearch<M, V>::isolate_outside(const Curve& curve, Point left, const Poi
       fraction = fraction * 3 / 4;
       cut = curve.at(left.t + static_cast<Real>(fraction) * s);
     }
-    if (cut.value <= b.value_error && cut.value >= -b.value_error) return {Verdict::undecided};
-    if (!(cut.t > left.t && cut.t < end.t)) return {Verdict::undecided};
+    const bool decides = cut.value > b.value_error || cut.value < -b.value_error;
+    if (!decides || !(cut.t > left.t && cut.t < end.t)) return {Verdict::undecided};
     ends[count++] = cut;
   }
   return {Verdict::none};
@@ -360,22 +353,22 @@ auto WallSearch<M, V>::isolate_touching(const Curve& curve, const Point& left, P
 /// whether it approaches at first; the widest scalar treats values within rounding as zero, so that the ball
 /// leaves.
 template <model::Motion M, model::Vessel V>
-auto WallSearch<M, V>::isolate_resting(const Curve& curve, const Point& left, const Real& curvature,
-                                       const Point& right) const -> Bracket {
+auto WallSearch<M, V>::isolate_resting(const Curve& curve, const Point& right) const -> Bracket {
   using std::sqrt;
   const Bounds& b = curve.bounds;
+  const Point& left = curve.start;
   if (b.second == 0 && b.slope_error == 0) return {Verdict::none};  // at rest relative to the wall forever
-  const Real bend = (magnitude(curvature) - b.curvature_error) / 2;
+  const Real bend = (magnitude(curve.curvature) - b.curvature_error) / 2;
   if (!(bend > 0)) return {Verdict::undecided};
-  // While |f''| > bend, bend s^2/2 exceeds the rounding errors of value and slope from this time on.
+  // From `until` on, bend s^2/2 exceeds the rounding of value and slope, while |f''| > bend.
   const bool overlaps = left.value < -b.value_error;
   const Real slope = magnitude(left.slope) + b.slope_error,
              value = overlaps ? Real(0) : Real(magnitude(left.value) + b.value_error);
   const Real until = (slope + sqrt(slope * slope + 4 * bend * value)) / bend;
   if (!(b.third * (2 * until) <= bend)) return {Verdict::undecided};
-  if (curvature < 0) return {Verdict::contact, left, left, until + resolution()};
+  if (curve.curvature < 0) return {Verdict::contact, left, left, until + resolution()};
   if constexpr (!is_widest) return {Verdict::undecided};
-  return isolate_rising(curve, left, curvature, right);
+  return isolate_rising(curve, right);
 }
 
 /// Follows a ball that certainly overlaps the wall at the start, by rounding, and moves away. Either the gap
@@ -389,16 +382,15 @@ auto WallSearch<M, V>::follow_overlap(const Curve& curve, const Point& start, co
   const Real sharp = sqrt(epsilon<Real>()) * mill_.clock.period() / 8;  // see PairSearch::tie_window
   Point left = start;
   Real step = left.slope / (2 * b.second);
+  Real before = step;
   bool rose = false;
   int setbacks = 0;  // if the gap hardly changes, steps neither grow nor shrink
-  Real before = step;
   for (int k = 0; k < 5 * curve.most_steps && setbacks < 16; ++k) {
     if constexpr (is_wide) Interruption::check();
-    Real t = left.t + step;
+    const Real t = left.t + step;
     const bool last = !(t < right.t);
     const Point next = last ? right : curve.at(t);
-    const bool rising = numerics::proven_increasing(left, next, b);
-    if (rising) {
+    if (numerics::proven_increasing(left, next, b)) {
       if (last) return {Verdict::none};
       if (!(next.value < -b.value_error)) return isolate(curve, next, right);
       if (!(next.t > left.t)) return {Verdict::undecided};
@@ -436,13 +428,13 @@ auto WallSearch<M, V>::polish(const Curve& curve, const Bracket& bracket) const 
     return Root{.t = left.t, .time_error = time_error_at(left.slope)};
   if (hop || (left.slope < 0 && right.slope < 0)) {
     const Real width = right.t - left.t;
-    const auto root =
-        close_in(curve.functions, curve.wall, left.t, right.t,
-                 {hop ? bracket.guess : numerics::inverse_cubic_hint(left, right),
-                  static_cast<double>((right.slope - left.slope) / width),
-                  static_cast<double>(curve.bounds.third * width), static_cast<double>(curve.bounds.third)},
-                 curve.bounds.value_error);
-    if (root) return root;
+    const Real& third = curve.bounds.third;
+    const Approach approach{hop ? bracket.guess : numerics::inverse_cubic_hint(left, right),
+                            static_cast<double>((right.slope - left.slope) / width),
+                            static_cast<double>(third * width), static_cast<double>(third)};
+    if (const auto root =
+            close_in(curve.functions, curve.wall, left.t, right.t, approach, curve.bounds.value_error))
+      return root;
   }
   if (hop) {  // the peak is so low that rounding hides it: cut it off
     const Bracket behind = isolate_outside(curve, left, right, true);
@@ -459,8 +451,7 @@ auto WallSearch<M, V>::polish(const Curve& curve, const Bracket& bracket) const 
   return Root{root.first, time_error_at(end.slope)};
 }
 
-/// Sets the digits for a step of Newton's iteration that starts from a root in double, in scalars with many
-/// digits.
+/// Sets the digits, where a scalar has many, for a step of Newton's iteration from a root in double.
 template <class Real>
 auto digits_of_step(int step) {
   ChosenDigits<Real> digits;
@@ -471,17 +462,17 @@ auto digits_of_step(int step) {
   return digits.use();
 }
 
-/// Finds the root of a gap that provably falls through zero in (from, to): with Newton's iteration and the
-/// curvature until another step would change nothing, then with toms748 on the gap itself, in a bracket of a
-/// few units of the clock. Empty if rounding hides the signs at the ends of such a bracket.
+/// Finds the root of a gap that provably falls through zero in (from, to): by Newton's iteration with the
+/// curvature until another step would change nothing, then by toms748 in a bracket of a few units of the
+/// clock. Empty if rounding hides the signs at the ends of such a bracket.
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::close_in(const Functions& functions, int wall, const Real& from, const Real& to,
                                 const Approach& approach, const Real& value_error) const
     -> std::optional<Root> {
   const Real unit = epsilon<Real>() * mill_.clock.period();
   const bool few_digits = double_hints<Real>();
-  Real t = approach.guess;
   const int all_digits = binary_digits<Real>();
+  Real t = approach.guess;
   auto pose = [&] {
     [[maybe_unused]] const auto few = digits_of_step<Real>(0);
     return functions.pose(t);
@@ -498,7 +489,7 @@ auto WallSearch<M, V>::close_in(const Functions& functions, int wall, const Real
     const double flatness = static_cast<double>(slope);
     if (!(flatness < 0)) return std::nullopt;
     const Real newton = -sample.gap[wall] / slope;
-    // The contribution of the curvature to the step, and whether another step would change the time.
+    // What the curvature contributes to the step, and whether another step would change the time.
     const auto bent = [&](const auto& size) -> std::pair<Real, bool> {
       using Size = std::decay_t<decltype(size)>;
       const Size square = size * size;
@@ -549,8 +540,8 @@ auto WallSearch<M, V>::rough(const WallQuery<Real>& query) const -> RoughAnswer 
   } else {
     require_length(query);
     Functions functions(mill_, query.flight, query.radius, query.begin.period);
-    const Real begin = query.begin.offset;
     RoughAnswer rough;
+    const Real begin = query.begin.offset;
     const auto pose = functions.pose(begin);
     const auto ball = functions.seen(begin, pose);
     const int region = functions.enter(ball.state.position);
@@ -581,9 +572,9 @@ auto WallSearch<M, V>::rough(const WallQuery<Real>& query) const -> RoughAnswer 
   }
 }
 
-/// Evaluates the wide gap at the root found in double. The error of this root is of the order of double's
-/// rounding, so that one step of Newton's iteration with the curvature in double yields nearly three times
-/// the digits of double. The result is the root in the bracket, because the gap falls throughout it.
+/// Evaluates the wide gap at the root found in double. Its error is of the order of double's rounding, so
+/// that one step of Newton's iteration with the curvature in double yields nearly three times the digits. The
+/// result is the root in the bracket, because the gap falls throughout it.
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::search_by_double(const WallQuery<Real>& query) const -> WallAnswer<Real> {
   if constexpr (!is_wide) {
@@ -592,10 +583,10 @@ auto WallSearch<M, V>::search_by_double(const WallQuery<Real>& query) const -> W
     EDMILL_REQUIRE(query.length > 0, "window length out of range");
     // The window is rounded outwards, so that no part of it must be searched again.
     const auto begin_down = rounded_down<double>(query.begin);
-    const double length = static_cast<double>(query.length);
-    const auto rough =
-        rough_.rough({flight_cast<double>(query.flight), static_cast<double>(query.radius), begin_down,
-                      length + 4 * epsilon<double>() * (begin_down.offset + length)});
+    const auto length = static_cast<double>(query.length);
+    const double longer = length + 4 * epsilon<double>() * (begin_down.offset + length);
+    const auto rough = rough_.rough(
+        {flight_cast<double>(query.flight), static_cast<double>(query.radius), begin_down, longer});
     const Real& begin = query.begin.offset;
     if (rough.verdict == Verdict::none) {
       const Real searched = Real(rough.until) - begin;
@@ -604,21 +595,18 @@ auto WallSearch<M, V>::search_by_double(const WallQuery<Real>& query) const -> W
     if (rough.verdict != Verdict::contact) return {Verdict::undecided};
 
     Functions functions(mill_, query.flight, query.radius, query.begin.period);
-    if constexpr (is_body) {
-      const Real near(rough.root);
-      if (functions.enter(functions.seen(near, functions.pose(near)).state.position) != rough.region)
-        return {Verdict::undecided};
-    }
+    const auto place = [&](const Real& t) { return functions.seen(t, functions.pose(t)).state.position; };
+    if constexpr (is_body)
+      if (functions.enter(place(Real(rough.root))) != rough.region) return {Verdict::undecided};
     const Real left(rough.left);
     const auto unit = static_cast<Hint<Real>>(epsilon<Real>()) / epsilon<double>();
-    const auto root = close_in(functions, rough.wall, left > begin ? left : begin, Real(rough.right),
-                               {Real(rough.root), rough.curvature, rough.curvature_error, rough.third},
-                               Real(rough.error * unit));  // bounds are proportional to epsilon
+    const Real error(rough.error * unit);  // bounds are proportional to epsilon
+    const Approach approach{Real(rough.root), rough.curvature, rough.curvature_error, rough.third};
+    const auto root =
+        close_in(functions, rough.wall, left > begin ? left : begin, Real(rough.right), approach, error);
     if (!root) return {Verdict::undecided};
     if constexpr (model::HasRegions<V>)  // this scalar's regions are sharper
-      if (!functions.room().is_valid(rough.wall,
-                                     functions.seen(root->t, functions.pose(root->t)).state.position))
-        return {Verdict::undecided};
+      if (!functions.room().is_valid(rough.wall, place(root->t))) return {Verdict::undecided};
     return {.verdict = Verdict::contact,
             .wall = rough.wall,
             .time = mill_.clock.instant(query.begin.period, root->t),
@@ -633,18 +621,16 @@ auto WallSearch<M, V>::search_by_double(const WallQuery<Real>& query) const -> W
 /// if the ball touches: in exact arithmetic where it applies, otherwise, in the widest scalar, by a rule.
 /// @param found  result by bounds
 template <model::Motion M, model::Vessel V>
-auto WallSearch<M, V>::isolate_further(const Curve& curve, const Start& first, const Sample& last,
-                                       const WallQuery<Real>& query, const Real& end,
-                                       const Bracket& found) const -> Bracket {
-  const Point start = curve.of(first);
+auto WallSearch<M, V>::isolate_further(const Curve& curve, const Point& right, const WallQuery<Real>& query,
+                                       const Real& end, const Bracket& found) const -> Bracket {
   const bool undecided = found.verdict == Verdict::undecided;
   // Exact arithmetic needs no rule for values that are zero within rounding.
-  if (undecided || start.value <= curve.bounds.value_error) {
+  if (undecided || curve.start.value <= curve.bounds.value_error) {
     const auto exact = isolate_exactly(curve, query, end);
     if (exact.verdict != Verdict::undecided) return exact;
   }
   if constexpr (is_widest)
-    if (undecided) return isolate_by_rule(curve, start, curve.of(last));
+    if (undecided) return isolate_by_rule(curve, right);
   return found;
 }
 
@@ -659,20 +645,20 @@ std::optional<bool> WallSearch<M, V>::comes_first(const WallQuery<Real>& query, 
   if (later > error) return false;
   if (later < -error) return true;
   std::optional<int> order;
-  if constexpr (!rounded) order = exact_order(query, wall, root.at_once, other, other_root.at_once);
+  if constexpr (!rounded) order = exact_order(query, wall, root, other, other_root);
   if (!order && !is_widest) return std::nullopt;
   by_rule |= (!order || *order == 0) && wall < mill_.vessel.wall_count();
   return order && *order < 0;
 }
 
-/// For gaps that the widest scalar does not decide and that are no polynomials, so that exact arithmetic
-/// does not apply: they are zero within rounding, or change too slowly to be excluded. The rule is that a gap
-/// which does not measurably fall does not fall. It is evaluated at times after the start that grow by
-/// factors of 16; if it falls before it has opened, the contact is at the evaluation before.
+/// For gaps that neither the widest scalar nor, since they are no polynomials, exact arithmetic decides: they
+/// are zero within rounding, or change too slowly to be excluded. The rule is that a gap which does not
+/// measurably fall does not fall. It is evaluated at times after the start that grow by factors of 16; if it
+/// falls before it has opened, the contact is at the evaluation before.
 template <model::Motion M, model::Vessel V>
-auto WallSearch<M, V>::isolate_by_rule(const Curve& curve, const Point& start, const Point& right) const
-    -> Bracket {
+auto WallSearch<M, V>::isolate_by_rule(const Curve& curve, const Point& right) const -> Bracket {
   const Bounds& b = curve.bounds;
+  const Point& start = curve.start;
   Curve rest = curve;
   rest.most_steps = 2;
   Point last = start;
@@ -706,11 +692,10 @@ bool WallSearch<M, V>::has_exact_gap(int wall) const {
   return exact_gap(mill_.motion, mill_.vessel, mill_.gravity, any, wall).has_value();
 }
 
-/// Isolates the first contact up to `end` in exact arithmetic. Undecided if the gap is not a polynomial.
+/// Isolates the first contact up to `end` exactly. Undecided if the gap is not a polynomial.
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::isolate_exactly(const Curve& curve, const WallQuery<Real>& query,
                                        const Real& end) const -> Bracket {
-  if (curve.wall >= mill_.vessel.wall_count()) return {Verdict::undecided};
   const auto gap = exact_gap(mill_.motion, mill_.vessel, mill_.gravity, query, curve.wall);
   if (!gap) return {Verdict::undecided};
   const auto time = exact_contact_time(*gap);
@@ -726,19 +711,18 @@ auto WallSearch<M, V>::isolate_exactly(const Curve& curve, const WallQuery<Real>
 }
 
 /// Orders the contacts with two walls by exact arithmetic: negative if `one` is hit first, positive if
-/// `other` is, zero if both are hit at one time. Empty if the exact time of one of them is unknown.
+/// `other` is, zero if both are hit at one time. Empty if an exact time is unknown.
 template <model::Motion M, model::Vessel V>
-std::optional<int> WallSearch<M, V>::exact_order(const WallQuery<Real>& query, int one, bool one_at_once,
-                                                 int other, bool other_at_once) const {
-  const auto time_of = [&](int wall, bool at_once) -> std::optional<ExactTime> {
-    if (at_once) return ExactTime{};
-    if (wall >= mill_.vessel.wall_count()) return std::nullopt;
+std::optional<int> WallSearch<M, V>::exact_order(const WallQuery<Real>& query, int one, const Root& one_root,
+                                                 int other, const Root& other_root) const {
+  const auto time_of = [&](int wall, const Root& root) -> std::optional<ExactTime> {
+    if (root.at_once) return ExactTime{};
     const auto gap = exact_gap(mill_.motion, mill_.vessel, mill_.gravity, query, wall);
     return gap ? exact_contact_time(*gap) : std::nullopt;
   };
-  const auto first = time_of(one, one_at_once);
+  const auto first = time_of(one, one_root);
   if (!first) return std::nullopt;
-  const auto second = time_of(other, other_at_once);
+  const auto second = time_of(other, other_root);
   return second ? std::optional(first->compare(*second)) : std::nullopt;
 }
 
@@ -753,19 +737,18 @@ WallAnswer<Real> AnyWallSearch<Real>::with_bodies(const WallQuery<Real>& query,
   const auto clear = clear_times(query);
   for (std::size_t k = 0; k < bodies_.size() && first.verdict != Verdict::undecided; ++k) {
     // Contacts up to a little past the first one matter.
-    const Real needed = first.verdict == Verdict::none
-                            ? std::min(query.length, first.searched)
-                            : Real(clock.elapsed(query.begin, first.time) + first.time_error);
-    const Real whole = first.verdict == Verdict::none
-                           ? needed
-                           : std::min<Real>(query.length, needed + longest_window_ * rounding_margin<Real>());
+    const bool none_yet = first.verdict == Verdict::none;
+    const Real needed = none_yet ? std::min(query.length, first.searched)
+                                 : Real(clock.elapsed(query.begin, first.time) + first.time_error);
+    const Real beyond = needed + longest_window_ * rounding_margin<Real>();
+    const Real whole = none_yet ? needed : std::min(query.length, beyond);
     if (clear[k] >= whole) continue;
     const auto found = first_with_body(k, query, whole, Real(clear[k]));
     if (found.verdict == Verdict::undecided) return found;
     const bool by_rule = first.by_rule || found.by_rule;
     if (found.verdict == Verdict::none) {
       if (found.searched < needed) first = WallAnswer<Real>::none(found.searched);
-    } else if (first.verdict == Verdict::none) {
+    } else if (none_yet) {
       first = found;
     } else {
       const Real later = clock.elapsed(first.time, found.time), error = found.time_error + first.time_error;
@@ -791,9 +774,8 @@ BodyGroups::Times AnyWallSearch<Real>::clear_times(const WallQuery<Real>& query)
                              static_cast<double>(query.radius), static_cast<double>(speed));
 }
 
-/// The first contact with a body within `length` of the begin of a query. None if there is none, or if it
-/// takes too many windows to find.
-/// @param clear  so long it is out of reach [s]
+/// The first contact with a body within `length` of the begin of a query. None, too, if it takes too many
+/// windows to find. @param clear  so long it is out of reach [s]
 template <class Real>
 WallAnswer<Real> AnyWallSearch<Real>::first_with_body(std::size_t body, const WallQuery<Real>& query,
                                                       const Real& length, const Real& clear) const {
