@@ -85,8 +85,8 @@ std::string time_with_interval(double seconds, std::optional<double> half_width)
                             : seconds >= 2 * h   ? std::pair{h, "h"}
                             : seconds >= 2 * min ? std::pair{min, "min"}
                                                  : std::pair{1.0, "s"};
-  return with_interval(seconds / size, half_width ? std::optional(*half_width / size) : std::nullopt) + " " +
-         unit;
+  if (half_width) half_width = *half_width / size;
+  return with_interval(seconds / size, half_width) + " " + unit;
 }
 
 std::string energy_text(double joules) {

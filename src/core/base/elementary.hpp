@@ -82,9 +82,9 @@ Real log_of_one_plus(const Real& x) {
       m *= 2;
       --exponent;
     }
-    static const Real ln2 =
-        2 * (2 * detail::odd_series<Real>(Real(1) / 7, -1) + detail::odd_series<Real>(Real(1) / 17, -1));
-    return exponent * ln2 + 2 * detail::odd_series<Real>((m - 1) / (m + 1), -1);
+    using detail::odd_series;
+    static const Real ln2 = 2 * (2 * odd_series<Real>(Real(1) / 7, -1) + odd_series<Real>(Real(1) / 17, -1));
+    return exponent * ln2 + 2 * odd_series<Real>((m - 1) / (m + 1), -1);
   }
 }
 
@@ -98,8 +98,7 @@ Real fifth_root(const Real& x) {
   Real m = frexp(x, &exponent);
   const int whole = (exponent - (exponent % 5 + 5) % 5) / 5;
   m = ldexp(m, exponent - 5 * whole);  // in [1/2, 16)
-  // The start lies on the tangent of the root at 1 and thus above the root; from there Newton's iterates fall
-  // until rounding stops them.
+  // The start is on the tangent of the root at 1, above the root: Newton's iterates fall until they end.
   for (Real y = (m + 4) / 5;;) {
     const Real square = y * y, next = (4 * y + m / (square * square)) / 5;
     if (!(next < y)) return ldexp(y, whole);

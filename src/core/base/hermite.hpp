@@ -125,9 +125,8 @@ Real inverse_cubic_hint(const Point<Real>& left, const Point<Real>& right) {
   const Real s = right.t - left.t;
   const auto rise = static_cast<double>(right.value - left.value);
   const double w = -static_cast<double>(left.value) / rise, v = 1 - w;
-  const auto left_slope = static_cast<double>(left.slope * s),
-             right_slope = static_cast<double>(right.slope * s);
-  const double fraction = w * w * (1 + 2 * v) + rise * (w * v * v / left_slope - v * w * w / right_slope);
+  const auto first = static_cast<double>(left.slope * s), last = static_cast<double>(right.slope * s);
+  const double fraction = w * w * (1 + 2 * v) + rise * (w * v * v / first - v * w * w / last);
   return left.t + s * static_cast<Real>(fraction);
 }
 
@@ -170,9 +169,9 @@ bool proven_clear(const Point<Real>& start, const Real& curvature, const Real& l
 /// Estimates the first positive root of the second Taylor polynomial, measured from the start; at least
 /// `length` if there is no root before. A hint as above.
 template <class Real>
-double first_root_hint(const Point<Real>& start, const Real& second_derivative, const Real& length) {
+double first_root_hint(const Point<Real>& start, const Real& second, const Real& length) {
   const double value = start.value > 0 ? static_cast<double>(start.value) : 0.0;
-  const auto slope = static_cast<double>(start.slope), curvature = static_cast<double>(second_derivative);
+  const auto slope = static_cast<double>(start.slope), curvature = static_cast<double>(second);
   const double discriminant = slope * slope - 2 * curvature * value;
   if (discriminant < 0) return static_cast<double>(length);
   const double root = std::sqrt(discriminant);

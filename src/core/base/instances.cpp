@@ -10,7 +10,7 @@ namespace edmill {
 namespace {
 
 constexpr int bias = 16383, fraction_bits = 112, largest = 0x7fff;
-constexpr std::uint64_t leading = std::uint64_t{1} << 48, fraction = leading - 1;  // of the upper word
+constexpr auto leading = std::uint64_t{1} << 48, fraction = leading - 1;  // of the upper word
 
 /// Lower and upper word of the IEEE binary128 encoding.
 std::array<std::uint64_t, 2> words_of(const float128& value) {

@@ -18,7 +18,7 @@ struct Instant {
   void archive(Archive& a) { a(period, offset); }
 
   friend bool operator<(const Instant& a, const Instant& b) {
-    if constexpr (std::is_same_v<Real, double>)  // no branch: the order of two events is unpredictable
+    if constexpr (std::is_same_v<Real, double>)  // no branch, which could not be predicted
       return (a.period < b.period) | ((a.period == b.period) & (a.offset < b.offset));
     else
       return a.period != b.period ? a.period < b.period : a.offset < b.offset;

@@ -14,7 +14,7 @@ double quantile(std::vector<double> values, double share);
 
 /// A median with its interval from order statistics, which is valid for any distribution.
 struct Median {
-  static constexpr std::uint64_t least = 8;  ///< fewest values that enclose the median with 99 % probability
+  static constexpr std::uint64_t least = 8;  ///< values that enclose the median with 99 % probability
 
   double value = 0, low = 0, high = 0;
   std::uint64_t count = 0;
@@ -24,7 +24,7 @@ struct Median {
 };
 
 /// The median; of an even number of values the upper one of the two in the middle.
-/// @param alike  number of medians whose intervals contain all true values at once with 95 % probability
+/// @param alike  number of medians whose intervals contain all true values at once with 95 %
 Median median_of(std::vector<double> values, double alike = 1);
 /// The median of y where x is 0, on the straight line with the median slope (Theil and Sen).
 Median median_at_zero(const std::vector<double>& x, std::vector<double> y, double alike = 1);
@@ -39,8 +39,8 @@ struct Estimate {
 Estimate estimate(const std::vector<double>& values);
 
 /// Mean of a time series and its 95 % interval, by Student's t for the cosine transforms of the lowest
-/// frequencies, which account for the correlation of neighbouring values (Lazarus, Lewis, Stock and Watson
-/// 2018); wider for skewed values. No interval for fewer than five values.
+/// frequencies, which account for correlation (Lazarus, Lewis, Stock and Watson 2018); wider for skewed
+/// values. No interval for fewer than five values.
 Estimate series_estimate(const std::vector<double>& values);
 
 /// True if a time series drifts: its lowest frequency exceeds the next ones (Student's t, 1 %).
@@ -53,8 +53,7 @@ struct SteadyState {
 };
 /// Estimate of a mean from runs that differ in their seeds only.
 struct OfSeeds : Estimate {
-  /// Steady states in ascending order, if the runs differ by more than their own intervals allow, so that no
-  /// single interval covers all of them; otherwise empty.
+  /// In ascending order, if the runs differ by more than their own intervals allow; otherwise empty.
   std::vector<SteadyState> states = {};
 };
 /// Mean of several runs with an interval from the pooled variance within and between the runs. If the
@@ -63,8 +62,8 @@ struct OfSeeds : Estimate {
 /// @param half_widths  of the runs' 95 % intervals; if empty, only the scatter of the means is used
 OfSeeds pooled(const std::vector<double>& means, const std::vector<double>& half_widths);
 
-/// Whether the means of several series differ by more than the scatter of the series allows (analysis of
-/// variance, with this significance). @param series  of the same length, two of them or more
+/// Whether the means of series differ by more than their scatter allows (analysis of variance, with this
+/// significance). @param series  two or more, of one length
 bool means_differ(const std::vector<std::vector<double>>& series, double significance);
 
 /// Weighted least-squares fit of a straight line to points that are added one by one.
@@ -122,19 +121,18 @@ class WeightedQuantiles {
   std::vector<double> weights_;  ///< of each bin, up to the last one that is not zero
 };
 
-/// Whether the means of two samples differ at `significance` (Welch's test, two-sided). Samples of fewer than
-/// two values never differ.
+/// Whether the means of two samples differ (Welch's test, two-sided); never for fewer than two values.
 bool differ(const std::vector<double>& a, const std::vector<double>& b, double significance);
 
 /// p-value of a paired t test: the probability of a mean of `differences` at least this far from 0 if 0 is
-/// expected (Student's t, two-sided). @pre at least two values
+/// expected (two-sided). @pre at least two values
 double paired_t_probability(const std::vector<double>& differences);
 
-/// Holm's adjusted probabilities: rejecting those up to 5 % has a familywise error rate of at most 5 %.
+/// Holm's adjusted probabilities: rejecting those up to 5 % has a familywise error rate up to 5 %.
 std::vector<double> holm(const std::vector<double>& probabilities);
 
-/// Whether a value is outside the interval that contains another value of this sample with probability
-/// 1 - `significance` (Student's prediction interval). Always false for fewer than two values.
+/// Whether a value is outside the interval for a further value of this sample with probability
+/// 1 - `significance` (Student's prediction interval). Never for fewer than two values.
 bool stands_apart(double value, const std::vector<double>& sample, double significance);
 
 }  // namespace edmill::numerics

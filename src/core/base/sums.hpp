@@ -26,9 +26,8 @@ class CompensatedSum {
   Real sum_{0}, lost_{0};
 };
 
-/// Totals at the ends of batches. A batch consists of whole drive periods, so that it covers all phases of
-/// the drive. If there are too many batches they are merged in pairs: after its first 64 periods, a run of
-/// any length has 64 to 127 complete batches.
+/// Totals at the ends of batches of whole drive periods, which cover all phases of the drive. Too many are
+/// merged in pairs: after its first 64 periods, a run of any length has 64 to 127 complete batches.
 template <class Real>
 class Batches {
  public:
@@ -57,8 +56,7 @@ class Batches {
     latest_ = totals;
     while (!(time < next())) close(totals);
   }
-  /// Number of whole periods so far, and the total of a quantity over them. @pre at least one period has
-  /// passed
+  /// Number of whole periods so far, and the total of a quantity over them. @pre at least one
   std::int64_t elapsed() const { return elapsed_; }
   double total(std::size_t quantity) const { return latest_.at(quantity); }
 

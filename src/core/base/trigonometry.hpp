@@ -41,13 +41,10 @@ namespace detail {
 /// A SIMD vector of two doubles.
 typedef double TwoDoubles __attribute__((vector_size(16)));
 
-/// Taylor polynomials of sin and cos on [-pi/4, pi/4], side by side, in Estrin order: short dependency
-/// chains.
+/// Taylor polynomials of sin and cos on [-pi/4, pi/4], side by side, in Estrin order: short chains.
 [[gnu::always_inline]] inline SinCos<double> sin_cos_kernel(double x) {
   const double square = x * x;
-  const TwoDoubles z = {square, square};
-  const TwoDoubles z2 = z * z;
-  const TwoDoubles z4 = z2 * z2;
+  const TwoDoubles z = {square, square}, z2 = z * z, z4 = z2 * z2;
   const TwoDoubles sum =
       (TwoDoubles{-1.0 / 6, 1.0 / 24} + z * TwoDoubles{1.0 / 120, -1.0 / 720}) +
       z2 * (TwoDoubles{-1.0 / 5040, 1.0 / 40320} + z * TwoDoubles{1.0 / 362880, -1.0 / 3628800}) +
@@ -57,8 +54,7 @@ typedef double TwoDoubles __attribute__((vector_size(16)));
   return {x + x * (square * sum[0]), 1.0 - (0.5 * square - z2[1] * sum[1])};
 }
 
-/// Adds a number of quarter turns to the angle, without branches: the phase of a drive can be in any
-/// quadrant.
+/// Adds quarter turns to the angle, without branches: the phase of a drive can be in any quadrant.
 [[gnu::always_inline]] inline SinCos<double> quarter_turned(const SinCos<double>& v, int quarters) {
   const double s = (quarters & 1) ? v.cos : v.sin;
   const double c = (quarters & 1) ? v.sin : v.cos;
@@ -70,16 +66,15 @@ inline int nearest(double x) { return static_cast<int>(x < 0 ? x - 0.5 : x + 0.5
 
 }  // namespace detail
 
-/// Amplitudes and angles of a mill are below pi/4 or a few turns; larger angles lose accuracy in proportion.
+/// Angles of a mill are below pi/4 or a few turns; larger ones lose accuracy in proportion.
 template <>
 inline SinCos<double> sin_cos<double>(const double& angle) {
   constexpr double eighth_turn = 0.785398163397448;
   if (angle <= eighth_turn && angle >= -eighth_turn) return detail::sin_cos_kernel(angle);
-  constexpr double half_pi_high = 1.5707963267948966;
-  constexpr double half_pi_low = 6.123233995736766e-17;
+  constexpr double half_pi_high = 1.5707963267948966, half_pi_low = 6.123233995736766e-17;
   const int quarters = detail::nearest(angle / half_pi_high);
-  return detail::quarter_turned(
-      detail::sin_cos_kernel((angle - quarters * half_pi_high) - quarters * half_pi_low), quarters);
+  const double rest = (angle - quarters * half_pi_high) - quarters * half_pi_low;
+  return detail::quarter_turned(detail::sin_cos_kernel(rest), quarters);
 }
 
 /// sin and cos of 2 pi `turns`, for |turns| below 2^20. Error at most 4 ulp of 1.
@@ -92,14 +87,14 @@ SinCos<Real> sin_cos_turns(const Real& turns) {
 template <>
 [[gnu::always_inline]] inline SinCos<double> sin_cos_turns<double>(const double& turns) {
   const int quarters = detail::nearest(4 * turns);
-  const double rest = turns - 0.25 * quarters;  // exact: both are multiples of the same small power of two
+  const double rest = turns - 0.25 * quarters;  // exact: multiples of the same power of two
   return detail::quarter_turned(detail::sin_cos_kernel(6.283185307179586 * rest), quarters);
 }
 
-// Updates of sine and cosine for a small increment of the angle, since sines are expensive in wide scalars.
+// Updates of sine and cosine for a small increment of the angle: sines of wide scalars are expensive.
 
-/// Largest increment [rad] for which the rounding of the cubic term in double, d^3 2^-53 / 6, and the quintic
-/// term, d^5 / 120, are below the rounding of 1 in a scalar with this many binary digits.
+/// Largest increment [rad] for which the rounding of the cubic term in double, d^3 2^-53 / 6, and the
+/// quintic term, d^5 / 120, are below the rounding of 1 in a scalar of so many binary digits.
 constexpr double longest_turn(int digits) {
   if (digits <= 113) return 0x1p-24;
   double turn = 1;
@@ -114,14 +109,13 @@ bool is_short_turn(const Real& speed, const Real& dt, double x) {
     return x <= longest && x >= -longest;
   } else {
     if (double_hints<Real>()) return std::abs(x) <= longest_turn(binary_digits<Real>());
-    // The increment may underflow in double: require that even the cubic term is below the rounding.
+    // The increment may underflow in double: even the cubic term must be below the rounding.
     const Real turn = speed * dt;
     return dt == 0 || exponent_of(turn) < -binary_digits<Real>() / 3 - 1;
   }
 }
 
-/// Updates sin and cos of an angle that increases by `more`. The last terms of the Taylor polynomials are so
-/// small that they are computed in double.
+/// Updates sin and cos of an angle that increases by `more`, with the last Taylor terms in double.
 template <class Real>
 void turn(Real& sine, Real& cosine, const Real& more) {
   const double d = static_cast<double>(more);

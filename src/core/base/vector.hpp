@@ -1,4 +1,4 @@
-// Three-vectors with a fixed order of operations, so that sums have the same bits in every build, and frames.
+// Three-vectors whose sums have a fixed order, for the same bits in every build, and frames.
 #pragma once
 
 #include <Eigen/Core>

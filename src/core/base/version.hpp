@@ -5,10 +5,9 @@
 
 namespace edmill {
 
-std::string version();   ///< "0.1.0"
-std::string commit();    ///< short commit, "-dirty" when files were changed, "unknown" outside a checkout
-std::string compiler();  ///< "GNU 12.2.0, Release"
-/// Optional dependencies that were found for this build: "MPI"
-std::string optional_parts();
+std::string version();         ///< "0.1.0"
+std::string commit();          ///< short, with "-dirty" for changed files; "unknown" outside a checkout
+std::string compiler();        ///< "GNU 12.2.0, Release"
+std::string optional_parts();  ///< dependencies that were found for this build: "MPI"
 
 }  // namespace edmill

@@ -34,9 +34,9 @@ class SinCosTables {
   SinCos<Real> operator()(const Real& angle) const {
     const int parts = nearest(static_cast<double>(angle) * 10.185916357881302);
     const Real rest = parts == 0 ? angle : Real((angle - parts * high_) - parts * low_);
-    const auto small = taylor<rest_degree>(rest);
+    const auto [s, c] = taylor<rest_degree>(rest);
     const auto& large = multiples_[static_cast<std::size_t>(parts & 63)];
-    return {large.sin * small.cos + large.cos * small.sin, large.cos * small.cos - large.sin * small.sin};
+    return {large.sin * c + large.cos * s, large.cos * c - large.sin * s};
   }
 
  private:
@@ -83,8 +83,8 @@ struct Trigonometry<mpfr50> {
   static const mpfr50& pi() { return boost::math::constants::pi<mpfr50>(); }
   static SinCos<mpfr50> sin_cos(const mpfr50& angle) {
     static const auto tables = [] {
-      const auto wide = mpfr_of<100>(boost::math::constants::pi<mpfr_of<100>>() / 32);
-      const auto high = mpfr_of<100>(ldexp(floor(ldexp(wide, 140)), -140));
+      const mpfr_of<100> wide = boost::math::constants::pi<mpfr_of<100>>() / 32;
+      const mpfr_of<100> high = ldexp(floor(ldexp(wide, 140)), -140);
       return detail::SinCosTables<mpfr50, 24, 44>(pi(), mpfr50(high), mpfr50(wide - high));
     }();
     return tables(angle);
@@ -107,8 +107,9 @@ struct Trigonometry<mpfr_of<digits>> {
     return value;
   }
   static SinCos<Real> sin_cos(const Real& angle) {
+    const auto data = [](auto& x) { return x.backend().data(); };
     SinCos<Real> result;
-    mpfr_sin_cos(result.sin.backend().data(), result.cos.backend().data(), angle.backend().data(), MPFR_RNDN);
+    mpfr_sin_cos(data(result.sin), data(result.cos), data(angle), MPFR_RNDN);
     return result;
   }
 #endif

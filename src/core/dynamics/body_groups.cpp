@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <tuple>
 #include <utility>
 
 #include "base/errors.hpp"
@@ -44,8 +45,10 @@ bool same(const List& one, const List& other) {
     return a.amplitude == b.amplitude && a.frequency == b.frequency && a.phase == b.phase;
   };
   const auto same_joint = [&](const Joint& a, const Joint& b) {
-    return a.rotates == b.rotates && a.axis == b.axis && a.shift == b.shift && a.angle == b.angle &&
-           a.speed == b.speed &&
+    const auto constants = [](const Joint& j) {
+      return std::tie(j.rotates, j.axis, j.shift, j.angle, j.speed);
+    };
+    return constants(a) == constants(b) &&
            std::equal(a.swings.begin(), a.swings.end(), b.swings.begin(), b.swings.end(), same_swing);
   };
   return std::equal(one.begin(), one.end(), other.begin(), other.end(), same_joint);
@@ -68,22 +71,23 @@ BodyGroups::BodyGroups(const std::vector<model::Body<double>>& bodies) {
       groups_.push_back({model::ChainMotion<double>({first, joints.period, joints.times}), {}});
     }
     const model::ChainMotion<double> constant({rest, joints.period, joints.times});
-    groups_[group].members.push_back(
-        {.body = k,
-         .place = constant.pose({0, 0.0}),
-         .shape = shape,
-         .speed = motion.wall_speed(shape.size()) * (1 + 1e-9),
-         .margin = 1e-9 * shape.reach() + 1e-13 * motion.period() * motion.wall_speed(shape.size())});
+    const double speed = motion.wall_speed(shape.size());
+    groups_[group].members.push_back({.body = k,
+                                      .place = constant.pose({0, 0.0}),
+                                      .shape = shape,
+                                      .speed = speed * (1 + 1e-9),
+                                      .margin = 1e-9 * shape.reach() + 1e-13 * motion.period() * speed});
   }
 }
 
 auto BodyGroups::clear_times(const Instant<double>& when, const Vec3<double>& position, double radius,
                              double speed) const -> Times {
+  using Motion = model::ChainMotion<double>;
   Times times;
   for (const auto& group : groups_) {
-    const auto seen = model::ChainMotion<double>::position_in_vessel(group.motion.place(when), position);
+    const auto seen = Motion::position_in_vessel(group.motion.place(when), position);
     for (const auto& member : group.members) {
-      const auto local = model::ChainMotion<double>::position_in_vessel(member.place, seen);
+      const auto local = Motion::position_in_vessel(member.place, seen);
       times[member.body] =
           (member.shape.clearance(local) - radius - member.margin) / (speed * (1 + 1e-9) + member.speed);
     }

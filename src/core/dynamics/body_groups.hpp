@@ -1,5 +1,5 @@
-// Bodies that move together, and how long a ball cannot reach each of them. A broad phase in double, whose
-// margins are far above its rounding: contacts that it excludes need no search in any scalar.
+// How long a ball cannot reach bodies that move together. A broad phase in double, whose margins are far
+// above its rounding: contacts that it excludes need no search in any scalar.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace edmill::dynamics {
 
-/// Bodies whose joints move alike, such as the arms of a rotor, differ by a constant transformation. One pose
-/// of the joints that move is enough for all of them. theory.md, section 2
+/// Bodies whose joints move alike, such as the arms of a rotor, differ by a constant transformation: one pose
+/// of the joints that move is enough. theory.md, section 2
 class BodyGroups {
  public:
   static constexpr std::size_t most = 64;  ///< bodies
@@ -31,8 +31,8 @@ class BodyGroups {
     std::size_t body;
     model::ChainPose<double> place;  ///< in the frame of the group
     model::RoundedBody<double> shape;
-    double speed,
-        margin;  ///< no point of it is faster [m/s]; above the rounding of its distance, and of the time [m]
+    double speed;   ///< no point of it is faster [m/s]
+    double margin;  ///< above the rounding of its distance, and of the time [m]
   };
   struct Group {
     model::ChainMotion<double> motion;

@@ -1,4 +1,4 @@
-// Escalation: a decision that one scalar cannot make is left to the next wider one, for the state as stored.
+// Escalation: a decision that a scalar cannot make is left to the next wider one, for the state as stored.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace edmill::dynamics {
 
-/// A predicted contact with the flights it was predicted from, so that a wider scalar can recompute its time.
+/// A predicted contact with its flights, so that a wider scalar can recompute its time.
 template <class Real>
 struct Contact {
   bool with_wall;
@@ -31,8 +31,7 @@ class DecisionLadder {
   ~DecisionLadder();
   DecisionLadder(DecisionLadder&&) noexcept;
 
-  /// Certified answer to a wall query; `pose` is the vessel's pose at the begin of the window, if the caller
-  /// has it.
+  /// Certified answer to a wall query; `pose` is the vessel's at the begin of the window.
   /// @throws UndecidedError only for a defect of the search, since the widest scalar decides every query; the
   /// message contains the state that reproduces it
   WallAnswer<Real> wall(const model::AnyPose<Real>& pose, const WallQuery<Real>& query) {
@@ -60,8 +59,8 @@ class DecisionLadder {
   /// are simultaneous or no rung of the ladder separates them.
   int order(const Contact<Real>& a, const Contact<Real>& b);
 
-  /// Contacts closer in time than this [s] are ordered by `order`. It is far above the rounding error of most
-  /// contact times; a time whose error exceeds a quarter of it is recomputed by the next rung.
+  /// Contacts closer in time than this [s] are ordered by `order`. Far above the rounding of most contact
+  /// times; one whose error exceeds a quarter of it is recomputed by the next rung.
   const Real& tie_window() const { return pairs_.tie_window(); }
 
   void raise_top_speed(const Real& speed);
@@ -73,7 +72,7 @@ class DecisionLadder {
   /// Decisions passed to each wider scalar, narrowest first, and last those made by a rule.
   std::vector<model::Escalations> escalations() const;
 
-  /// Saves or loads the counters. All else follows from the mill and the top speed, which the owner stores.
+  /// Saves or loads the counters; all else follows from the mill and the top speed.
   void archive(Archive& a);
 
  private:

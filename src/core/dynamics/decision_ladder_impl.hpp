@@ -1,5 +1,4 @@
-// Implementation of DecisionLadder; included by the instantiation files only, where the wide scalars are
-// known.
+// Implementation of DecisionLadder; included by the instantiation files only.
 #pragma once
 
 #include <type_traits>
@@ -85,7 +84,7 @@ WallAnswer<Real> DecisionLadder<Real>::wall_above(const WallQuery<Real>& query) 
     const auto begin = instant_cast<Wide>(query.begin);
     WallQuery<Wide> rest{flight_cast<Wide>(query.flight), Wide(query.radius), begin, length};
     auto wide = ladder.wall(rest);
-    // A border between regions may be closer to the begin of the window than this scalar's clock resolves.
+    // A border between regions may be closer to the begin than this scalar's clock resolves.
     const Wide least(64 * epsilon<Real>() * pairs_.clock().period());
     Wide proven = wide.searched;
     while (wide.verdict == Verdict::none && proven < least && proven < length) {
@@ -181,21 +180,22 @@ int DecisionLadder<Real>::order(const Contact<Real>& a, const Contact<Real>& b) 
   }
 }
 
-/// Orders contacts by exact arithmetic; the result is also zero if a gap is not a polynomial, so that no
-/// exact time is known.
+/// Orders contacts by exact arithmetic; zero, too, if a gap is no polynomial.
 template <class Real>
 int DecisionLadder<Real>::order_by_exact_times(const Contact<Real>& a, const Contact<Real>& b) {
   const Real& period = pairs_.clock().period();
   const auto time_of = [&](const Contact<Real>& c) -> std::optional<ExactTime> {
     const auto& begin = c.flight.start;
-    if (!c.with_wall)
-      return exact_contact_time(exact_gap(c.flight, c.partner, begin, c.radius, mill_.gravity, period));
-    const auto gap = exact_gap(mill_.motion, mill_.vessel, mill_.gravity,
-                               WallQuery<Real>{c.flight, c.radius, begin, period}, c.wall);
+    std::optional<ExactGap> gap;
+    if (c.with_wall)
+      gap = exact_gap(mill_.motion, mill_.vessel, mill_.gravity, {c.flight, c.radius, begin, period}, c.wall);
+    else
+      gap = exact_gap(c.flight, c.partner, begin, c.radius, mill_.gravity, period);
     return gap ? exact_contact_time(*gap) : std::nullopt;
   };
   const auto first = time_of(a), second = time_of(b);
-  return first && second ? first->compare(*second, exact_elapsed(a.flight.start, b.flight.start, period)) : 0;
+  if (!first || !second) return 0;
+  return first->compare(*second, exact_elapsed(a.flight.start, b.flight.start, period));
 }
 
 template <class Real>
@@ -207,10 +207,9 @@ std::vector<model::Escalations> DecisionLadder<Real>::escalations() const {
     if (above_) {
       const auto more = above_->ladder.escalations();
       rows.insert(rows.end(), more.begin(), more.end());
-    } else {
-      // Rungs that were never needed are reported, too.
-      using Wide = Wider<Real>;
-      if constexpr (!std::is_void_v<Wider<Wide>>) rows.push_back({scalar_name<Wider<Wide>>()});
+    } else {  // rungs that were never needed are reported, too
+      using Next = Wider<Wider<Real>>;
+      if constexpr (!std::is_void_v<Next>) rows.push_back({scalar_name<Next>()});
       rows.push_back({"rule"});
     }
     return rows;

@@ -11,7 +11,7 @@
 
 namespace edmill::dynamics {
 
-/// A gap, or a function with the same sign, as value + rate t + bend t^2, where t starts at some instant.
+/// A gap, or a function with the same sign, as value + rate t + bend t^2 from some instant on.
 struct ExactGap {
   Dyadic value, rate, bend;
 };
@@ -27,11 +27,9 @@ struct ExactTime {
   Real rounded_down() const {
     using std::sqrt;
     // The root with the smaller absolute value is the product of both over the other one.
-    const Real root = sqrt(square.to<Real>()), sum = p.to<Real>() + Real(s) * root;
-    const bool cancels = s * p.sign() < 0;
-    const Real t = cancels
-                       ? Real((p * p - square).to<Real>() / (q.to<Real>() * (p.to<Real>() - Real(s) * root)))
-                       : Real(sum / q.to<Real>());
+    const Real whole = p.to<Real>(), over = q.to<Real>(), root = Real(s) * sqrt(square.to<Real>());
+    const Real t = s * p.sign() < 0 ? Real((p * p - square).to<Real>() / (over * (whole - root)))
+                                    : Real((whole + root) / over);
     Real below = t > 0 ? t : Real(0);
     for (Real step = epsilon<Real>() / 2; below > 0 && compare({Dyadic::of(below)}) < 0; step = 2 * step)
       below = below - below * step;
@@ -74,11 +72,11 @@ Dyadic exact_elapsed(const Instant<Real>& from, const Instant<Real>& to, const R
 template <class Real>
 ExactGap exact_gap(const Flight<Real>& i, const Flight<Real>& j, const Instant<Real>& now,
                    const Real& radius_sum, const Vec3<Real>& gravity, const Real& period) {
-  const Dyadic age_i = exact_elapsed(i.start, now, period), age_j = exact_elapsed(j.start, now, period);
+  const auto age_i = exact_elapsed(i.start, now, period), age_j = exact_elapsed(j.start, now, period);
   const Dyadic sum = Dyadic::of(radius_sum);
   ExactGap gap{-(sum * sum), {}, {}};
   for (int k = 0; k < 3; ++k) {
-    const Dyadic g = Dyadic::of(gravity[k]), vi = Dyadic::of(i.velocity[k]), vj = Dyadic::of(j.velocity[k]);
+    const auto g = Dyadic::of(gravity[k]), vi = Dyadic::of(i.velocity[k]), vj = Dyadic::of(j.velocity[k]);
     const Dyadic r = Dyadic::of(i.position[k]) + age_i * (vi + (age_i * g).half()) -
                      (Dyadic::of(j.position[k]) + age_j * (vj + (age_j * g).half()));
     const Dyadic v = vi - vj + g * (age_i - age_j);
@@ -110,7 +108,7 @@ model::Joints<Real> joints_of(const model::AnyMotion<Real>& motion) {
 template <class Real>
 struct Shape {
   enum Kind { other, plane, round } kind = other;
-  /// For a plane its inward normal; for a round wall, one for each coordinate in the square of its radius.
+  /// Of a plane its inward normal; of a round wall, one for each coordinate in its radius squared.
   Vec3<Real> axes{Real(0), Real(0), Real(0)};
   Real distance{0};  ///< of the wall from the centre [m]
 };
@@ -134,8 +132,8 @@ Shape<Real> shape_of(const V& vessel, int wall) {
   }
 }
 
-/// A vessel coordinate that equals an inertial coordinate up to its sign and a constant, so that a ball in
-/// flight has a constant acceleration along it.
+/// A vessel coordinate that equals an inertial one up to its sign and a constant: the acceleration of a ball
+/// in flight along it is constant.
 struct StillCoordinate {
   int axis, sign;
   Dyadic offset;  ///< coordinate in the vessel = sign * coordinate in the ground - offset [m]

@@ -1,5 +1,4 @@
-// Free flight of a ball between impacts (2.1), and queries and answers of the search for its first contact
-// with a wall.
+// Free flight of a ball (2.1), and queries and answers of the search for its first contact with a wall.
 #pragma once
 
 #include <optional>
@@ -12,7 +11,7 @@
 
 namespace edmill::dynamics {
 
-/// A ball's path from `start` on; its spin does not change in flight. In double it is one cache line.
+/// A ball's path from `start` on; its spin is constant. In double it is one cache line.
 template <class Real>
 struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Flight {
   Vec3<Real> position;  ///< at `start` [m]
@@ -74,23 +73,21 @@ struct NoPose {
   void archive(Archive&) {}
 };
 
-/// Pose of the vessel at a contact. Wide scalars store it with the contact, because sines are expensive
-/// there.
+/// Pose of the vessel at a contact: kept by wide scalars, whose sines are expensive.
 template <class Real>
 using ContactPose =
     std::conditional_t<std::is_same_v<Real, double>, NoPose, std::optional<model::AnyPose<Real>>>;
 
-/// The answer of a search over (begin, begin + length]; `none` may be proven for a shorter window than
-/// requested.
+/// The answer of a search over (begin, begin + length]; `none` may be proven for a shorter window.
 template <class Real>
 struct WallAnswer {
   Verdict verdict = Verdict::none;
   int wall = -1;         ///< of a contact
   Instant<Real> time{};  ///< of a contact: the non-penetrating end of the bracket
-  bool by_rule = false;  ///< no precision decides it: two walls at one time, of which the lower id was taken,
-                         ///< or a gap that cannot be distinguished from zero
-  Real searched{0};      ///< if none: length of the proven window from begin [s]
-  Real time_error{0};    ///< of a contact: bound on the rounding error of its time [s]
+  /// No precision decides it: two walls at one time, of which the lower id was taken, or a gap of zero.
+  bool by_rule = false;
+  Real searched{0};    ///< if none: length of the proven window from begin [s]
+  Real time_error{0};  ///< of a contact: bound on the rounding error of its time [s]
   [[no_unique_address]] ContactPose<Real> pose{};  ///< of a contact, where the search knows it
 
   static WallAnswer none(const Real& searched) { return {Verdict::none, -1, {}, false, searched}; }
@@ -108,19 +105,18 @@ struct WallQuery {
   Real length;          ///< [s], at most WallSearch::longest_window()
 };
 
-/// The result that a search in double proves for a wider flight and mill after rounding them to double. Times
-/// are offsets [s] in the drive period in which the window begins.
+/// What a search in double proves for a wider flight and mill, rounded to double. Times are offsets [s] in
+/// the drive period in which the window begins.
 struct RoughAnswer {
   Verdict verdict = Verdict::undecided;
-  double until = 0;            ///< of none: no contact up to here
-  int wall = -1;               ///< of a contact; no wall is touched before `left`
-  int region = 0;              ///< of the gap functions, where a body has several
-  double left = 0, right = 0;  ///< its gap decreases throughout [left, right], through zero
-  double root = 0;             ///< estimate of the root
-  double curvature = 0;        ///< second derivative of the gap there
-  double curvature_error = 0;  ///< bound on its error
-  double third = 0;            ///< bound on the third derivative
-  double error = 0;            ///< bound on the rounding of the gap in double, without that of the state
+  double until = 0;                           ///< of none: no contact up to here
+  int wall = -1;                              ///< of a contact; no wall is touched before `left`
+  int region = 0;                             ///< of the gap functions, where a body has several
+  double left = 0, right = 0;                 ///< its gap decreases throughout [left, right], through zero
+  double root = 0;                            ///< estimate of the root
+  double curvature = 0, curvature_error = 0;  ///< second derivative of the gap there, bound on its error
+  double third = 0;                           ///< bound on the third derivative
+  double error = 0;  ///< bound on the rounding of the gap in double, without that of the state
 };
 
 }  // namespace edmill::dynamics

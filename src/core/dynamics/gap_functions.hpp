@@ -1,6 +1,5 @@
-// Gaps of a ball in flight to the walls of the moving vessel, their rates, their rounding errors, and bounds
-// on their derivatives, by which contacts are excluded with proof.
-// Equations: (2.17'), (2.19'), (2.21'), (2.22') of docs/theory.md; bounds: section 3.
+// Gaps of a ball in flight to the moving walls, their rates and rounding errors, and bounds on their
+// derivatives, which exclude contacts. (2.17'), (2.19'), (2.21'), (2.22') and section 3 of docs/theory.md
 #pragma once
 
 #include <array>
@@ -113,7 +112,7 @@ class GapFunctions {
                                            : Real(Real(period - flight.start.period) * mill.clock.period())) {
   }
 
-  /// Chooses the functions that are valid around a position in the frame of a body. @return their number
+  /// Chooses the functions that are valid around a position seen from a body. @return their number
   int enter(const Vec3<Real>& position) {
     if constexpr (requires { room_.enter(position); })
       return room_.enter(position);
@@ -144,8 +143,8 @@ class GapFunctions {
   /// The gap to one wall at `offset`, from the pose at a nearby offset `known`.
   Real gap_nearby(int wall, const Real& offset, const Pose& pose, const Real& known) const {
     const auto position = position_after(flight_, mill_.gravity, elapsed(offset));
-    const Real own =
-        room_.gap(wall, mill_.motion.position_nearby(instant(offset), pose, instant(known), position));
+    const auto seen = mill_.motion.position_nearby(instant(offset), pose, instant(known), position);
+    const Real own = room_.gap(wall, seen);
     if (const auto* pistons = model::pistons_of(mill_.vessel))
       return own - pistons->of_wall(wall, instant(offset)).value;
     return own;
@@ -154,17 +153,16 @@ class GapFunctions {
   /// The ball at `offset`, where the vessel has this pose.
   SeenBall<Real> seen(const Real& offset, const Pose& pose) const {
     const Real dt = elapsed(offset);
+    const auto place = position_after(flight_, mill_.gravity, dt);
     const auto velocity = velocity_after(flight_, mill_.gravity, dt);
-    return {velocity,
-            mill_.motion.to_vessel_frame(pose, position_after(flight_, mill_.gravity, dt), velocity)};
+    return {velocity, mill_.motion.to_vessel_frame(pose, place, velocity)};
   }
 
-  /// The start of a search at `offset`, from the pose of the vessel and the state of the ball in it.
+  /// The start of a search at `offset`, from the vessel's pose and the ball's state in it.
   Start start(const Real& offset, const Pose& pose, const SeenBall<Real>& ball) const {
-    const auto second =
-        mill_.motion.vessel_frame_acceleration(pose, ball.state, ball.velocity, mill_.gravity);
-    Start start{plain_sample(offset, ball.state),
-                room_.curvatures(ball.state.position, ball.state.velocity, second)};
+    const auto& [velocity, state] = ball;
+    const auto second = mill_.motion.vessel_frame_acceleration(pose, state, velocity, mill_.gravity);
+    Start start{plain_sample(offset, state), room_.curvatures(state.position, state.velocity, second)};
     for_each_piston(offset, [&](int wall, const auto& moved) {
       start.gap[wall] -= moved.value;
       start.rate[wall] -= moved.rate;
@@ -199,8 +197,7 @@ class GapFunctions {
     return errors(elapsed, speed, model::per_wall(mill_.vessel, true));
   }
 
-  /// Additional errors from rounding a wider flight, radius and mill to this scalar, at offsets that are the
-  /// same numbers in both.
+  /// Additional errors from rounding a wider flight, radius and mill to this scalar, but not the offset.
   Errors state_errors(const Real& elapsed, const Real& speed) const {
     const Real u = epsilon<Real>() / 2;
     const auto flight = bounds(elapsed, speed);
@@ -239,9 +236,8 @@ class GapFunctions {
       if (!mill_.vessel.is_flat(wall)) {
         const Real& speed = flight.vessel_speed;
         const Real eighth = mill_.clock.period() / 8;
-        bounds =
-            mill_.vessel.curved_errors(wall, coordinate, u, speed, flight.vessel_acceleration,
-                                       Real(speed * (flight.elapsed < eighth ? flight.elapsed : eighth)));
+        const Real outside = speed * (flight.elapsed < eighth ? flight.elapsed : eighth);
+        bounds = mill_.vessel.curved_errors(wall, coordinate, u, speed, flight.vessel_acceleration, outside);
       }
       errors.gap[wall] = bounds.value;
       errors.rate[wall] = bounds.rate;
@@ -274,11 +270,10 @@ using DerivativeBounds = typename V::template PerKind<std::array<typename V::Sca
 template <class M, class V, class Real = typename M::Scalar>
 DerivativeBounds<V> derivative_bounds(const MovingVessel<M, V>& mill, const Real& speed, const Real& length) {
   Real reach = mill.vessel_reach;
-  if constexpr (requires { mill.vessel.reach_near(length); })  // a body is searched where the ball is near
-    if (const Real near =
-            mill.vessel.reach_near((speed + mill.wall_speed) * length * (1 + rounding_margin<Real>()));
-        near < reach)
-      reach = near;
+  if constexpr (requires { mill.vessel.reach_near(length); }) {  // a body is searched where the ball is near
+    const Real way = (speed + mill.wall_speed) * length * (1 + rounding_margin<Real>());
+    if (const Real near = mill.vessel.reach_near(way); near < reach) reach = near;
+  }
   const auto coordinates =
       mill.motion.coordinate_bounds(mill.vessel.half_sizes(), reach, mill.gravity_size, speed, length);
   const Real margin = Real(1) + Real(1) / 65536;  // over the rounding of all this
@@ -299,8 +294,8 @@ template <class M, class V>
 class BoundsTable {
  public:
   using Real = typename M::Scalar;
-  using Row = std::conditional_t<std::is_same_v<Real, double>, DerivativeBounds<V>,
-                                 std::optional<DerivativeBounds<V>>>;
+  using Bounds = DerivativeBounds<V>;
+  using Row = std::conditional_t<std::is_same_v<Real, double>, Bounds, std::optional<Bounds>>;
 
   explicit BoundsTable(const MovingVessel<M, V>& mill) : mill_(mill), longest_(mill.motion.longest_window()) {
     if (const auto* pistons = model::pistons_of(mill.vessel))
@@ -316,28 +311,27 @@ class BoundsTable {
   /// Longest window [s] that the bounds serve.
   const Real& longest_window() const { return longest_; }
 
-  DerivativeBounds<V> at(const Real& speed, const Real& length) const {
+  Bounds at(const Real& speed, const Real& length) const {
     const Real place = speed * per_speed_;
     if (!(place < speeds - 1)) return derivative_bounds(mill_, speed, length);
     const int row = static_cast<int>(place);
     int column = 0;  // counted without branches: windows are of any length
     for (int j = 1; j < lengths; ++j) column += length <= longest_ / (1 << j);
     auto& bounds = rows_[row * lengths + column];
-    // Wide scalars decide seldom and compute rows on demand.
-    if constexpr (!std::is_same_v<Real, double>)
+    if constexpr (std::is_same_v<Real, double>) {
+      return bounds;
+    } else {  // wide scalars decide seldom and compute rows on demand
       if (!bounds) bounds = made(row * lengths + column);
-    return value_of(bounds);
+      return *bounds;
+    }
   }
 
  private:
-  static constexpr int speeds = 64;
-  static constexpr int lengths = 5;
+  static constexpr int speeds = 64, lengths = 5;
 
-  static const DerivativeBounds<V>& value_of(const DerivativeBounds<V>& row) { return row; }
-  static const DerivativeBounds<V>& value_of(const std::optional<DerivativeBounds<V>>& row) { return *row; }
-  DerivativeBounds<V> made(int row) const {
-    return derivative_bounds(mill_, Real((row / lengths + 1) * speed_step_),
-                             Real(longest_ / (1 << row % lengths)));
+  Bounds made(int row) const {
+    const Real speed = (row / lengths + 1) * speed_step_, length = longest_ / (1 << row % lengths);
+    return derivative_bounds(mill_, speed, length);
   }
 
   MovingVessel<M, V> mill_;

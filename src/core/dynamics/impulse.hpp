@@ -26,14 +26,12 @@ struct ImpactOutcome {
   Real supplied_energy{};         ///< that the least separation speed adds to the motion [J]; never negative
   Real wall_work{};               ///< [J], (A.82); zero between balls
 
-  /// M/2 g_n^2, the kinetic energy of the approach along the normal [J]; 0 where the bodies do not approach.
+  /// M/2 g_n^2, the kinetic energy of the approach along the normal [J]; 0 without approach.
   Real impact_energy() const {
-    return approach_speed > 0 ? Real(normal_impulse / (approach_speed + separation_speed) *
-                                     (approach_speed * approach_speed) / 2)
-                              : Real(0);
+    if (!(approach_speed > 0)) return Real(0);
+    return normal_impulse / (approach_speed + separation_speed) * (approach_speed * approach_speed) / 2;
   }
-  /// Effective e_n = separation over approach speed; above 1 where energy is supplied, 1 where the bodies do
-  /// not approach each other.
+  /// Effective e_n = separation over approach speed; above 1 where energy is supplied, 1 without approach.
   Real restitution_normal() const {
     return approach_speed > 0 ? Real(separation_speed / approach_speed) : Real(1);
   }
@@ -44,7 +42,7 @@ namespace detail {
 /// The common part of both impacts.
 template <class Real>
 struct ImpulseParts {
-  Vec3<Real> per_mass;     ///< velocity change of a body of the effective mass M, with the sign for body i
+  Vec3<Real> per_mass;     ///< velocity change of a body i of the effective mass M
   Vec3<Real> spin_torque;  ///< n x B g_t
   ImpactOutcome<Real> outcome;
 };
@@ -55,7 +53,7 @@ template <class Real, class Law>
 ImpulseParts<Real> impulse_by(const Law& law, const Real& least_separation, const Vec3<Real>& normal,
                               const Vec3<Real>& contact_velocity, const model::ContactBodies<Real>& bodies,
                               const Real& compliance, bool in_stall) {
-  const Real& effective_mass = bodies.effective_mass;
+  const Real& mass = bodies.effective_mass;
   const Real normal_speed = dot<Real>(contact_velocity, normal);  // negative while approaching
   const Vec3<Real> slip = contact_velocity - normal * normal_speed;
   ImpulseParts<Real> parts;
@@ -66,25 +64,24 @@ ImpulseParts<Real> impulse_by(const Law& law, const Real& least_separation, cons
   const Real by_restitution = model::restitution_of(law, approach, bodies) * approach;
   const Real separation = by_restitution < least_separation ? least_separation : by_restitution;
   out.least_separation = separation > by_restitution && separation > normal_speed;
-  // Bodies that already separate faster than the law requires, because of rounding, keep their velocities.
+  // Bodies that already separate faster, because of rounding, keep their velocities.
   out.separation_speed = separation > normal_speed ? separation : normal_speed;
   const Real change = out.separation_speed - normal_speed;
   out.in_stall = in_stall;
-  out.restitution_tangential =
-      in_stall ? Real(1) : law.restitution_of_slip(change, out.slip_speed, compliance);
-  const Real& e_t = out.restitution_tangential;
+  Real& e_t = out.restitution_tangential;
+  e_t = in_stall ? Real(1) : law.restitution_of_slip(change, out.slip_speed, compliance);
   const Real gain = (1 - e_t) / compliance;
   parts.per_mass = normal * change - slip * gain;
   parts.spin_torque = cross<Real>(normal, slip) * gain;
-  out.normal_impulse = effective_mass * change;
-  out.tangential_impulse = effective_mass * (gain * out.slip_speed);
-  const Real normal_loss = effective_mass / 2 * ((out.approach_speed - out.separation_speed) * change);
+  out.normal_impulse = mass * change;
+  out.tangential_impulse = mass * (gain * out.slip_speed);
+  const Real normal_loss = mass / 2 * ((out.approach_speed - out.separation_speed) * change);
   if (normal_loss < 0)
     out.supplied_energy = -normal_loss;
   else
     out.normal_dose = normal_loss;
-  out.milling_dose = out.normal_dose +
-                     effective_mass / 2 * ((1 - e_t * e_t) / compliance * (out.slip_speed * out.slip_speed));
+  const Real slip_loss = mass / 2 * ((1 - e_t * e_t) / compliance * (out.slip_speed * out.slip_speed));
+  out.milling_dose = out.normal_dose + slip_loss;
   return parts;
 }
 
@@ -92,12 +89,11 @@ template <class Real>
 ImpulseParts<Real> impulse_parts(const Vec3<Real>& normal, const Vec3<Real>& contact_velocity,
                                  const model::ContactBodies<Real>& bodies, const Real& compliance,
                                  const model::ContactLaw<Real>& law, bool in_stall) {
-  return std::visit(
-      [&](const auto& one) {
-        return impulse_by<Real>(one, law.least_separation, normal, contact_velocity, bodies, compliance,
-                                in_stall);
-      },
-      law.law);
+  const auto by = [&](const auto& one) {
+    return impulse_by<Real>(one, law.least_separation, normal, contact_velocity, bodies, compliance,
+                            in_stall);
+  };
+  return std::visit(by, law.law);
 }
 
 }  // namespace detail
@@ -111,13 +107,11 @@ ImpactOutcome<Real> collide_balls(const Vec3<Real>& normal, const model::BallPro
                                   Vec3<Real>& spin_i, Vec3<Real>& velocity_j, Vec3<Real>& spin_j,
                                   const model::ContactLaw<Real>& law, bool in_stall = false) {
   const Real total = ball_i.mass + ball_j.mass;
-  const Real share_i = ball_j.mass / total;  // M / m_i
-  const Real share_j = ball_i.mass / total;
-  const Real effective_mass = ball_i.mass * share_i;
+  const Real share_i = ball_j.mass / total, share_j = ball_i.mass / total;  // M / m
   const Real compliance = 1 + share_i / ball_i.reduced_inertia + share_j / ball_j.reduced_inertia;
   const Vec3<Real> rolling = spin_i * ball_i.radius + spin_j * ball_j.radius;
   const Vec3<Real> contact_velocity = (velocity_i - velocity_j) - cross<Real>(rolling, normal);
-  const model::ContactBodies<Real> bodies{effective_mass, ball_i.radius, ball_j.radius};
+  const model::ContactBodies<Real> bodies{ball_i.mass * share_i, ball_i.radius, ball_j.radius};
   const auto parts = detail::impulse_parts<Real>(normal, contact_velocity, bodies, compliance, law, in_stall);
   velocity_i += parts.per_mass * share_i;
   velocity_j -= parts.per_mass * share_j;
@@ -126,10 +120,8 @@ ImpactOutcome<Real> collide_balls(const Vec3<Real>& normal, const model::BallPro
   return parts.outcome;
 }
 
-/// Impact of a ball with a wall that moves with `wall_velocity` at the contact point. (2.34'), (2.35),
-/// (2.36')
-/// @param normal    contact normal, unit, from the wall to the ball
-/// @param in_stall  the impact is frictionless (theory.md, section 6)
+/// Impact of a ball with a wall that moves with `wall_velocity` at the contact. (2.34'), (2.35), (2.36')
+/// @param normal  unit, from the wall to the ball
 template <class Real>
 ImpactOutcome<Real> collide_with_wall(const Vec3<Real>& normal, const model::BallProperties<Real>& ball,
                                       const Vec3<Real>& wall_velocity, Vec3<Real>& velocity, Vec3<Real>& spin,

@@ -13,8 +13,7 @@ struct PairAnswer {
   Real time_error{0};  ///< of a contact: bound on the rounding error of the delay [s]
 };
 
-/// Constants of the filter that proves, for nearly all pairs, that they never meet. They are valid for a
-/// whole run.
+/// Constants, valid for a whole run, of the filter that proves for nearly all pairs that they never meet.
 template <class Real>
 struct PairFilter {
   Vec3<Real> gravity;
@@ -27,15 +26,14 @@ struct PairFilter {
     const Real error = relative * (v2 * r2);
     const bool moving = v2 > slowest_squared;
     const bool apart = (c > touching) & ((b >= 0) | (b * b - v2 * c < -error));
-    const bool separating = (b > 0) & (b * b > error);  // even in contact, as just after a collision
+    const bool separating = (b > 0) & (b * b > error);  // even in contact, as after a collision
     return !(moving & (apart | separating));
   }
 };
 
-/// First contact of two balls in flight. Both have the same acceleration, so their relative motion is uniform
-/// and the contact time has a closed form: with r = r_i - r_j, v = v_i - v_j, b = r.v < 0, c = r.r - R^2:  dt
-/// = c / (-b + sqrt(b^2 - v.v c)). (3.1)
-/// Balls that overlap by rounding collide at once if they approach and never if they separate.
+/// First contact of two balls in flight. Both have the same acceleration, so their relative motion is
+/// uniform: with r = r_i - r_j, v = v_i - v_j, b = r.v < 0, c = r.r - R^2, dt = c / (-b + sqrt(b^2 - v.v c)).
+/// (3.1) Balls that overlap by rounding collide at once if they approach and never if they separate.
 template <class Real>
 class PairSearch {
  public:
@@ -44,19 +42,21 @@ class PairSearch {
   /// @param top_speed     no ball is faster [m/s]; see `raise_top_speed`
   PairSearch(const model::Mill<Real>& mill, const Real& smallest_sum, const Real& reach,
              const Real& top_speed)
-      : gravity_(mill.gravity), clock_(mill.motion.period()), smallest_sum_(smallest_sum), reach_(reach) {
-    widest_ = 2 * mill.vessel.reach();
-    largest_sum_ = mill.vessel.widest_ball();
-    gravity_size_ = norm<Real>(gravity_);
-    least_separation_ = mill.least_separations().first;
+      : gravity_(mill.gravity),
+        clock_(mill.motion.period()),
+        smallest_sum_(smallest_sum),
+        reach_(reach),
+        widest_(2 * mill.vessel.reach()),
+        largest_sum_(mill.vessel.widest_ball()),
+        gravity_size_(norm<Real>(gravity_)),
+        least_separation_(mill.least_separations().first) {
     filter_.gravity = gravity_;
     filter_.period = clock_.period();
     raise_top_speed(top_speed);
   }
 
   const Real& top_speed() const { return top_speed_; }
-  /// Two contacts that differ in time by more than this [s] occur in the order of their predicted times: a
-  /// time is stored only if its error is below a quarter of it.
+  /// Contacts farther apart in time than this [s] occur as predicted: errors of times are below a quarter.
   const Real& tie_window() const { return tie_window_; }
   const DriveClock<Real>& clock() const { return clock_; }
 
@@ -98,8 +98,7 @@ class PairSearch {
     return {position_after(flight, gravity_, age), flight.velocity, age};
   }
 
-  /// The filter, with bounds that are valid for the whole run: false if the two balls provably never meet, as
-  /// is the case for nearly all pairs. It contains no branch.
+  /// The filter: false if the two balls provably never meet, as nearly all pairs. It contains no branch.
   bool may_meet(const State& i, const Flight<Real>& j, const Instant<Real>& now,
                 const Real& radius_sum) const {
     const Relative s = relative(i, j, now, radius_sum);
@@ -136,7 +135,7 @@ class PairSearch {
     const Real age =
         static_cast<Real>(now.period - j.start.period) * clock_.period() + (now.offset - j.start.offset);
     const Vec3<Real> r = i.position - position_after(j, gravity_, age);
-    const Real dt = i.age - age;  // balls that started together keep their relative velocity exactly
+    const Real dt = i.age - age;  // zero for balls that started together
     const Vec3<Real> v{(i.velocity[0] - j.velocity[0]) + gravity_[0] * dt,
                        (i.velocity[1] - j.velocity[1]) + gravity_[1] * dt,
                        (i.velocity[2] - j.velocity[2]) + gravity_[2] * dt};
@@ -167,7 +166,7 @@ class PairSearch {
     const Real u = epsilon<Real>() / 2;
     return 2 * radius_sum * displaced + 16 * u * (r2 + radius_sum * radius_sum + b_delay);
   }
-  /// Bound on the error of a delay [s]: `contact_error` over its rate, which is the root of the discriminant.
+  /// Bound on the error of a delay [s]: `contact_error` over its rate, the root of the discriminant.
   Real time_error(const Relative& s, const Real& delay, const Real& root, const Real& radius_sum,
                   const Real& age) const {
     using std::sqrt;
@@ -176,7 +175,7 @@ class PairSearch {
            4 * epsilon<Real>() * (delay + clock_.period());
   }
 
-  /// Decides with bounds computed for this pair, if the balls touch, graze each other or move slowly.
+  /// Decides with bounds computed for this pair, if the balls touch, graze or move slowly.
   PairAnswer<Real> close(const Relative& s, const Real& age, const Real& radius_sum) const {
     using std::sqrt;
     const Real u = epsilon<Real>() / 2;
@@ -208,9 +207,10 @@ class PairSearch {
   Vec3<Real> gravity_;
   DriveClock<Real> clock_;
   Real smallest_sum_, reach_;
-  Real widest_{}, largest_sum_{};  ///< bounds on the distance of two balls and on the sum of their radii [m]
-  Real gravity_size_{}, top_speed_{}, position_error_{}, tie_window_{};
-  Real least_separation_{};  ///< the smallest one of all laws [m/s]
+  Real widest_, largest_sum_;  ///< bounds on the distance of two balls, the sum of their radii [m]
+  Real gravity_size_;
+  Real least_separation_;  ///< the smallest one of all laws [m/s]
+  Real top_speed_{}, position_error_{}, tie_window_{};
   PairFilter<Real> filter_;
 };
 

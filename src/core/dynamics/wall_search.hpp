@@ -127,7 +127,7 @@ class WallSearch {
                                                    const Root& other_root) const;
   [[gnu::noinline]] bool has_exact_gap(int wall) const;
 
-  /// If `rounded`, every bound includes the rounding of the flight and the mill, and `rough` is filled.
+  /// If `rounded`, bounds include the rounding of the flight and the mill, and `rough` is filled.
   template <bool rounded>
   WallAnswer<Real> first_contact(const Functions& functions, const Start& first, Walls reachable,
                                  const Real& speed, const WallQuery<Real>& query, RoughAnswer* rough) const;

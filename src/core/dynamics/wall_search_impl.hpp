@@ -37,12 +37,12 @@ auto WallSearch<M, V>::within_reach(const Functions& functions, const Vec3<Real>
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::clear_time(const Functions& functions, const Vec3<Real>& position,
                                   const Real& speed) const -> Real {
-  const Real margin = rounding_margin<Real>();
-  if constexpr (is_body)
-    return (functions.room().clearance(position) - mill_.reach * margin) /
-           ((speed + own_speed_) * (1 + margin));
-  else
+  if constexpr (is_body) {
+    const Real margin = rounding_margin<Real>(), clearance = functions.room().clearance(position);
+    return (clearance - mill_.reach * margin) / ((speed + own_speed_) * (1 + margin));
+  } else {
     return Real(0);
+  }
 }
 
 template <model::Motion M, model::Vessel V>
@@ -153,9 +153,9 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
     }
     if (!root) return {Verdict::undecided};
     if (answer.verdict == Verdict::contact) {
-      const auto first_of_two = comes_first<rounded>(query, wall, *root, answer.wall, best, by_rule);
-      if (!first_of_two) return {Verdict::undecided};
-      if (!*first_of_two) continue;
+      const auto before = comes_first<rounded>(query, wall, *root, answer.wall, best, by_rule);
+      if (!before) return {Verdict::undecided};
+      if (!*before) continue;
     }
     best = *root;
     const auto time = mill_.clock.instant(query.begin.period, best.t);
@@ -188,7 +188,8 @@ template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::sample_of_end(const Functions& functions, const Walls& reachable, const Errors& errors,
                                      const Real& from, Real& end) const -> Sample {
   const auto touches = [&](const Sample& sample, int wall) {
-    return reachable[wall] & (sample.gap[wall] <= errors.gap[wall]) & (sample.gap[wall] >= -errors.gap[wall]);
+    const Real &gap = sample.gap[wall], &error = errors.gap[wall];
+    return reachable[wall] & (gap <= error) & (gap >= -error);
   };
   const int count = model::function_count(mill_.vessel);
   const Real whole = end;
@@ -379,7 +380,8 @@ auto WallSearch<M, V>::follow_overlap(const Curve& curve, const Point& start, co
     -> Bracket {
   using std::sqrt;
   const Bounds& b = curve.bounds;
-  const Real sharp = sqrt(epsilon<Real>()) * mill_.clock.period() / 8;  // see PairSearch::tie_window
+  // See PairSearch::tie_window.
+  const Real sharp = sqrt(epsilon<Real>()) * mill_.clock.period() / 8;
   Point left = start;
   Real step = left.slope / (2 * b.second);
   Real before = step;
@@ -492,8 +494,8 @@ auto WallSearch<M, V>::close_in(const Functions& functions, int wall, const Real
     // What the curvature contributes to the step, and whether another step would change the time.
     const auto bent = [&](const auto& size) -> std::pair<Real, bool> {
       using Size = std::decay_t<decltype(size)>;
-      const Size square = size * size;
-      const Size off = (approach.curvature_error + approach.third * (size < 0 ? -size : size)) * square;
+      const Size square = size * size, length = size < 0 ? -size : size;
+      const Size off = (approach.curvature_error + approach.third * length) * square;
       return {Real(approach.curvature * square / (2 * flatness)), off > -flatness * static_cast<Size>(unit)};
     };
     const auto [bend, goes_on] =

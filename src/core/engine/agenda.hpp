@@ -13,15 +13,16 @@
 
 namespace edmill::engine {
 
+/// Entries of an agenda: the wall, the next cell, and the pair contacts from here on.
+inline constexpr int wall_entry = 0, crossing_entry = 1, first_pair = 2;
+
 /// The predicted events of one ball. The pair contacts are those predicted for this ball, in any order. One
-/// becomes void when the partner has an impact; if both balls have predicted the same contact, the later
-/// prediction is valid. The processor cannot predict which entry is the earliest, so it is found without
-/// branches.
+/// becomes void when the partner has an impact; of predictions by both balls the later one is valid. Which
+/// entry is the earliest cannot be predicted by the processor: it is found without branches.
 template <class Real>
 struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Agenda {
-  static constexpr int capacity = 3;  ///< of pair contacts
-  static constexpr int wall_entry = 0, crossing_entry = 1, first_pair = 2;
-  std::array<Instant<Real>, first_pair + capacity> times;  ///< of wall, crossing, pairs; never() where free
+  static constexpr int capacity = 3;                            ///< of pair contacts
+  std::array<Instant<Real>, first_pair + capacity> times;       ///< by entry; never() where free
   [[no_unique_address]] dynamics::ContactPose<Real> wall_pose;  ///< at the wall's time
   Instant<Real> forgotten_from;  ///< contacts from this time on found no room; never() if all are stored
   std::array<int, capacity> partners{};
@@ -51,8 +52,8 @@ struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Agenda {
   /// The earliest entry; at equal times a wall comes before a ball, and contacts before the rest.
   int earliest() const {
     const int pair = nearest();
-    const bool pair_first =
-        (times[pair] < times[wall_entry]) | ((!hits_wall()) & (times[pair] == times[wall_entry]));
+    const auto &time = times[pair], &wall_time = times[wall_entry];
+    const bool pair_first = (time < wall_time) | ((!hits_wall()) & (time == wall_time));
     const int contact = select(pair_first, pair, wall_entry);
     return select(times[crossing_entry] < times[contact], crossing_entry, contact);
   }
@@ -83,14 +84,12 @@ struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Agenda {
 
   /// True if its values are possible in a run with this many balls and walls.
   bool is_sound(int balls, int walls, std::uint32_t latest_impact) const {
+    const bool known_wall = wall >= -1 && (wall < walls || (wall >= tied && wall < tied + walls));
     bool sound = pair_count >= 0 && pair_count <= capacity && crossing_face >= 0 && crossing_face < 6 &&
-                 wall >= -1 && (wall < walls || (wall >= tied && wall < tied + walls)) &&
-                 last_impact <= latest_impact && latest_impact <= 1 << 20;
-    for (int k = 0; sound && k < capacity; ++k) {
-      const bool free = k >= pair_count;
-      sound =
-          free ? times[first_pair + k] == Instant<Real>::never() : partners[k] >= 0 && partners[k] < balls;
-    }
+                 known_wall && last_impact <= latest_impact && latest_impact <= 1 << 20;
+    for (int k = 0; sound && k < capacity; ++k)
+      sound = k < pair_count ? partners[k] >= 0 && partners[k] < balls
+                             : times[first_pair + k] == Instant<Real>::never();
     return sound;
   }
 
@@ -104,8 +103,7 @@ struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Agenda {
   }
 };
 
-/// The agendas of all balls. Impacts are numbered, so that a pair contact whose partner has had an impact
-/// since its prediction is known to be void.
+/// The agendas of all balls. Impacts are numbered, by which pair contacts are known to be void.
 template <class Real>
 class Agendas {
  public:
@@ -115,8 +113,8 @@ class Agendas {
   Agenda<Real>& operator[](int ball) { return agendas_[ball]; }
   const Agenda<Real>& operator[](int ball) const { return agendas_[ball]; }
 
-  bool still_holds(const Agenda<Real>& a, int pair_entry) const {
-    return agendas_[a.partner_at(pair_entry)].last_impact <= a.known[pair_entry - Agenda<Real>::first_pair];
+  bool still_holds(const Agenda<Real>& a, int entry) const {
+    return agendas_[a.partner_at(entry)].last_impact <= a.known[entry - first_pair];
   }
 
   /// Numbers the next impact. @param partner  equals `ball` for an impact with a wall
@@ -124,13 +122,12 @@ class Agendas {
     if (latest_impact_ == 1 << 20) renumber_impacts();
     agendas_[ball].last_impact = agendas_[partner].last_impact = ++latest_impact_;
   }
-  /// Number of the latest impact of all.
   std::uint32_t latest_impact() const { return latest_impact_; }
 
-  /// Makes the numbers of impacts small again. Valid pair contacts remain valid, void ones remain void.
+  /// Makes the numbers of impacts small again; pair contacts remain valid or void.
   [[gnu::noinline]] void renumber_impacts() {
     for (auto& a : agendas_)
-      for (int k = 0; k < a.pair_count; ++k) a.known[k] = still_holds(a, Agenda<Real>::first_pair + k);
+      for (int k = 0; k < a.pair_count; ++k) a.known[k] = still_holds(a, first_pair + k);
     for (auto& a : agendas_) a.last_impact = 1;
     latest_impact_ = 1;
   }
@@ -147,7 +144,7 @@ template <class Real>
 struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Body {
   Vec3<Real> spin;  ///< [rad/s]
   RecentImpacts<Real> recent;
-  std::int16_t unmoved = 0;  ///< consecutive impacts without time to move, up to the limit of the stall rule
+  std::int16_t unmoved = 0;  ///< impacts in a row without time to move, up to the stall rule's limit
   CellOfBall cell;
 
   void archive(Archive& a) { a(spin, recent, unmoved, cell); }

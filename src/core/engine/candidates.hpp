@@ -1,5 +1,4 @@
-// Candidate partners of a ball: those balls of neighbouring cells, or of all balls, that pass the pair
-// filter.
+// Candidate partners of a ball: those in neighbouring cells, or of all, that pass the pair filter.
 #pragma once
 
 #include <optional>
@@ -13,8 +12,11 @@
 
 namespace edmill::engine {
 
-/// Pairs are filtered in double whatever the scalar: the bounds of the filter cover the rounding of the
-/// flights to double. Cells are crossed in double too: their margin covers it.
+template <class Real>
+using Balls = std::vector<model::BallProperties<Real>>;
+
+/// Pairs are filtered, and cells crossed, in double whatever the scalar: bounds and margins cover the
+/// rounding of the flights.
 template <class Real>
 class Candidates {
  public:
@@ -24,7 +26,7 @@ class Candidates {
   /// @param flights    of all balls; must outlive this
   /// @param reach      largest distance of a ball from the origin [m]
   /// @param top_speed  no ball is faster [m/s]
-  Candidates(const model::Mill<Real>& mill, const std::vector<model::BallProperties<Real>>& balls,
+  Candidates(const model::Mill<Real>& mill, const Balls<Real>& balls,
              const LargeVector<dynamics::Flight<Real>>& flights, const Real& reach, const Real& top_speed);
 
   bool uses_cells() const { return !columns_; }
@@ -44,15 +46,14 @@ class Candidates {
     return pairs_.state(flights()[ball], dynamics::instant_cast<double>(now));
   }
 
-  /// Moves a ball to the adjacent cell, updates `cell`, and finds the balls of its new neighbouring cells.
+  /// Moves a ball to the adjacent cell, updates `cell`, and finds the balls of its new neighbours.
   void cross(int ball, CellOfBall& cell, int axis, int step, FoundBalls& near) {
     grid_.move(ball, cell, axis, step);
     grid_.new_neighbours(cell, axis, step, near);
   }
 
-  /// Finds the candidates for a contact with the ball.
-  /// @param near  result of `neighbours`
-  /// @return the number of candidates
+  /// Finds the candidates for a contact with the ball. @param near  result of `neighbours`
+  /// @return their number
   int find(int ball, const DoubleState& state, const Instant<Real>& now, FoundBalls& near) {
     if (columns_) return columns_->filter(query(ball, state, now), result_);
     return find_among(ball, state, now, near);
@@ -65,7 +66,6 @@ class Candidates {
   }
   /// Places of the candidates found among the balls filtered.
   const int* places() { return result_.candidates(); }
-  /// The ball at a place.
   int ball_at(int place, const FoundBalls& near) const { return columns_ ? place : near.balls[place]; }
   /// See PairFilterResult::delay.
   double delay(int place) const { return result_.delay(place); }

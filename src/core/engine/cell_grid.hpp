@@ -38,13 +38,11 @@ struct FoundBalls {
   int count = 0;
 };
 
-/// A grid that stores which balls each cell contains. The cell of each ball is stored by the owner, next to
-/// the other data that an event needs of the ball, where it costs no cache line of its own.
-///
-/// Cells are never thinner than the largest ball plus a margin far above the rounding of crossing times, so
-/// that a crossing that is late by rounding hides no contact; this is why double suffices for every scalar.
-/// The outermost cells are unbounded. A layer of cells that stay empty surrounds them, so that every cell
-/// with balls has neighbours on all sides.
+/// The balls that each cell contains. The cell of each ball is stored by the owner, next to its other data,
+/// where it costs no cache line of its own.
+/// Cells are thicker than the largest ball, by far more than the rounding of crossing times, so that no late
+/// crossing hides a contact: double suffices for every scalar. The outermost cells are unbounded. A layer of
+/// cells that stay empty surrounds them, so that every cell with balls has neighbours on all sides.
 class CellGrid {
  public:
   /// @param low, high  corners of the region that the balls' centres sweep [m]
@@ -54,8 +52,7 @@ class CellGrid {
                    "numbers of balls that a cell can hold");
     std::size_t total = 1;
     for (int k = 0; k < 3; ++k) {
-      const double extent = high[k] - low[k];
-      const double count = std::floor(extent / edge);
+      const double extent = high[k] - low[k], count = std::floor(extent / edge);
       cells_[k] = count < 1 ? 1 : count > 512 ? 512 : static_cast<int>(count);  // fits CellOfBall
       const double thickness = extent / cells_[k];
       for (int cell = 0; cell < cells_[k]; ++cell) {
@@ -79,8 +76,8 @@ class CellGrid {
     CellOfBall cell;
     for (int k = 0; k < 3; ++k) {
       const auto above = [&](const Faces& faces) { return faces[1] > position[k]; };
-      cell.at[k] = static_cast<std::int16_t>(std::find_if(faces_[k].begin(), faces_[k].end(), above) -
-                                             faces_[k].begin());
+      const auto begin = faces_[k].begin();
+      cell.at[k] = static_cast<std::int16_t>(std::find_if(begin, faces_[k].end(), above) - begin);
     }
     link(ball, cell);
     return cell;
@@ -96,25 +93,25 @@ class CellGrid {
     link(ball, cell);
   }
 
-  /// Finds when, and through which face, a ball in `cell`, now at `position` with `velocity`, leaves it.
+  /// When, and through which face, a ball in `cell`, now at `position`, leaves it.
   Crossing crossing(const CellOfBall& cell, const Vec3<double>& position, const Vec3<double>& velocity,
                     const Vec3<double>& gravity) const {
     std::array<Passage, 3> by_axis;
     for (int k = 0; k < 3; ++k) {
       const Faces& faces = faces_[k][cell.at[k]];
-      if (gravity[k] == 0)
-        by_axis[k] = drift(faces, position[k], velocity[k]);
-      else if (gravity[k] > 0)
-        by_axis[k] = fall(1, faces[1] - position[k], position[k] - faces[0], velocity[k], gravity[k]);
+      const double p = position[k], v = velocity[k], g = gravity[k];
+      if (g == 0)
+        by_axis[k] = drift(faces, p, v);
       else
-        by_axis[k] = fall(-1, position[k] - faces[0], faces[1] - position[k], -velocity[k], -gravity[k]);
+        by_axis[k] =
+            g > 0 ? fall(1, faces[1] - p, p - faces[0], v, g) : fall(-1, p - faces[0], faces[1] - p, -v, -g);
     }
     int first = by_axis[1].delay < by_axis[0].delay;
     first = by_axis[2].delay < by_axis[first].delay ? 2 : first;
     return {by_axis[first].delay, first, by_axis[first].step};
   }
 
-  /// Prefetches the cells that `neighbours` reads. The cells at the corners cover all of the bricks.
+  /// Prefetches the cells that `neighbours` reads; those at the corners cover all of the bricks.
   void fetch_cells(const CellOfBall& cell) const {
     const auto [x, y, z] = cell.at;
     for (const int w : {0, 2})
@@ -139,8 +136,7 @@ class CellGrid {
     collect<3>(&at_[0][x], &at_[1][y], &at_[2][z], found);
   }
 
-  /// Finds the balls of the cells that became adjacent when a ball moved to `cell` by `step` along `axis`:
-  /// one layer, whose two other axes may be in any order.
+  /// Finds the balls of the cells, one layer, that became adjacent when a ball moved to `cell` by `step`.
   void new_neighbours(const CellOfBall& cell, int axis, int step, FoundBalls& found) const {
     const auto [one, other] = across(axis);
     const int layer = at_[axis][cell.at[axis] + 1 + step];
@@ -161,16 +157,16 @@ class CellGrid {
       content_[at] = cell;
     }
   }
-  /// True if each ball is in the grid exactly once, in the cell `cell_of(ball)`; for use after loading.
-  template <class CellOf>
-  bool holds_all(const CellOf& cell_of) const {
+  /// True if each ball is in the grid once, in the cell `cell_of(ball)`; for use after loading.
+  bool holds_all(const auto& cell_of) const {
     std::vector<bool> seen(next_.size());
     std::size_t count = 0;
     const auto is_here = [&](std::uint32_t ball, std::size_t place) {
-      if (ball >= seen.size() || seen[ball] || !has(cell_of(static_cast<int>(ball)))) return false;
+      if (ball >= seen.size() || seen[ball]) return false;
+      const CellOfBall& cell = cell_of(static_cast<int>(ball));
       seen[ball] = true;
       ++count;
-      return static_cast<std::size_t>(index(cell_of(static_cast<int>(ball)))) == place;
+      return has(cell) && static_cast<std::size_t>(index(cell)) == place;
     };
     for (std::size_t place = 0; place < content_.size(); ++place) {
       const Cell& cell = content_[place];
@@ -178,8 +174,7 @@ class CellGrid {
       if (!is_here(cell.first, place)) return false;
       if (cell.second == Cell::crowded) {
         int length = 1;
-        for (int ball = next_[cell.first]; ball != none;
-             ball = next_[static_cast<std::size_t>(ball)], ++length)
+        for (int ball = next_[cell.first]; ball != none; ball = next_[ball], ++length)
           if (!is_here(static_cast<std::uint32_t>(ball), place)) return false;
         if (length < 3) return false;
       } else if (cell.second != Cell::single && !is_here(cell.second, place)) {
@@ -190,7 +185,7 @@ class CellGrid {
   }
 
  private:
-  static constexpr double far_off = 1e30;  ///< of the outermost faces [m]; as a delay [s] it means never
+  static constexpr double far_off = 1e30;  ///< of the outermost faces [m]; as a delay [s]: never
 
   using Faces = std::array<double, 2>;  ///< lower and upper of a cell along an axis [m]
 
@@ -224,15 +219,14 @@ class CellGrid {
     const double distances[] = {near, far}, squares[] = {square + 2 * (gravity * near), turning};
     const double root = std::sqrt(squares[back]), size = std::fabs(speed);
     const bool rises_first = against & !back;  // where root - speed is free of cancellation
-    const double numerators[] = {2 * distances[back], root + size}, denominators[] = {size + root, gravity};
-    const double denominator = denominators[rises_first];
+    const double numerators[] = {2 * distances[back], root + size};
+    const double denominators[] = {size + root, gravity}, denominator = denominators[rises_first];
     const double delay = numerators[rises_first] / denominator;
     return {denominator > 0 ? delay : far_off, back ? -step : step};
   }
 
   /// A cell stores up to two balls; in a crowded cell, which is rare, they form a list that begins with its
-  /// first ball. `second` also encodes the number of balls: its two highest bits, as a signed number, are the
-  /// number of balls minus two.
+  /// first ball. The two highest bits of `second`, as a signed number, are the number of balls minus two.
   struct Cell {
     static constexpr std::uint32_t single = 3u << 30, empty = 2u << 30, crowded = empty | 1u << 29;
     std::uint32_t first = 0, second = empty;
@@ -249,9 +243,8 @@ class CellGrid {
     return at_[0][cell.at[0] + 1] + at_[1][cell.at[1] + 1] + at_[2][cell.at[2] + 1];
   }
 
-  /// Finds the balls in a block of cells, given by the parts of their index along each axis, three cells in y
-  /// and in z. Copies whole cells without testing how full they are: a branch for each of 27 mostly empty
-  /// ones costs more.
+  /// Finds the balls in a block of cells, three in y and z, given by the parts of their index along each
+  /// axis. Copies whole cells, for a branch for each of 27 mostly empty ones would cost more.
   template <int nx>
   void collect(const int* x, const int* y, const int* z, FoundBalls& found) const {
     constexpr int rows = 9, cells = nx * rows;

@@ -5,7 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "base/instant.hpp"
@@ -29,35 +29,29 @@ struct Event {
   int partner = -1;      ///< a wall or a ball
   bool by_rule = false;  ///< a rule put it before another contact
 
-  bool involves(int other) const {
-    return ball == other || (kind == EventKind::pair_contact && partner == other);
-  }
+  bool is_pair() const { return kind == EventKind::pair_contact; }
+  bool involves(int other) const { return ball == other || (is_pair() && partner == other); }
   bool shares_ball(const Event& other) const {
-    return involves(other.ball) || (other.kind == EventKind::pair_contact && involves(other.partner));
+    return involves(other.ball) || (other.is_pair() && involves(other.partner));
   }
-  bool same_bodies(const Event& other) const {
-    if (kind != other.kind) return false;
-    return (ball == other.ball && partner == other.partner) ||
-           (kind == EventKind::pair_contact && ball == other.partner && partner == other.ball);
-  }
+  bool same_bodies(const Event& other) const { return kind == other.kind && bodies() == other.bodies(); }
   /// The order of simultaneous contacts: walls before balls, then lower numbers first.
   bool goes_before(const Event& other) const {
-    const auto place = [](const Event& e) {
-      const bool pair = e.kind == EventKind::pair_contact;
-      return std::tuple(pair, pair ? std::min(e.ball, e.partner) : e.ball,
-                        pair ? std::max(e.ball, e.partner) : e.partner);
-    };
-    return place(*this) < place(other);
+    return std::pair(is_pair(), bodies()) < std::pair(other.is_pair(), other.bodies());
+  }
+
+ private:
+  std::pair<int, int> bodies() const {
+    return is_pair() ? std::minmax({ball, partner}) : std::pair(ball, partner);
   }
 };
 
 /// A calendar queue: each drive period is divided into days so short that few contain more than one event.
-/// Days up to the horizon, which is three to four weeks ahead, have a list each. Later events are postponed:
-/// they are noted for their week, without order, and put into lists when the horizon reaches it. Therefore
-/// taking the first event and setting one cost the same for any number of balls, and the lists fit into the
-/// near caches. A day that still contains many events, since balls share an instant, is turned into a heap
-/// when it comes. Equal times are ordered by the ball's number, so the order of events does not depend on
-/// history. (Brown 1988; Tang, Goh and Thng 2005)
+/// Days up to the horizon, three to four weeks ahead, have a list each. Later events are noted for their
+/// week, without order, and put into lists when the horizon reaches it. So taking and setting an event cost
+/// the same for any number of balls, and the lists fit into the near caches. A day of many events, since
+/// balls share an instant, is turned into a heap when it comes. Equal times are ordered by the ball's number,
+/// whatever the history. (Brown 1988; Tang, Goh and Thng 2005)
 template <class Real>
 class EventQueue {
  public:
@@ -90,8 +84,7 @@ class EventQueue {
 
   const Instant<Real>& time(int ball) const { return entries_[ball].time; }
 
-  /// The balls that most likely have the next three events after that of the last `top`; only a guess, for
-  /// prefetching.
+  /// The balls most likely to have the next three events after the last `top`, for prefetching.
   std::array<int, 3> upcoming() const {
     std::array<int, 3> balls{top_, top_, top_};
     std::int64_t day = today_;
@@ -104,7 +97,6 @@ class EventQueue {
     return balls;
   }
 
-  /// Prefetches the entry of a ball.
   void fetch_entry(int ball) const { fetch(&entries_[ball]); }
 
   void set(int ball, const Instant<Real>& time) {
@@ -130,25 +122,20 @@ class EventQueue {
     }
   }
 
-  /// The ball whose event is next after that of the last `top`, if it is not later than `limit`; -1
-  /// otherwise.
+  /// The ball whose event is next after the last `top`, if it is not later than `limit`; or -1.
   int runner_up(const Instant<Real>& limit) const {
-    if (heap_.size() > 1) {
-      const int second = heap_.size() > 2 && before(heap_[2], heap_[1]) ? heap_[2] : heap_[1];
-      return entries_[second].time <= limit ? second : none;
-    }
+    const auto due = [&](int ball) { return ball != none && entries_[ball].time <= limit ? ball : none; };
+    if (heap_.size() > 1) return due(heap_.size() > 2 && before(heap_[2], heap_[1]) ? heap_[2] : heap_[1]);
     const bool alone = !heap_.empty() || (head(today_) == top_ && entries_[top_].next == none);
     if (alone && day_of(limit) <= today_) return none;
     const std::int64_t last = std::max(day_of(limit), today_);
-    for (auto day = next_occupied(today_); day <= last && day < horizon_; day = next_occupied(day + 1)) {
-      const int second = first_of(day, top_);
-      if (second != none) return entries_[second].time <= limit ? second : none;
-    }
+    for (auto day = next_occupied(today_); day <= last && day < horizon_; day = next_occupied(day + 1))
+      if (const int second = first_of(day, top_); second != none) return due(second);
     if (last < horizon_) return none;
     int second = none;
     for (int i = 0; i < static_cast<int>(entries_.size()); ++i)
       if (i != top_ && (second == none || before(i, second))) second = i;
-    return second != none && entries_[second].time <= limit ? second : none;
+    return due(second);
   }
 
  private:
@@ -163,19 +150,17 @@ class EventQueue {
     Instant<Real> time = Instant<Real>::never();
     std::int64_t day = no_day;
     int next = put_off;
-    /// The previous ball of the list. For a postponed ball: the place of the week whose note is valid;
-    /// older notes are void. For a ball in the heap: its place there.
+    /// The previous ball of the list. Of a postponed ball: the place of the week whose note is valid; older
+    /// ones are void. Of a ball in the heap: its place there.
     int previous = none;
   };
 
-  /// Number of lists. With few balls nearly all events are before the horizon; with many, most are within the
-  /// weeks.
+  /// With few balls nearly all events are before the horizon; with many, most are within the weeks.
   static std::size_t list_count(std::size_t balls) {
     return std::bit_ceil(std::max(std::clamp<std::size_t>(8 * balls, 1024, 16384), balls / 8));
   }
 
-  /// The day of a time. It never decreases with time, so that today can be emptied before tomorrow is
-  /// searched.
+  /// Never decreases with time, so that today can be emptied before tomorrow is searched.
   std::int64_t day_of(const Instant<Real>& time) const {
     if (time.period >= far_off) return no_day;
     const double place = static_cast<double>(time.offset) * days_per_second_;
@@ -187,8 +172,8 @@ class EventQueue {
   std::size_t list_of(std::int64_t day) const { return static_cast<std::size_t>(day) & (heads_.size() - 1); }
   int head(std::int64_t day) const { return heads_[list_of(day)]; }
 
-  /// The first day from `day` on whose list is not empty, or the horizon. Tests a word of marks at a time,
-  /// since the end of a loop over empty lists would always be mispredicted.
+  /// The first day from `day` on whose list is not empty, or the horizon. Tests a word of marks at a time:
+  /// the end of a loop over empty lists would always be mispredicted.
   std::int64_t next_occupied(std::int64_t day) const {
     for (; day < horizon_; day = (day | 63) + 1) {
       const std::size_t at = list_of(day);
@@ -209,7 +194,7 @@ class EventQueue {
     return best;
   }
 
-  int first_of(std::int64_t day, int except = none) const {
+  int first_of(std::int64_t day, int except) const {
     int best = none;
     for (int i = head(day); i != none; i = entries_[i].next)
       if (i != except && (best == none || before(i, best))) best = i;
@@ -266,8 +251,7 @@ class EventQueue {
     marks_[list / 64] &= ~(std::uint64_t{e.next == none} << (list % 64));
   }
 
-  // The heap of today's events: the earliest is first, and each entry stores its place. The day's mark
-  // remains set while the heap is not empty.
+  // The heap of today's events: the earliest is first. The day's mark is set while the heap is not empty.
 
   [[gnu::noinline]] void fill_heap() {
     for (int i = head(today_), next; i != none; i = next) {
@@ -367,7 +351,7 @@ class EventQueue {
   std::vector<int> heads_;               ///< of the lists of days
   std::vector<std::uint64_t> marks_;     ///< one for each list that is not empty
   std::vector<int> heap_;                ///< balls of today, in place of its list, when they are many
-  std::vector<std::vector<int>> notes_;  ///< balls postponed to each of the weeks from the horizon on
+  std::vector<std::vector<int>> notes_;  ///< balls postponed to the weeks from the horizon on
   std::int64_t days_per_week_;           ///< a power of two
   int week_shift_ = std::countr_zero(static_cast<std::uint64_t>(days_per_week_));
   std::int64_t days_per_period_ = 1024;

@@ -11,8 +11,8 @@ namespace edmill::engine {
 #else
 #define EDMILL_FOR_SEVERAL_CPUS
 #endif
-// For functions that the clones call: compiled separately, they would be for the oldest CPU. The clones
-// themselves must not end in a call: GCC 12 then omits vzeroupper, and all SSE code after it is slow.
+// For functions that the clones call: compiled alone, they would be for the oldest CPU. Clones must not end
+// in a call: GCC 12 then omits vzeroupper, and all SSE code after it is slow.
 #define EDMILL_INTO_CLONES [[gnu::always_inline]] static inline
 
 namespace {
@@ -147,8 +147,8 @@ constexpr auto lanes_by_bits = [] {
 constexpr std::uint64_t counts_by_bits = 0x4332322132212110;
 
 /// Applies the pair filter, see PairFilter, to a batch whose first ball has the place `first`. Each step is a
-/// short chain of operations, so that the processor overlaps several vectors; in a single loop they would
-/// wait for each other. A ball at exactly the same place is the query's own.
+/// short chain of operations, so that the processor overlaps several vectors. A ball at exactly the same
+/// place is the query's own.
 /// @param found  number of candidates so far
 /// @return the number including this batch
 EDMILL_INTO_CLONES int filter_batch(const FlightBatch& batch, const PairFilterQuery& query, bool alike,
@@ -218,7 +218,8 @@ EDMILL_FOR_SEVERAL_CPUS int filter_all_pairs(const FlightBatch* batches, int bal
   int found = 0;
   for (int first = 0; first < balls; first += FlightBatch::capacity) {
     const int here = std::min(balls - first, FlightBatch::capacity);
-    found = filter_batch(batches[first / FlightBatch::capacity], query, alike, first, here, result, found);
+    const auto& batch = batches[first / FlightBatch::capacity];
+    found = filter_batch(batch, query, alike, first, here, result, found);
   }
   return found;
 }

@@ -35,7 +35,7 @@ class PairFilterResult {
       grow(count);
   }
 
-  /// Time until the contact with the k-th ball filtered [s]; negative if only a pair search can decide. (3.1)
+  /// Time until the contact with the k-th ball [s]; negative if only a pair search can decide. (3.1)
   double delay(int k) const {
     return discriminant_[k] < 0 ? -1.0 : gap_[k] / (std::sqrt(discriminant_[k]) - approach_[k]);
   }
@@ -62,8 +62,7 @@ class PairFilterResult {
 int filter_pairs(const dynamics::Flight<double>* flights, const double* radii, int stride,
                  const PairFilterQuery& query, int self, int* balls, int count, PairFilterResult& result);
 
-/// Filters the first `balls` of `batches` in the same way. Batches have room for a multiple of four: those
-/// beyond the last are filtered, too.
+/// Filters the first `balls` of `batches`, rounded up to a multiple of four, in the same way.
 int filter_all_pairs(const FlightBatch* batches, int balls, bool alike, const PairFilterQuery& query,
                      PairFilterResult& result);
 

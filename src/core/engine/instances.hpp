@@ -1,5 +1,4 @@
-// Implementations of the engine and the searches, compiled once for each scalar; included by the
-// instantiation files only.
+// The engine and the searches, compiled once for each scalar; for the instantiation files only.
 #pragma once
 
 #include "base/wide_trigonometry.hpp"

@@ -11,7 +11,7 @@ namespace edmill::engine {
 template <class Real>
 class Simulation;
 
-/// One impact as the engine passes it to the observers of edmill itself; programs get `edmill::Impact`.
+/// One impact as observers of edmill itself get it; programs get `edmill::Impact`.
 template <class Real>
 struct Impact {
   std::uint64_t index;  ///< counts from 0 since the start of the run

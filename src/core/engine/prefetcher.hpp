@@ -10,16 +10,14 @@
 
 namespace edmill::engine {
 
-/// Prefetches data for the next events. It changes no result: without it a run has the same bits and takes
-/// longer.
-///
-/// The memory system handles about ten cache lines at a time, so there should be other work between two
-/// portions. The ball of an event is prefetched three events ahead. Two events ahead its agenda shows what
-/// else is needed, and one event ahead the partner's agenda shows whether the contact is void.
+/// Prefetches data for the next events, without which a run has the same bits and takes longer. The memory
+/// system handles about ten cache lines at a time, so there should be other work between two portions. The
+/// ball of an event is prefetched three events ahead. Two events ahead its agenda shows what else is needed,
+/// and one event ahead the partner's agenda shows whether the contact is void.
 template <class Real>
 class Prefetcher {
  public:
-  static constexpr int worthwhile = 1024;  ///< number of balls above which the near caches are too small
+  static constexpr int worthwhile = 1024;  ///< more balls do not fit into the near caches
 
   Prefetcher(const EventQueue<Real>& queue, const Agendas<Real>& agendas,
              const LargeVector<dynamics::Flight<Real>>& flights, const LargeVector<Body<Real>>& bodies,
@@ -52,7 +50,7 @@ class Prefetcher {
 
   void prefetch_next() {
     const auto [next, second, third] = upcoming_;
-    const auto pair_comes = [&](int ball) { return agendas_[ball].next >= Agenda<Real>::first_pair; };
+    const auto pair_comes = [&](int ball) { return agendas_[ball].next >= first_pair; };
     const auto partner = [&](int ball) { return agendas_[ball].partner_at(agendas_[ball].next); };
     const CellGrid& grid = candidates_.grid();
     switch (portion_++) {
@@ -68,14 +66,14 @@ class Prefetcher {
       default:
         const auto& agenda = agendas_[second];
         const CellOfBall& cell = bodies_[second].cell;
-        if (agenda.next == Agenda<Real>::crossing_entry)
+        if (agenda.next == crossing_entry)
           grid.fetch_new_cells(cell, agenda.crossing_axis(), agenda.crossing_step());
         else
           grid.fetch_cells(cell);
     }
   }
 
-  /// Prefetches the data that every event of a ball needs.
+  /// Prefetches what every event of a ball needs.
   void fetch_ball(int ball) const {
     const char* agenda = reinterpret_cast<const char*>(&agendas_[ball]);
     for (std::size_t line = 0; line < sizeof(Agenda<Real>); line += 64) fetch(agenda + line);

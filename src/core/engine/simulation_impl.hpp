@@ -15,12 +15,12 @@ namespace edmill::engine {
 // Bounds that are valid for every ball of a run.
 
 template <class Real>
-bool all_alike(const std::vector<model::BallProperties<Real>>& balls) {
+bool all_alike(const Balls<Real>& balls) {
   return std::all_of(balls.begin(), balls.end(), [&](const auto& b) { return b == balls.front(); });
 }
 
 template <class Real>
-Real smallest_radius(const std::vector<model::BallProperties<Real>>& balls) {
+Real smallest_radius(const Balls<Real>& balls) {
   const auto smaller = [](const auto& a, const auto& b) { return a.radius < b.radius; };
   return std::min_element(balls.begin(), balls.end(), smaller)->radius;
 }
@@ -73,7 +73,7 @@ namespace detail {
 /// Divides the region that the vessel sweeps into cells that contain about one ball each but are thicker than
 /// the largest.
 template <class Real>
-CellGrid make_grid(const model::Mill<Real>& mill, const std::vector<model::BallProperties<Real>>& balls) {
+CellGrid make_grid(const model::Mill<Real>& mill, const Balls<Real>& balls) {
   const auto region = mill.motion.swept(mill.vessel.half_sizes(), mill.vessel.reach());
   Real largest{0};
   for (const auto& b : balls) largest = b.radius > largest ? b.radius : largest;
@@ -93,7 +93,7 @@ CellGrid make_grid(const model::Mill<Real>& mill, const std::vector<model::BallP
 
 template <class Real>
 Candidates<Real>::Candidates(const model::Mill<Real>& mill,
-                             const std::vector<model::BallProperties<Real>>& balls,
+                             const Balls<Real>& balls,
                              const LargeVector<dynamics::Flight<Real>>& flights, const Real& reach,
                              const Real& top_speed)
     : flights_(&flights),
@@ -253,7 +253,7 @@ EndReason Simulation<Real>::run_until(const Instant<Real>& end, const std::atomi
 template <class Real>
 auto Simulation<Real>::event_of(int ball) -> Event<Real> {
   auto event = queued_event(ball);
-  const bool is_contact = event.kind == EventKind::wall_contact || event.kind == EventKind::pair_contact;
+  const bool is_contact = event.kind == EventKind::wall_contact || event.is_pair();
   if (is_contact && has_rivals(event)) event = settle_ties(event);
   // Where times are closer than their errors the ladder may have put the later one first.
   if (event.time < now_) event.time = now_;
@@ -265,10 +265,10 @@ template <class Real>
 auto Simulation<Real>::queued_event(int ball) const -> Event<Real> {
   const Agenda<Real>& a = agendas_[ball];
   const Instant<Real>& time = a.times[a.next];
-  if (a.next == Agenda<Real>::wall_entry)
+  if (a.next == wall_entry)
     return a.hits_wall() ? Event<Real>{EventKind::wall_contact, time, ball, a.wall_id(), a.wall_is_tied()}
                          : Event<Real>{EventKind::wall_horizon, time, ball};
-  if (a.next == Agenda<Real>::crossing_entry) return {EventKind::cell_crossing, time, ball};
+  if (a.next == crossing_entry) return {EventKind::cell_crossing, time, ball};
   const auto kind = agendas_.still_holds(a, a.next) ? EventKind::pair_contact : EventKind::void_contact;
   return {kind, time, ball, a.partner_at(a.next)};
 }
@@ -316,8 +316,8 @@ template <class Real>
 bool Simulation<Real>::has_rivals(const Event<Real>& event) const {
   const Instant<Real> limit = clock_.after(event.time, ladder_.tie_window());
   const Agenda<Real>& a = agendas_[event.ball];
-  int due = (a.times[Agenda<Real>::wall_entry] <= limit) + (a.forgotten_from <= limit);
-  for (int k = 0; k < Agenda<Real>::capacity; ++k) due += a.times[Agenda<Real>::first_pair + k] <= limit;
+  int due = (a.times[wall_entry] <= limit) + (a.forgotten_from <= limit);
+  for (int k = 0; k < Agenda<Real>::capacity; ++k) due += a.times[first_pair + k] <= limit;
   return due > 1 || queue_.runner_up(limit) >= 0;  // one is the event itself
 }
 
@@ -354,11 +354,11 @@ template <class Real>
 void Simulation<Real>::finish_wall_searches(const Event<Real>& event, const Instant<Real>& limit) {
   const auto finish = [&](int ball) {
     const Agenda<Real>& a = agendas_[ball];
-    while (!a.hits_wall() && a.times[Agenda<Real>::wall_entry] <= limit)
-      continue_wall_search(ball, Instant<Real>(a.times[Agenda<Real>::wall_entry]));
+    while (!a.hits_wall() && a.times[wall_entry] <= limit)
+      continue_wall_search(ball, Instant<Real>(a.times[wall_entry]));
   };
   finish(event.ball);
-  if (event.kind == EventKind::pair_contact) finish(event.partner);
+  if (event.is_pair()) finish(event.partner);
 }
 
 /// Fills `rivals_` with the contacts up to `limit` that share a ball with the event.
@@ -371,9 +371,9 @@ void Simulation<Real>::find_rivals(const Event<Real>& event, const Instant<Real>
     const auto add = [&](const Event<Real>& rival) {
       if (rival.shares_ball(event) && !rival.same_bodies(event)) rivals_.push_back(rival);
     };
-    if (a.hits_wall() && a.times[Agenda<Real>::wall_entry] <= limit)
-      add({EventKind::wall_contact, a.times[Agenda<Real>::wall_entry], ball, a.wall_id(), a.wall_is_tied()});
-    for (int entry = Agenda<Real>::first_pair; entry < Agenda<Real>::first_pair + a.pair_count; ++entry)
+    if (a.hits_wall() && a.times[wall_entry] <= limit)
+      add({EventKind::wall_contact, a.times[wall_entry], ball, a.wall_id(), a.wall_is_tied()});
+    for (int entry = first_pair; entry < first_pair + a.pair_count; ++entry)
       if (a.times[entry] <= limit && agendas_.still_holds(a, entry))
         add({EventKind::pair_contact, a.times[entry], ball, a.partner_at(entry)});
     if (a.forgotten_from <= limit) add_rivals_of_full_agenda(ball, event, limit);
@@ -388,7 +388,7 @@ void Simulation<Real>::find_due(const Event<Real>& event, const Instant<Real>& l
   // Only balls nearby, however many others have events at the same time.
   due_.clear();
   add_near(event.ball, due_);
-  if (event.kind == EventKind::pair_contact) add_near(event.partner, due_);
+  if (event.is_pair()) add_near(event.partner, due_);
   std::sort(due_.begin(), due_.end());
   due_.erase(std::unique(due_.begin(), due_.end()), due_.end());
   std::erase_if(due_, [&](int ball) { return limit < queue_.time(ball); });
@@ -415,7 +415,7 @@ void Simulation<Real>::add_rivals_of_full_agenda(int ball, const Event<Real>& ev
     std::sort(others.begin(), others.end());
   } else {
     others.push_back(event.ball);
-    if (event.kind == EventKind::pair_contact) others.push_back(event.partner);
+    if (event.is_pair()) others.push_back(event.partner);
   }
   for (const int other : others) {
     if (other == ball) continue;
@@ -482,7 +482,7 @@ Impact<Real> Simulation<Real>::collide_with_wall(const Event<Real>& event) {
   bool pose_is_known = false;
   if constexpr (!std::is_same_v<Real, double>) {  // a wide scalar has kept that of a predicted contact
     const Agenda<Real>& a = agendas_[ball];
-    pose_is_known = a.wall_pose && a.times[Agenda<Real>::wall_entry] == now_;
+    pose_is_known = a.wall_pose && a.times[wall_entry] == now_;
     if (pose_is_known) pose_ = *a.wall_pose;
   }
   if (!pose_is_known) update_pose();
@@ -668,7 +668,7 @@ void Simulation<Real>::expect_pair(int ball, int other, const Real& delay) {
   const Instant<Real> time = clock_.after(now_, delay);
   if (time >= a.forgotten_from) return;
   if (a.pair_count < Agenda<Real>::capacity) [[likely]] {
-    a.put_pair(Agenda<Real>::first_pair + a.pair_count++, time, other, agendas_.latest_impact());
+    a.put_pair(first_pair + a.pair_count++, time, other, agendas_.latest_impact());
     return;
   }
   const int last = a.farthest();
@@ -684,7 +684,7 @@ void Simulation<Real>::predict_crossing(int ball, const DoubleState& state) {
   const auto velocity = dynamics::velocity_after(candidates_.flights()[ball], gravity, state.age);
   const auto crossing = candidates_.grid().crossing(bodies_[ball].cell, state.position, velocity, gravity);
   a.crossing_face = static_cast<std::int8_t>(2 * crossing.axis + (crossing.step > 0));
-  a.times[Agenda<Real>::crossing_entry] =
+  a.times[crossing_entry] =
       crossing.delay < Crossing::never ? clock_.after(now_, Real(crossing.delay)) : Instant<Real>::never();
 }
 
@@ -713,7 +713,7 @@ void Simulation<Real>::predict_wall(int ball, const model::AnyPose<Real>& pose) 
     }
   } catch (const InterruptedError&) {  // the impact has happened; a continued run begins by searching
     agendas_[ball].wall = -1;
-    agendas_[ball].times[Agenda<Real>::wall_entry] = now_;
+    agendas_[ball].times[wall_entry] = now_;
     stop_ = EndReason::interrupted;
   }
 }
@@ -732,12 +732,12 @@ void Simulation<Real>::take_wall_answer(int ball, const dynamics::WallAnswer<Rea
   Agenda<Real>& a = agendas_[ball];
   if (answer.verdict == dynamics::Verdict::contact) {
     a.wall = static_cast<std::int8_t>(answer.wall + (answer.by_rule ? Agenda<Real>::tied : 0));
-    a.times[Agenda<Real>::wall_entry] = answer.time;
+    a.times[wall_entry] = answer.time;
     a.wall_pose = answer.pose;
   } else {
     // The next search begins where this proof is still valid, however the sum is rounded.
     a.wall = -1;
-    a.times[Agenda<Real>::wall_entry] =
+    a.times[wall_entry] =
         clock_.after(begin, answer.searched - 4 * epsilon<Real>() * clock_.period());
   }
 }

@@ -1,5 +1,5 @@
-// Detects runs that cannot continue: because of inelastic collapse, infinitely many impacts of a ball in
-// finite time, or because time no longer advances.
+// Detects runs that cannot continue: by inelastic collapse, infinitely many impacts of a ball in finite time,
+// or since time no longer advances.
 #pragma once
 
 #include <algorithm>
@@ -25,21 +25,17 @@ struct RecentImpacts {
 
 /// Detects inelastic collapse, for laws without a least separation speed. A ball is in collapse if each of
 /// its last `enough` impacts came after a path shorter than `smallest_path`, a length well above rounding,
-/// and was so slow that acceleration alone brought the bodies together again, or that its approach speed is
-/// mere rounding. Faster impacts after such short paths are those of bodies that touch: a sequence of them
-/// comes to an end.
-/// The accumulation time is extrapolated from the first of these impacts, where rounding matters least:
-/// intervals with one partner shrink by the restitution e, so the remaining ones sum to dt e / (1 - e).
+/// and was so slow that acceleration alone brought the bodies together again, or mere rounding. Faster
+/// impacts after such short paths are those of bodies that touch: a sequence of them ends. The accumulation
+/// time is extrapolated from the first of them, where rounding matters least: intervals with one partner
+/// shrink by the restitution e, so the remaining ones sum to dt e / (1 - e).
 template <class Real>
 class CollapseWatch {
  public:
   explicit CollapseWatch(const Real& smallest_path) : smallest_path_(smallest_path) {}
 
-  /// Records an impact.
-  /// @param key   identifies the partner
-  /// @param slow  approach speeds below this are due to acceleration over the smallest path, or to rounding
-  /// [m/s]
-  /// @return true if the ball is in collapse
+  /// Records an impact with the partner `key`. @return true if the ball is in collapse
+  /// @param slow  approach speeds below are due to acceleration over the smallest path, or rounding [m/s]
   bool note(RecentImpacts<Real>& r, int key, const Instant<Real>& now, const Real& approach_speed,
             const Real& slow, const Real& restitution, const DriveClock<Real>& clock) const {
     const Real interval = clock.elapsed(r.last, now);
@@ -70,9 +66,8 @@ class CollapseWatch {
   Real smallest_path_;
 };
 
-/// Detects stalled runs, by counting the impacts of all balls against the clock. A run is stalled when so
-/// many impacts come while the clock hardly advances that the bodies must be jammed: if any motion separated
-/// them all, frictionless impacts would have found it before (theory.md, section 6).
+/// Detects stalled runs, where so many impacts come while the clock hardly advances that the bodies must be
+/// jammed: frictionless impacts would have found any motion that separates them (theory.md, section 6).
 template <class Real>
 class StallWatch {
  public:
@@ -84,7 +79,7 @@ class StallWatch {
         begin_(start),
         brief_(std::move(brief)) {}
 
-  /// Takes note of an impact of a ball with a wall or another ball. @return true when the run is stalled
+  /// Takes note of an impact. @return true when the run is stalled
   bool note(const Instant<Real>& now, const DriveClock<Real>& clock, int ball, bool with_wall, int partner) {
     if (--left_ > 0) [[likely]]
       return false;
@@ -128,7 +123,7 @@ class StallWatch {
     if (place == bodies.end() || *place != body) bodies.insert(place, body);
   }
 
-  std::int64_t most_, left_;  ///< impacts since `begin_`: enough for a stall, and remaining until then
+  std::int64_t most_, left_;  ///< impacts since `begin_`: enough for a stall, and left until then
   Instant<Real> begin_;
   Real brief_;
   model::Stall<Real> found_;

@@ -13,24 +13,25 @@ namespace edmill::prove {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using TextOfFlint = std::unique_ptr<char, void (*)(void*)>;
 
 /// "1a2b -8c 3ff -98": midpoint and radius, each a whole number times a power of two, all in hexadecimal, as
 /// Arb writes them.
 std::string text_of(const Enclosure& value) {
-  const std::unique_ptr<char, void (*)(void*)> text(arb_dump_str(value.arb()), flint_free);
-  return text.get();
+  return TextOfFlint(arb_dump_str(value.arb()), flint_free).get();
 }
 
 Json texts(const QuantityVector& v) { return {v[0].text(), v[1].text(), v[2].text()}; }
 Json texts(const Vector& v) { return {text_of(v[0]), text_of(v[1]), text_of(v[2])}; }
 
 Json line_of(const model::Joint<Quantity>& joint) {
+  const auto speed = joint.speed.text();
   Json line;
   if (joint.rotates)
-    line = {{"rotate", texts(joint.axis)}, {"angle", joint.angle.text()}, {"frequency", joint.speed.text()}};
+    line = {{"rotate", texts(joint.axis)}, {"angle", joint.angle.text()}, {"frequency", speed}};
   else
     line = {{"shift", texts(joint.shift)}, {"along", texts(joint.axis)}};
-  if (!joint.rotates && !joint.speed.zero()) line["speed"] = joint.speed.text();
+  if (!joint.rotates && !joint.speed.zero()) line["speed"] = speed;
   line["swings"] = Json::array();
   for (const auto& s : joint.swings)
     line["swings"].push_back(
@@ -42,14 +43,15 @@ template <class Part>
 Json lines_of(const std::vector<Part>& parts);
 
 Json line_of(const ExactWall& wall) {
+  const auto size = wall.size.text();
   if (wall.kind == ExactWall::plane)
-    return {{"plane", texts(wall.normal)}, {"point", texts(wall.point)}, {"distance", wall.size.text()}};
+    return {{"plane", texts(wall.normal)}, {"point", texts(wall.point)}, {"distance", size}};
   if (wall.is_solid())
     return {{"solid", wall.kind == ExactWall::solid_box ? "box" : "cylinder"},
             {"half", texts(wall.half)},
-            {"rounding", wall.size.text()},
+            {"rounding", size},
             {"joints", lines_of(wall.joints)}};
-  return {{wall.kind == ExactWall::cylinder ? "cylinder" : "sphere", wall.size.text()}};
+  return {{wall.kind == ExactWall::cylinder ? "cylinder" : "sphere", size}};
 }
 
 Json line_of(const ExactLaw& law) {
@@ -97,16 +99,15 @@ Json header_of(const ExactCase& c, std::size_t events, long bits) {
 }
 
 Json line_of(const ProvenEvent& event, std::size_t number) {
-  Json line{{"event", number},
-            {"ball", event.ball},
-            {event.with_wall ? "wall" : "partner", event.partner},
-            {"time", text_of(event.time)}};
-  line["states"] = Json::array();
-  for (const auto& flight : event.after)
-    line["states"].push_back(
-        {{"r", texts(flight.position)}, {"v", texts(flight.velocity)}, {"s", texts(flight.spin)}});
-  line["windows"] = event.windows;
-  return line;
+  Json states = Json::array();
+  for (const auto& [reference, position, velocity, spin] : event.after)
+    states.push_back({{"r", texts(position)}, {"v", texts(velocity)}, {"s", texts(spin)}});
+  return {{"event", number},
+          {"ball", event.ball},
+          {event.with_wall ? "wall" : "partner", event.partner},
+          {"time", text_of(event.time)},
+          {"states", states},
+          {"windows", event.windows}};
 }
 
 /// The header of a certificate, its first line. @throws std::exception if it is not a certificate
@@ -121,7 +122,8 @@ Json read_header(std::istream& in) {
       throw std::runtime_error("the key " + key.dump() + " appears twice");
     return true;
   });
-  if (header.at("format") != "edmill certificate" || (header.at("version") != 1 && header.at("version") != 2))
+  const auto& version = header.at("version");
+  if (header.at("format") != "edmill certificate" || (version != 1 && version != 2))
     throw std::runtime_error("the format is another one");
   for (const auto* count : {"events", "bits"})
     if (!header.at(count).is_number_unsigned())
@@ -129,11 +131,10 @@ Json read_header(std::istream& in) {
   return header;
 }
 
-/// "2.560368941527883137177675704e-03,1.2e-40": the midpoint to `digits` places, and a radius with which the
-/// printed number encloses `value`.
+/// "2.560368941527883137177675704e-03,1.2e-40": the midpoint to `digits` places, and the radius with which it
+/// encloses `value`.
 std::string decimal_of(const Enclosure& value, int digits) {
-  const std::unique_ptr<char, void (*)(void*)> middle(arf_get_str(arb_midref(value.arb()), digits + 1),
-                                                      flint_free);
+  const TextOfFlint middle(arf_get_str(arb_midref(value.arb()), digits + 1), flint_free);
   Enclosure printed, difference;
   arb_set_str(printed.arb(), middle.get(), 8 * digits + 64);
   arb_sub(difference.arb(), value.arb(), printed.arb(), 64);
@@ -153,8 +154,8 @@ std::string text_of_difference(const Json& row, const Json& expected) {
   const Json::json_pointer at(path);
   const auto text = [](const Json& value) { return value.is_primitive() ? value.dump() : value.type_name(); };
   const auto found = row.at("op") == "remove" ? "missing" : "found " + text(row.at("value"));
-  return fmt::format("{}: {}, expected {}", path, found,
-                     row.at("op") == "add" ? "no such key" : text(expected.at(at)));
+  const auto asked = row.at("op") == "add" ? "no such key" : text(expected.at(at));
+  return fmt::format("{}: {}, expected {}", path, found, asked);
 }
 
 }  // namespace

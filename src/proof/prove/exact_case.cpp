@@ -26,8 +26,7 @@ ExactJoints moving_joints(ExactJoints joints) {
   return joints;
 }
 
-/// A plane perpendicular to an axis, at this distance from the origin, on the negative (-1) or the positive
-/// (1) side.
+/// A plane across an axis, at this distance from the origin, on the negative (-1) or positive (1) side.
 ExactWall plane(std::size_t axis, int side, const Quantity& distance) {
   ExactWall wall;
   wall.normal[axis] = side;
@@ -98,11 +97,11 @@ void fill_laws(const CaseSpec& spec, const std::vector<int>& materials, ExactCas
     used[law] = true;
     return law;
   };
+  const auto& own = spec.wall_materials;
   for (const int one : materials) {
     auto& walls = result.law_of_walls.emplace_back();
     for (std::size_t wall = 0; wall < result.walls.size(); ++wall)
-      walls.push_back(
-          use(law_between(spec, one, wall < spec.wall_materials.size() ? spec.wall_materials[wall] : 0, 1)));
+      walls.push_back(use(law_between(spec, one, wall < own.size() ? own[wall] : 0, 1)));
     auto& balls = result.law_of_balls.emplace_back();
     for (const int other : materials) balls.push_back(use(law_between(spec, one, other, 0)));
   }
@@ -113,20 +112,16 @@ void fill_laws(const CaseSpec& spec, const std::vector<int>& materials, ExactCas
 }
 
 /// The exact position of a ball placed at random. Its coordinates are multiples of 2^-52 of the room for its
-/// centre; the whole numbers are recovered from a placement in many digits, in the current precision of the
-/// thread.
-QuantityVector exact_place(const Vec3<mpfr>& local, const QuantityVector& room, const std::string& where) {
-  QuantityVector place{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto size = room[axis].to<mpfr>();
-    const mpfr steps = ldexp(local[static_cast<int>(axis)] / size, 52), whole = round(steps);
+/// centre; the whole numbers are recovered from a placement in many digits, in the thread's precision.
+QuantityVector exact_place(const Vec3<mpfr>& local, QuantityVector room, const std::string& where) {
+  for (int axis = 0; auto& size : room) {
+    const mpfr steps = ldexp(local[axis++] / size.to<mpfr>(), 52), whole = round(steps);
     if (!(abs(steps - whole) < 1e-100))
       throw InputError(where +
                        ": found balls whose places are not known exactly, expected a position for each");
-    place[axis] =
-        room[axis] * casefile::quantity_of({cpp_int(static_cast<std::int64_t>(whole)), cpp_int(1) << 52});
+    size = size * casefile::quantity_of({cpp_int(static_cast<std::int64_t>(whole)), cpp_int(1) << 52});
   }
-  return place;
+  return room;
 }
 
 ExactBall ball_of(const casefile::BallSpec& spec) {
@@ -152,11 +147,11 @@ void add_batches(const CaseSpec& spec, const std::optional<QuantityVector>& half
     for (int k = 0; k < batch.count; ++k) {
       ExactBall ball = ball_of(batch);
       QuantityVector room = *half;
-      for (auto& size : room)
-        size = casefile::quantity_of(rational(size) - rational(ball.radius) - rational(batch.gap_wall));
+      const auto edge = rational(ball.radius) + rational(batch.gap_wall);
+      for (auto& size : room) size = casefile::quantity_of(rational(size) - edge);
       ball.in_vessel = true;
-      ball.position = exact_place(motion.position_in_vessel(pose, built.states[result.balls.size()].position),
-                                  room, batch.where);
+      const auto& state = built.states[result.balls.size()];
+      ball.position = exact_place(motion.position_in_vessel(pose, state.position), room, batch.where);
       result.balls.push_back(ball);
       materials.push_back(batch.material);
     }
@@ -179,13 +174,11 @@ ExactCase exact_case(const CaseSpec& spec) {
   result.joints = moving_joints(casefile::joints_of(spec.mill));
   auto vessel = std::visit([](const auto& v) { return vessel_of(v); }, spec.vessel);
   result.walls = std::move(vessel.walls);
-  for (const auto& body : spec.bodies)
-    result.walls.push_back({body.is_round ? ExactWall::solid_cylinder : ExactWall::solid_box,
-                            {},
-                            {},
-                            body.rounding,
-                            body.core(),
-                            moving_joints(casefile::joints_from_ground(body, spec))});
+  for (const auto& body : spec.bodies) {
+    const auto kind = body.is_round ? ExactWall::solid_cylinder : ExactWall::solid_box;
+    const auto joints = moving_joints(casefile::joints_from_ground(body, spec));
+    result.walls.push_back({kind, {}, {}, body.rounding, body.core(), joints});
+  }
   std::vector<int> materials;
   for (const auto& given : spec.balls) {
     ExactBall ball = ball_of(given);

@@ -1,5 +1,5 @@
-// A case as a proof needs it: exact numbers, every motion a chain of joints, every wall a plane, cylinder or
-// sphere, or a body inside the vessel.
+// A case as a proof needs it: exact numbers, motions as chains of joints, walls as planes, cylinders, spheres
+// or bodies inside the vessel.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ using ExactJoints = std::vector<model::Joint<Quantity>>;
 
 struct ExactWall {
   enum Kind { plane, cylinder, sphere, solid_box, solid_cylinder } kind = plane;
-  QuantityVector normal{}, point{};  ///< of a plane: outward, of any length; inside, n.(p - point)/|n| < size
+  QuantityVector normal{}, point{};  ///< of a plane: outward; inside, n.(p - point)/|n| < size
   Quantity size;          ///< distance of the plane from the point, radius, or rounding of a solid [m]
   QuantityVector half{};  ///< of a solid's core: half edges, or radius, half height, radius [m]
   ExactJoints joints;     ///< of a solid: from the ground

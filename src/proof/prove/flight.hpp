@@ -1,6 +1,5 @@
-// Enclosures of the poses of the vessel and of bodies inside it, of balls in free flight and of their gaps,
-// and proofs that bodies do not meet during a flight. docs/certificates.md, "Rules for the states", rules 4
-// and 5
+// Enclosures of the poses of the vessel and of bodies in it, of balls in flight and of their gaps, and proofs
+// that bodies do not meet in a flight. docs/certificates.md, "Rules for the states", rules 4 and 5
 #pragma once
 
 #include <map>
@@ -36,15 +35,12 @@ struct Pose {
   Vector centre, velocity, acceleration;  ///< of its origin [m], [m/s], [m/s^2]
   Vector omega, omega_rate;               ///< [rad/s], [rad/s^2]
 
-  /// Rotates about an axis of the current frame, the unit vector e: E_kk = e_k^2 + cos (1 - e_k^2), E_kl =
-  /// e_k e_l (1 - cos) -/+ e_m sin.
-  /// @param turns  the angle
-  /// @param speed, acceleration  [rad/s], [rad/s^2]
-  void rotate(const Vector& e, const Enclosure& turns, const Enclosure& speed,
-              const Enclosure& acceleration) {
-    const Vector axis = turned(axes, e);
-    const Vector relative = axis * speed;
-    omega_rate += axis * acceleration + cross<Enclosure>(omega, relative);
+  /// Rotates about an axis of the current frame, the unit vector e:
+  /// E_kk = e_k^2 + cos (1 - e_k^2), E_kl = e_k e_l (1 - cos) -/+ e_m sin.
+  /// @param turns, speed, second  the angle, [rad/s], [rad/s^2]
+  void rotate(const Vector& e, const Enclosure& turns, const Enclosure& speed, const Enclosure& second) {
+    const Vector axis = turned(axes, e), relative = axis * speed;
+    omega_rate += axis * second + cross<Enclosure>(omega, relative);
     omega += relative;
     Matrix rotation;
     const auto angle = sin_cos_turns(turns);
@@ -64,9 +60,9 @@ struct Pose {
 
   /// Translates by a vector of the current frame, given with its derivatives in that frame.
   void shift(const Vector& by, const Vector& by_rate, const Vector& by_second) {
-    const Vector d = turned(axes, by), rate = turned(axes, by_rate), second = turned(axes, by_second);
+    const Vector d = turned(axes, by), rate = turned(axes, by_rate);
     const Vector carried = cross<Enclosure>(omega, d);
-    acceleration += second + cross<Enclosure>(omega, Vector(rate * Enclosure(2))) +
+    acceleration += turned(axes, by_second) + cross<Enclosure>(omega, Vector(rate * Enclosure(2))) +
                     cross<Enclosure>(omega_rate, d) + cross<Enclosure>(omega, carried);
     velocity += rate + carried;
     centre += d;
@@ -82,7 +78,7 @@ struct Pose {
   }
 };
 
-/// The joints of a case, in the precision that is current at construction. Frame 0 is that of the vessel.
+/// The joints of a case, in the precision at construction. Frame 0 is that of the vessel.
 class Motion {
  public:
   explicit Motion(const ExactCase& exact) : start_(enclosure_of(exact.start)) {
@@ -128,7 +124,6 @@ class Motion {
   };
 
   void add(const ExactJoints& joints) {
-    const auto to_enclosure = [](const Quantity& number) { return enclosure_of(number); };
     auto& chain = chains_.emplace_back();
     for (const auto& given : joints) {
       const Vector axis = enclosure_of(given.axis);
@@ -137,7 +132,8 @@ class Motion {
                        .shift = enclosure_of(given.shift),
                        .angle = enclosure_of(given.angle),
                        .speed = enclosure_of(given.speed),
-                       .swings = model::converted_swings<Enclosure>(given.swings, to_enclosure)});
+                       .swings = model::converted_swings<Enclosure>(
+                           given.swings, [](const Quantity& number) { return enclosure_of(number); })});
     }
   }
 
@@ -146,8 +142,8 @@ class Motion {
   std::vector<std::size_t> frames_;  ///< by wall
 };
 
-/// Position and velocity at the exact time `reference`, and the constant spin. The parabola is defined for
-/// all times; the ball follows it between two impacts.
+/// Position and velocity at the exact time `reference`, and the constant spin. The ball follows the parabola,
+/// which is defined for all times, between two impacts.
 struct Flight {
   Enclosure reference;  ///< [s] after the start, exact
   Vector position, velocity, spin;
@@ -197,17 +193,16 @@ struct Excess {
 /// derivative, which jumps where the nearest point of the core passes from a face to an edge, is enclosed
 /// with both of its values there: Taylor's formula is valid for such functions.
 /// @param square  of the distance at which the ball touches the solid
-inline Gap gap_of_solid(bool is_round, const Vector& half, const Enclosure& square, const InFrame& ball) {
-  const Vector &p = ball.place, &v = ball.velocity, &a = ball.acceleration;
+inline Gap gap_of_solid(bool round, const Vector& half, const Enclosure& square, const InFrame& ball) {
+  const auto& [p, v, a] = ball;
   Gap half_gap{-square / 2, {}, {}};
-  const auto add = [&](int axis) {
+  for (const int axis : round ? std::vector{1} : std::vector{1, 0, 2}) {
     const Excess excess(p[axis], half[axis]);
     half_gap.value += excess.by * excess.by / 2;
     half_gap.rate += excess.by * v[axis];
     half_gap.second += excess.outside * (v[axis] * v[axis]) + excess.by * a[axis];
-  };
-  add(1);
-  if (is_round) {  // the distance r from the axis beyond the core's radius: (r - a) r' = (1 - a/r) (p.v)
+  }
+  if (round) {  // the distance r from the axis beyond the core's radius: (r - a) r' = (1 - a/r) (p.v)
     const Enclosure distance = sqrt(p[0] * p[0] + p[2] * p[2]), along = p[0] * v[0] + p[2] * v[2];
     const Excess excess(distance, half[0]);
     Enclosure far;
@@ -217,9 +212,6 @@ inline Gap gap_of_solid(bool is_round, const Vector& half, const Enclosure& squa
     half_gap.rate += share * along;
     half_gap.second += share * (v[0] * v[0] + v[2] * v[2] + p[0] * a[0] + p[2] * a[2]) +
                        excess.outside * half[0] * (along * along) / (far * far * far);
-  } else {
-    add(0);
-    add(2);
   }
   return {2 * half_gap.value, 2 * half_gap.rate, 2 * half_gap.second};
 }
@@ -229,8 +221,8 @@ inline Vector from_core(bool is_round, const Vector& half, const Vector& p) {
   const Enclosure up = Excess(p[1], half[1]).by;
   if (!is_round) return {Excess(p[0], half[0]).by, up, Excess(p[2], half[2]).by};
   // (r - a)/r where r > a, also where the enclosure of r contains 0.
-  const Enclosure beyond = Excess(sqrt(p[0] * p[0] + p[2] * p[2]), half[0]).by,
-                  share = beyond / (half[0] + beyond);
+  const Enclosure beyond = Excess(sqrt(p[0] * p[0] + p[2] * p[2]), half[0]).by;
+  const Enclosure share = beyond / (half[0] + beyond);
   return {p[0] * share, up, p[2] * share};
 }
 
@@ -245,8 +237,9 @@ class Walls {
           Wall{given.kind, enclosure_of(given.normal), enclosure_of(given.half), {}, {}, {}});
       const Enclosure size = enclosure_of(given.size);
       if (given.kind == ExactWall::plane) {
+        const Vector point = enclosure_of(given.point);
         wall.length = norm<Enclosure>(wall.outward);
-        wall.offset = wall.length * (size - radius) + dot<Enclosure>(wall.outward, enclosure_of(given.point));
+        wall.offset = wall.length * (size - radius) + dot<Enclosure>(wall.outward, point);
       } else {
         wall.room = given.is_solid() ? size + radius : size - radius;
         wall.offset = wall.room * wall.room;
@@ -264,7 +257,7 @@ class Walls {
     return {w.offset - squared_norm<Enclosure>(p), -2 * dot<Enclosure>(p, u),
             -2 * (squared_norm<Enclosure>(u) + dot<Enclosure>(p, a))};
   }
-  /// Unit normal, from the wall to the ball, where the ball touches the wall with its centre at `place`.
+  /// Unit normal, from the wall to a ball that touches it with its centre at `place`.
   Vector normal(std::size_t wall, const Vector& place) const {
     const Wall& w = walls_[wall];
     if (w.kind == ExactWall::plane) return -w.outward / w.length;
@@ -306,7 +299,7 @@ class WallExclusion {
   WallExclusion(const Motion& motion, const Walls& walls, const Vector& gravity, Span span)
       : motion_(motion), walls_(walls), gravity_(gravity), span_(std::move(span)) {}
 
-  /// The windows of the proof as text: "r2p2p1". Empty if bisection to the greatest depth does not prove it.
+  /// The windows of the proof as text: "r2p2p1". Empty if bisection to the end does not prove it.
   std::string windows(std::size_t wall) {
     std::string text;
     return bisect(wall, 0, 0, text) ? text : "";
@@ -321,8 +314,8 @@ class WallExclusion {
   };
 
   const Window& window(std::size_t frame, int depth, long index) {
-    const auto found = windows_.find({frame, depth, index});
-    if (found != windows_.end()) return found->second;
+    const auto [found, is_new] = windows_.try_emplace({frame, depth, index});
+    if (!is_new) return found->second;
     const auto at = [&](long k) {
       Enclosure share(static_cast<double>(k));
       arb_mul_2exp_si(share.arb(), share.arb(), -depth);
@@ -334,8 +327,7 @@ class WallExclusion {
     const auto seen = [&](const Enclosure& time) {
       return span_.flight.seen(motion_.pose(time, frame), time, gravity_);
     };
-    return windows_.emplace(std::tuple(frame, depth, index), Window{all - middle, seen(middle), seen(all)})
-        .first->second;
+    return found->second = {all - middle, seen(middle), seen(all)};
   }
 
   bool bisect(std::size_t wall, int depth, long index, std::string& text) {
@@ -344,8 +336,8 @@ class WallExclusion {
     const Enclosure second = walls_.gap(wall, w.all).second, &s = w.length_from_middle;
     Enclosure square;
     arb_sqr(square.arb(), s.arb(), Precision::bits());
-    const Enclosure value = middle.value + middle.rate * s + second * square / 2,
-                    rate = middle.rate + second * s;
+    const Enclosure value = middle.value + middle.rate * s + second * square / 2;
+    const Enclosure rate = middle.rate + second * s;
     const bool first = index == 0, last = index + 1 == 1L << depth;
     const auto leaf = [&](char kind) {
       text += kind + std::to_string(depth);

@@ -18,7 +18,8 @@ constexpr slong coarse_bits = 64, guard_bits = 64;
 
 /// The name of a meeting or an event.
 std::string name_of(const auto& next) {
-  return fmt::format("ball {} and {} {}", next.ball, next.with_wall ? "wall" : "ball", next.partner);
+  const auto* kind = next.with_wall ? "wall" : "ball";
+  return fmt::format("ball {} and {} {}", next.ball, kind, next.partner);
 }
 
 /// Adds the radius 2^-bits; with `may_vanish` an exact zero is left unchanged.
@@ -99,13 +100,12 @@ class Prover {
     const Pose pose = fine_.motion.pose(Enclosure());
     for (const auto& ball : exact.balls) {
       Vector position = enclosure_of(ball.position);
+      const Vector velocity = enclosure_of(ball.velocity), spin = enclosure_of(ball.spin);
       if (ball.in_vessel) position = pose.centre + turned(pose.axes, position);
-      Track track;
-      track.flight = {Enclosure(), blurred(position, bits, false),
-                      blurred(enclosure_of(ball.velocity), bits, true),
-                      blurred(enclosure_of(ball.spin), bits, true)};
+      Track& track = tracks_.emplace_back();
+      track.flight = {Enclosure(), blurred(position, bits, false), blurred(velocity, bits, true),
+                      blurred(spin, bits, true)};
       track.coarse = coarse(track.flight);
-      tracks_.push_back(std::move(track));
     }
   }
 
@@ -127,7 +127,7 @@ class Prover {
     ProvenEvent event = next.with_wall ? impact_on_wall(next, time) : impact_of_balls(next, time);
     event.windows = std::move(windows);
     for (auto& flight : event.after)
-      flight = flight.with_each([&](const Enclosure& component) { return rounded_out(component, bits_); });
+      flight = flight.with_each([&](const Enclosure& x) { return rounded_out(x, bits_); });
     follow(event);
     return event;
   }
@@ -192,7 +192,7 @@ class Prover {
   }
 
   static Flight coarse(const Flight& flight) {
-    return flight.with_each([](const Enclosure& component) { return rounded(component, coarse_bits); });
+    return flight.with_each([](const Enclosure& x) { return rounded(x, coarse_bits); });
   }
 
   Pose pose_of_wall(int wall, const Enclosure& time) const {
@@ -201,13 +201,12 @@ class Prover {
 
   Gap gap_at(const Meeting& next, const Enclosure& time) const {
     const Flight& one = tracks_[next.ball].flight;
+    const Tools::Ball& ball = fine_.balls[next.ball];
     if (next.with_wall)
-      return fine_.balls[next.ball].walls.gap(
-          next.partner, one.seen(pose_of_wall(next.partner, time), time, fine_.gravity));
+      return ball.walls.gap(next.partner, one.seen(pose_of_wall(next.partner, time), time, fine_.gravity));
     const Flight& two = tracks_[next.partner].flight;
-    // The relative motion is uniform, so it is extrapolated from the middle of a bracket without gravity.
-    const Enclosure middle = time.middle();
-    const Enclosure reach = fine_.balls[next.ball].radius + fine_.balls[next.partner].radius;
+    // The relative motion is uniform: it is extrapolated from the middle of a bracket.
+    const Enclosure middle = time.middle(), reach = ball.radius + fine_.balls[next.partner].radius;
     PairGap pair(one, two, reach, fine_.gravity, middle);
     pair.between += pair.relative * Enclosure(time - middle);
     return {pair.value(), 2 * pair.half_rate(), 2 * squared_norm<Enclosure>(pair.relative)};
@@ -218,7 +217,7 @@ class Prover {
            gap_at(next, time).rate.is_negative();
   }
 
-  /// Newton's method to the width of the flights, then an interval that provably contains the contact.
+  /// Newton's method to the width of the flights, then an interval that provably has the contact.
   Enclosure bracket(const Meeting& next) const {
     Enclosure time = next.time, wide;
     for (slong bits = 256;; bits = std::min(2 * bits, fine_.bits)) {
@@ -229,8 +228,9 @@ class Prover {
         throw Undecided{"whether " + name_of(next) + " meet"};
       time = Enclosure(time - step).middle();
       wide = step;
-      if (bits >= fine_.bits && less(wide.middle() * wide.middle(), wide.radius() * wide.radius())) break;
-      if (bits >= fine_.bits && arb_is_exact(wide.arb())) break;
+      if (bits < fine_.bits) continue;
+      if (less(wide.middle() * wide.middle(), wide.radius() * wide.radius())) break;
+      if (arb_is_exact(wide.arb())) break;
     }
     // The last step moved to its midpoint; its radius remains.
     Enclosure half = wide.radius() * Enclosure(1 + 0x1p-7);
@@ -266,8 +266,7 @@ class Prover {
     return texts;
   }
 
-  /// Excludes all other balls whose flights have not ended; the flights that ended before have excluded this
-  /// one.
+  /// Excludes all other balls whose flights have not ended; flights that ended have excluded this one.
   void exclude_balls(int ball, int partner, const Enclosure& end, long through) const {
     const Track& track = tracks_[ball];
     for (int k = 0; k < static_cast<int>(tracks_.size()); ++k) {
@@ -287,7 +286,7 @@ class Prover {
     }
   }
 
-  /// Counts the ball's consecutive impacts without time to move. @return true if this one is frictionless
+  /// Counts the ball's impacts in a row without time to move. @return true if this one is frictionless
   bool friction_rests(int ball, const Law& law, const Enclosure& time) {
     Track& track = tracks_[ball];
     if (has_moved(law, time - track.since)) {
@@ -302,21 +301,19 @@ class Prover {
     const Flight& flight = tracks_[own].flight;
     const Tools::Ball& ball = fine_.balls[own];
     const Enclosure middle = time.middle(), d = time - middle;
-    const Vector position = flight.position_at(middle, fine_.gravity),
-                 velocity = flight.velocity_at(middle, fine_.gravity);
-    const Vector fast = velocity + fine_.gravity * d;
-    const Pose pose = pose_of_wall(wall, time);
-    const auto seen = pose.seen(position + fast * d, fast, fine_.gravity);
-    const Pose pose_at_middle = pose_of_wall(wall, middle);
-    const Vector place =
-        turned_back(pose_at_middle.axes, position - pose_at_middle.centre) + seen.velocity * d;
-    const Vector inward = ball.walls.normal(wall, place);
-    const Vector normal = turned(pose.axes, inward);
+    const Vector& g = fine_.gravity;
+    const Vector position = flight.position_at(middle, g), velocity = flight.velocity_at(middle, g);
+    const Vector fast = velocity + g * d;
+    const Pose pose = pose_of_wall(wall, time), mid_pose = pose_of_wall(wall, middle);
+    const auto seen = pose.seen(position + fast * d, fast, g);
+    const Vector place = turned_back(mid_pose.axes, position - mid_pose.centre) + seen.velocity * d;
+    const Vector inward = ball.walls.normal(wall, place), normal = turned(pose.axes, inward);
     const Vector arm = turned(pose.axes, place - inward * ball.radius);
-    const Vector wall_velocity = pose.velocity + cross<Enclosure>(pose.omega, arm);
-    const Vector contact = fast - wall_velocity - cross<Enclosure>(flight.spin * ball.radius, normal);
+    const Vector surface = pose.velocity + cross<Enclosure>(pose.omega, arm);
+    const Vector contact = fast - surface - cross<Enclosure>(flight.spin * ball.radius, normal);
     const Law& law = fine_.laws[exact_.law_of_walls[own][wall]];
-    const auto hit = impulse(law, normal, contact, 1 + 1 / ball.inertia, friction_rests(own, law, time));
+    const bool rests = friction_rests(own, law, time);
+    const auto hit = impulse(law, normal, contact, 1 + 1 / ball.inertia, rests);
     const Flight after{middle, position - hit.push * d, velocity + hit.push,
                        flight.spin + hit.turn * Enclosure(1 / (ball.radius * ball.inertia))};
     return {{next.ball, true, next.partner, time}, hit.approach_speed, hit.slip_speed, {after}, {}};
@@ -326,21 +323,22 @@ class Prover {
     const int i = next.ball, j = next.partner;
     const Flight &one = tracks_[i].flight, &two = tracks_[j].flight;
     const Enclosure middle = time.middle(), d = time - middle;
-    const Vector g = fine_.gravity;
+    const Vector& g = fine_.gravity;
     const Vector position[2] = {one.position_at(middle, g), two.position_at(middle, g)};
     const Vector velocity[2] = {one.velocity_at(middle, g), two.velocity_at(middle, g)};
     const Vector relative = velocity[0] - velocity[1];
     const Tools::Ball &ball = fine_.balls[i], &partner = fine_.balls[j];
-    const Enclosure &R_i = ball.radius, &R_j = partner.radius, &J_i = ball.inertia, &J_j = partner.inertia;
+    const auto &R_i = ball.radius, &R_j = partner.radius, &J_i = ball.inertia, &J_j = partner.inertia;
     const Vector normal = (position[0] - position[1] + relative * d) / Enclosure(R_i + R_j);
     // Masses without 4/3 pi: only their ratios count.
-    const Enclosure m_i = ball.density * (R_i * R_i * R_i), m_j = partner.density * (R_j * R_j * R_j);
+    const Enclosure m_i = ball.density * (R_i * R_i * R_i);
+    const Enclosure m_j = partner.density * (R_j * R_j * R_j);
     const Enclosure share_i = m_j / (m_i + m_j), share_j = m_i / (m_i + m_j);
     const Enclosure compliance = 1 + share_i / J_i + share_j / J_j;
     const Vector contact = relative - cross<Enclosure>(one.spin * R_i + two.spin * R_j, normal);
     const Law& law = fine_.laws[exact_.law_of_balls[i][j]];
-    const bool rests_for_i = friction_rests(i, law, time), rests_for_j = friction_rests(j, law, time);
-    const auto hit = impulse(law, normal, contact, compliance, rests_for_i || rests_for_j);
+    const bool i_rests = friction_rests(i, law, time), j_rests = friction_rests(j, law, time);
+    const auto hit = impulse(law, normal, contact, compliance, i_rests || j_rests);
     const Vector push_i = hit.push * share_i, push_j = hit.push * share_j;
     const Flight after_i{middle, position[0] - push_i * d, velocity[0] + push_i,
                          one.spin + hit.turn * Enclosure(share_i / (R_i * J_i))};
@@ -411,15 +409,14 @@ std::vector<Meeting> candidates(const casefile::CaseSpec& spec, const ProofOptio
   const std::size_t collisions = options.collisions;
   const auto source = run::make_source("mpfr:" + std::to_string(placing_digits), spec, false);
   std::vector<run::Event> events;
-  for (bool more = true; more && events.size() < collisions;) {
+  while (events.size() < collisions) {
     const auto taken = source->next(std::min<std::size_t>(64, collisions - events.size()));
     events.insert(events.end(), taken.begin(), taken.end());
-    more = !taken.empty();
     Interruption::check();
+    if (taken.empty())
+      throw InputError(fmt::format("{}: the case ends after {} collisions, {} are requested", spec.file,
+                                   events.size(), collisions));
   }
-  if (events.size() < collisions)
-    throw InputError(fmt::format("{}: the case ends after {} collisions, {} are requested", spec.file,
-                                 events.size(), collisions));
   const Precision scope(1024);
   const Enclosure start = enclosure_of(spec.initial_time);
   std::vector<Meeting> list;

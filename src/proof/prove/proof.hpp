@@ -1,5 +1,4 @@
-// The first events of a case, proven: event by event, which bodies meet and when. docs/theory.md, section 7;
-// docs/certificates.md
+// The first events of a case, proven: which bodies meet, and when. theory.md, section 7; certificates.md
 #pragma once
 
 #include <atomic>
@@ -46,7 +45,7 @@ struct Proof {
   ExactCase exact;
   slong bits = 0;
   std::vector<ProvenEvent> events;
-  std::vector<std::vector<std::string>> open_windows;  ///< of flights that have not ended, by ball and wall
+  std::vector<std::vector<std::string>> open_windows;  ///< of flights that go on, by ball and wall
   slong accuracy = 0;  ///< bits after the point of the least known velocity at the end
   std::vector<Attempt> attempts;
   double seconds = 0;  ///< duration of the proof
@@ -61,12 +60,11 @@ struct Proof {
 Proof prove(const casefile::CaseSpec& spec, const ProofOptions& options);
 
 /// The file that anybody can check, as JSON lines: the exact case, the events, the flights at the end.
-/// docs/certificates.md
 void write_certificate(std::ostream& out, const Proof& proof);
 
-/// The differences between the header of a certificate and this case, a line each: "/balls/0/radius: found
-/// "1/250", expected "119/25000"". The name of the case, its digest, the bits and the number of events are
-/// not compared: what is proven follows from the other numbers.
+/// The differences between the header of a certificate and this case, a line each:
+/// "/balls/0/radius: found "1/250", expected "119/25000"". Name, digest, bits and number of events are not
+/// compared: what is proven follows from the other numbers.
 /// @param name  of the file, for messages
 /// @throws InputError when the file is not a certificate, or its header contains a key twice
 std::vector<std::string> other_case(std::istream& certificate, const std::string& name,
