@@ -36,15 +36,18 @@ struct EngineCounts {
   }
 };
 
-/// A run of one case. Balls are advanced only when they collide; every predicted contact is certified.
+template <class Real>
+using States = std::vector<model::BallState<Real>>;
+
+/// A run of one case. Balls are advanced only when they collide; every contact is certified.
 template <class Real>
 class Simulation {
  public:
   /// @param states  of the case's balls, in order, at `start`
   /// @pre no two balls overlap and all are inside the vessel, up to rounding
   /// @throws InterruptedError when `interrupt` becomes true meanwhile
-  Simulation(const model::Case<Real>& the_case, const std::vector<model::BallState<Real>>& states,
-             const Instant<Real>& start, const std::atomic<bool>* interrupt = nullptr);
+  Simulation(const model::Case<Real>& the_case, const States<Real>& states, const Instant<Real>& start,
+             const std::atomic<bool>* interrupt = nullptr);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
@@ -55,8 +58,7 @@ class Simulation {
   /// and stalls, or when `interrupt` becomes true. Can be called again with a later end.
   EndReason run_until(const Instant<Real>& end, const std::atomic<bool>* interrupt = nullptr);
 
-  /// Enables or disables prefetching for the next events, which changes no result (default: enabled with many
-  /// balls).
+  /// Enables or disables prefetching, which changes no result (default: enabled with many balls).
   void prefetch(bool yes) { prefetcher_.enable(yes && candidates_.uses_cells()); }
 
   /// Replaces the wall search by another one, which is not certified: for comparisons.
@@ -80,8 +82,7 @@ class Simulation {
   const Instant<Real>& now() const { return now_; }
   Real seconds() const { return clock_.seconds(now_); }
   const DriveClock<Real>& clock() const { return clock_; }
-  /// The instant of a record at `time` [s]. A time that equals the current one up to the rounding of seconds
-  /// gives the current instant.
+  /// The instant of a record at `time` [s]: the current one where they agree up to rounding.
   Instant<Real> instant_of(const Real& time) const {
     const Real off = time - seconds(), unit = 8 * epsilon<Real>() * (time + clock_.period());
     return off <= unit && off >= -unit ? now_ : clock_.at(time);
@@ -99,6 +100,7 @@ class Simulation {
   const std::optional<model::Stall<Real>>& stall() const { return stall_; }
 
  private:
+  static constexpr bool is_double = std::is_same_v<Real, double>;
   using DoubleState = typename Candidates<Real>::DoubleState;
 
   bool is_sound() const;
@@ -149,6 +151,7 @@ class Simulation {
   LargeVector<dynamics::Flight<Real>> flights_;
   LargeVector<Body<Real>> bodies_;
   Agendas<Real> agendas_;
+  Real top_speed_;  ///< of any ball at any time, at most [m/s]; it grows
   dynamics::DecisionLadder<Real> ladder_;
   Candidates<Real> candidates_;
   EventQueue<Real> queue_;
@@ -163,9 +166,8 @@ class Simulation {
   std::optional<model::Stall<Real>> stall_;
   std::optional<EndReason> stop_;
   Instant<Real> now_;
-  Real tolerated_overlap_;  ///< far above rounding and errors of given states, far below a missed impact [m]
+  Real tolerated_overlap_;  ///< above rounding and errors of states, far below a missed impact [m]
   Real fall_;               ///< the most that gravity adds to a ball's speed in one flight [m/s]
-  Real top_speed_;          ///< of any ball at any time, at most [m/s]; it grows
   // Scratch, valid during one event.
   FoundBalls near_, near_partner_;  ///< balls of the adjacent cells
   model::AnyPose<Real> pose_;       ///< now

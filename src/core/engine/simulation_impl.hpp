@@ -1,5 +1,4 @@
-// Implementation of Simulation: set-up, saving, states, and the loop; included by the instantiation files
-// only.
+// Implementation of Simulation: set-up, saving, and the loop; included by the instantiation files only.
 #pragma once
 
 #include <algorithm>
@@ -45,30 +44,24 @@ Real speed_over(const Real& path, const model::Mill<Real>& mill) {
   return sqrt(2 * acceleration * path);
 }
 
-/// Shortest significant advance of the clock [s]: in less time no ball can move, or only rounding moves the
-/// clock.
+/// Shortest significant advance of the clock [s]: less moves no ball, or is mere rounding.
 template <class Real>
 Real shortest_advance(const model::Mill<Real>& mill) {
   const Real by_rule = mill.least_separations().second / mill.stall.acceleration;
   return std::max(by_rule, Real(1000000 * epsilon<Real>() * mill.motion.period()));
 }
 
-/// Bound on the speed of all balls [m/s], valid until impacts make one faster than twice the fastest ball or
-/// wall at the start.
+/// Bound on the speed of all balls [m/s], until one is faster than twice the fastest ball or wall at the
+/// start.
 template <class Real>
-Real largest_speed(const std::vector<model::BallState<Real>>& states, const model::Mill<Real>& mill) {
+Real largest_speed(const States<Real>& states, const model::Mill<Real>& mill) {
   Real largest{1};
-  for (const auto& s : states) {
-    const Real speed = norm<Real>(s.velocity);
-    if (speed > largest) largest = speed;
-  }
+  for (const auto& s : states) largest = std::max(largest, norm<Real>(s.velocity));
   Real wall = mill.motion.speed_within(mill.motion.reach(mill.vessel.extent()));
   if (const auto* pistons = mill.vessel.pistons()) wall += pistons->bound(1);
   for (const auto& body : mill.bodies) wall = std::max(wall, body.motion.wall_speed(body.shape.size()));
   return 2 * (largest + wall) + largest_fall(mill);
 }
-
-namespace detail {
 
 /// Divides the region that the vessel sweeps into cells that contain about one ball each but are thicker than
 /// the largest.
@@ -76,31 +69,28 @@ template <class Real>
 CellGrid make_grid(const model::Mill<Real>& mill, const Balls<Real>& balls) {
   const auto region = mill.motion.swept(mill.vessel.half_sizes(), mill.vessel.reach());
   Real largest{0};
-  for (const auto& b : balls) largest = b.radius > largest ? b.radius : largest;
-  const double volume = static_cast<double>(mill.vessel.volume());
+  for (const auto& b : balls) largest = std::max(largest, b.radius);
   // The C library's cube root is not the same on every machine; nor is long double.
   using boost::math::policies::promote_double;
   constexpr boost::math::policies::policy<promote_double<false>> portable;
+  const double share = static_cast<double>(mill.vessel.volume()) / static_cast<double>(balls.size());
+  const double spacing = 0.45 * boost::math::cbrt(share, portable);
   Real edge = 2 * largest * (1 + Real(1) / 1024);
   if (balls.size() <= 32) edge = 2 * (region.high - region.low).maxCoeff();
-  const double spacing = 0.45 * boost::math::cbrt(volume / static_cast<double>(balls.size()), portable);
   if (edge < spacing) edge = Real(spacing);
   return CellGrid(vector_cast<double>(region.low), vector_cast<double>(region.high),
                   static_cast<double>(edge), static_cast<int>(balls.size()));
 }
 
-}  // namespace detail
-
 template <class Real>
-Candidates<Real>::Candidates(const model::Mill<Real>& mill,
-                             const Balls<Real>& balls,
+Candidates<Real>::Candidates(const model::Mill<Real>& mill, const Balls<Real>& balls,
                              const LargeVector<dynamics::Flight<Real>>& flights, const Real& reach,
                              const Real& top_speed)
     : flights_(&flights),
       pairs_(model::mill_cast<double>(mill), 2 * static_cast<double>(smallest_radius(balls)),
              static_cast<double>(reach), static_cast<double>(top_speed)),
       stride_(all_alike(balls) ? 0 : 1),
-      grid_(detail::make_grid(mill, balls)) {
+      grid_(make_grid(mill, balls)) {
   for (const auto& ball : balls) radii_.push_back(static_cast<double>(ball.radius));
   if constexpr (!is_double) double_flights_.resize(balls.size());
   if (grid_.single_cell()) columns_.emplace(static_cast<int>(balls.size()), stride_ == 0);
@@ -114,27 +104,25 @@ CellOfBall Candidates<Real>::insert(int ball) {
 }
 
 template <class Real>
-Simulation<Real>::Simulation(const model::Case<Real>& the_case,
-                             const std::vector<model::BallState<Real>>& states, const Instant<Real>& start,
-                             const std::atomic<bool>* interrupt)
+Simulation<Real>::Simulation(const model::Case<Real>& the_case, const States<Real>& states,
+                             const Instant<Real>& start, const std::atomic<bool>* interrupt)
     : mill_(the_case.mill),
-      clock_(the_case.mill.motion.period()),
+      clock_(mill_.motion.period()),
       balls_(the_case.balls),
-      stride_(all_alike(the_case.balls) ? 0 : 1),
+      stride_(all_alike(balls_) ? 0 : 1),
       agendas_(states.size()),
-      ladder_(the_case.mill, 2 * smallest_radius(the_case.balls), largest_speed(states, the_case.mill)),
-      candidates_(the_case.mill, the_case.balls, flights_, ladder_.walls().reach(),
-                  largest_speed(states, the_case.mill)),
-      queue_(static_cast<int>(states.size()), the_case.mill.motion.period()),
+      top_speed_(largest_speed(states, mill_)),
+      ladder_(mill_, 2 * smallest_radius(balls_), top_speed_),
+      candidates_(mill_, balls_, flights_, ladder_.walls().reach(), top_speed_),
+      queue_(static_cast<int>(states.size()), clock_.period()),
       prefetcher_(queue_, agendas_, flights_, bodies_, candidates_),
       collapse_watch_(Real(1000000) * epsilon<Real>() / 2 * ladder_.walls().reach()),
       may_collapse_(!(mill_.least_separations().first > 0)),
       slow_(speed_over(collapse_watch_.smallest_path(), mill_)),
       stall_watch_(states.size(), start, shortest_advance(mill_)),
       now_(start),
-      tolerated_overlap_(2 * smallest_radius(the_case.balls) / 1000000),
-      fall_(largest_fall(the_case.mill)),
-      top_speed_(largest_speed(states, the_case.mill)) {
+      tolerated_overlap_(2 * smallest_radius(balls_) / 1000000),
+      fall_(largest_fall(mill_)) {
   EDMILL_REQUIRE(!balls_.empty() && balls_.size() == states.size(), "one state for each ball");
   for (const auto& s : states) {
     flights_.push_back({s.position, s.velocity, start});
@@ -167,8 +155,7 @@ void Simulation<Real>::archive(Archive& a) {
   }
 }
 
-/// True if a loaded state is possible. It can come from elsewhere, so everything that the loop relies on is
-/// checked once.
+/// True if a loaded state, which can come from elsewhere, has all that the loop relies on.
 template <class Real>
 bool Simulation<Real>::is_sound() const {
   using std::isfinite;
@@ -177,19 +164,18 @@ bool Simulation<Real>::is_sound() const {
     return t.period >= -most && t.period <= most && t.offset >= 0 && t.offset <= clock_.period();
   };
   const auto finite = [](const Vec3<Real>& v) { return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]); };
-  bool sound =
-      timed(now_) && stall_watch_.is_sound(ball_count(), mill_.wall_count()) && now_.period < most &&
-      isfinite(top_speed_) && top_speed_ >= 0 &&
-      candidates_.grid().holds_all([this](int ball) -> const CellOfBall& { return bodies_[ball].cell; });
+  const auto cell_of = [this](int ball) -> const CellOfBall& { return bodies_[ball].cell; };
+  bool sound = timed(now_) && stall_watch_.is_sound(ball_count(), mill_.wall_count()) && now_.period < most &&
+               isfinite(top_speed_) && top_speed_ >= 0 && candidates_.grid().holds_all(cell_of);
   for (int i = 0; sound && i < ball_count(); ++i) {
+    const auto& [position, velocity, start] = flights_[i];
+    const auto& [spin, recent, unmoved, cell] = bodies_[i];
     const auto& agenda = agendas_[i];
-    sound = finite(flights_[i].position) && finite(flights_[i].velocity) && finite(bodies_[i].spin) &&
-            timed(flights_[i].start) && !(now_ < flights_[i].start) && timed(bodies_[i].recent.last) &&
-            bodies_[i].recent.burst >= 0 && bodies_[i].recent.burst <= CollapseWatch<Real>::enough &&
-            bodies_[i].unmoved >= 0 && bodies_[i].unmoved <= mill_.stall.impacts &&
-            timed(agenda.forgotten_from) &&
+    sound = finite(position) && finite(velocity) && finite(spin) && timed(start) && !(now_ < start) &&
+            timed(recent.last) && recent.burst >= 0 && recent.burst <= CollapseWatch<Real>::enough &&
+            unmoved >= 0 && unmoved <= mill_.stall.impacts && timed(agenda.forgotten_from) &&
             agenda.is_sound(ball_count(), mill_.wall_count(), agendas_.latest_impact()) &&
-            !(top_speed_ * top_speed_ < squared_norm<Real>(flights_[i].velocity));
+            !(top_speed_ * top_speed_ < squared_norm<Real>(velocity));
     for (const auto& time : agenda.times) sound = sound && timed(time) && !(time < now_);
   }
   return sound;
@@ -253,24 +239,22 @@ EndReason Simulation<Real>::run_until(const Instant<Real>& end, const std::atomi
 template <class Real>
 auto Simulation<Real>::event_of(int ball) -> Event<Real> {
   auto event = queued_event(ball);
-  const bool is_contact = event.kind == EventKind::wall_contact || event.is_pair();
-  if (is_contact && has_rivals(event)) event = settle_ties(event);
+  const bool with_wall = event.kind == EventKind::wall_contact;
+  if ((with_wall || event.is_pair()) && has_rivals(event)) event = settle_ties(event);
   // Where times are closer than their errors the ladder may have put the later one first.
   if (event.time < now_) event.time = now_;
   return event;
 }
 
-/// The queued event of a ball.
 template <class Real>
 auto Simulation<Real>::queued_event(int ball) const -> Event<Real> {
   const Agenda<Real>& a = agendas_[ball];
   const Instant<Real>& time = a.times[a.next];
-  if (a.next == wall_entry)
-    return a.hits_wall() ? Event<Real>{EventKind::wall_contact, time, ball, a.wall_id(), a.wall_is_tied()}
-                         : Event<Real>{EventKind::wall_horizon, time, ball};
   if (a.next == crossing_entry) return {EventKind::cell_crossing, time, ball};
-  const auto kind = agendas_.still_holds(a, a.next) ? EventKind::pair_contact : EventKind::void_contact;
-  return {kind, time, ball, a.partner_at(a.next)};
+  if (a.next == wall_entry && !a.hits_wall()) return {EventKind::wall_horizon, time, ball};
+  if (a.next == wall_entry) return {EventKind::wall_contact, time, ball, a.wall_id(), a.wall_is_tied()};
+  const bool holds = agendas_.still_holds(a, a.next);
+  return {holds ? EventKind::pair_contact : EventKind::void_contact, time, ball, a.partner_at(a.next)};
 }
 
 /// Queues the earliest entry of a ball's agenda.
@@ -291,13 +275,12 @@ void Simulation<Real>::drop_void_contact(int ball) {
     find_neighbours(ball, near_);
     a.drop_pairs();
     const auto state = candidates_.state(ball, now_);
-    const int found = candidates_.find(ball, state, now_, near_);
-    predict_pairs(ball, -1, state, found, near_);
+    predict_pairs(ball, -1, state, candidates_.find(ball, state, now_, near_), near_);
   }
   requeue(ball);
 }
 
-/// Moves a ball to the next cell and predicts its contacts with the balls of new neighbouring cells.
+/// Moves a ball to the next cell and predicts its contacts with the balls of new neighbours.
 template <class Real>
 void Simulation<Real>::cross_cell(int ball) {
   ++counts_.cell_crossings;
@@ -321,9 +304,9 @@ bool Simulation<Real>::has_rivals(const Event<Real>& event) const {
   return due > 1 || queue_.runner_up(limit) >= 0;  // one is the event itself
 }
 
-/// Finds the first of the contacts that share a ball and are so close in time that rounding may have reversed
-/// their order: wider scalars recompute their times. Contacts that no scalar can separate are ordered by a
-/// rule and marked.
+/// Finds the first of contacts that share a ball and are so close in time that rounding may have reversed
+/// them: wider scalars recompute their times. Those that no scalar separates are ordered by a rule and
+/// marked.
 template <class Real>
 auto Simulation<Real>::settle_ties(Event<Real> event) -> Event<Real> {
   std::vector<Event<Real>> passed;  // contacts that come after another one
@@ -337,11 +320,10 @@ auto Simulation<Real>::settle_ties(Event<Real> event) -> Event<Real> {
       if (std::any_of(passed.begin(), passed.end(), same)) continue;
       const int order = ladder_.order(contact_of(event), contact_of(rival));
       event.by_rule |= order == 0;
-      if (order > 0 || (order == 0 && rival.goes_before(event))) {
-        first = rival;
-        first->by_rule |= order == 0;
-        break;
-      }
+      if (order < 0 || (order == 0 && !rival.goes_before(event))) continue;
+      first = rival;
+      first->by_rule |= order == 0;
+      break;
     }
     if (!first) return event;
     passed.push_back(event);
@@ -371,8 +353,9 @@ void Simulation<Real>::find_rivals(const Event<Real>& event, const Instant<Real>
     const auto add = [&](const Event<Real>& rival) {
       if (rival.shares_ball(event) && !rival.same_bodies(event)) rivals_.push_back(rival);
     };
-    if (a.hits_wall() && a.times[wall_entry] <= limit)
-      add({EventKind::wall_contact, a.times[wall_entry], ball, a.wall_id(), a.wall_is_tied()});
+    const Instant<Real>& wall_time = a.times[wall_entry];
+    if (a.hits_wall() && wall_time <= limit)
+      add({EventKind::wall_contact, wall_time, ball, a.wall_id(), a.wall_is_tied()});
     for (int entry = first_pair; entry < first_pair + a.pair_count; ++entry)
       if (a.times[entry] <= limit && agendas_.still_holds(a, entry))
         add({EventKind::pair_contact, a.times[entry], ball, a.partner_at(entry)});
@@ -380,13 +363,11 @@ void Simulation<Real>::find_rivals(const Event<Real>& event, const Instant<Real>
   }
 }
 
-/// Fills `due_` with balls that have an event up to `limit`, including all that may share an event with a
-/// ball of `event`.
+/// Fills `due_` with balls that have an event up to `limit`, among them all that may share one with `event`.
 template <class Real>
 void Simulation<Real>::find_due(const Event<Real>& event, const Instant<Real>& limit) {
   if (!candidates_.uses_cells()) return queue_.due_until(limit, due_);
-  // Only balls nearby, however many others have events at the same time.
-  due_.clear();
+  due_.clear();  // only balls nearby, however many others have events at the same time
   add_near(event.ball, due_);
   if (event.is_pair()) add_near(event.partner, due_);
   std::sort(due_.begin(), due_.end());
@@ -394,7 +375,7 @@ void Simulation<Real>::find_due(const Event<Real>& event, const Instant<Real>& l
   std::erase_if(due_, [&](int ball) { return limit < queue_.time(ball); });
 }
 
-/// Adds the balls of the adjacent cells, with the ball itself, or all balls where cells are not used.
+/// Adds the balls of the adjacent cells and the ball itself, or all where cells are not used.
 template <class Real>
 void Simulation<Real>::add_near(int ball, std::vector<int>& balls) {
   if (!candidates_.uses_cells()) {
@@ -450,11 +431,12 @@ dynamics::Contact<Real> Simulation<Real>::contact_of(const Event<Real>& event) c
 template <class Real>
 Impact<Real> Simulation<Real>::collide(const Event<Real>& event) {
   if (event.by_rule) ++counts_.simultaneous_contacts;
-  auto impact = event.kind == EventKind::wall_contact ? collide_with_wall(event) : collide_pair(event);
+  const bool with_wall = event.kind == EventKind::wall_contact;
+  auto impact = with_wall ? collide_with_wall(event) : collide_pair(event);
   impact.index = counts_.impacts++;
   impact.time = now_;
   impact.ball = event.ball;
-  impact.with_wall = event.kind == EventKind::wall_contact;
+  impact.with_wall = with_wall;
   impact.partner = event.partner;
   impact.by_rule = event.by_rule;
   if (impact.overlap > counts_.deepest_overlap) counts_.deepest_overlap = impact.overlap;
@@ -468,8 +450,8 @@ Impact<Real> Simulation<Real>::collide(const Event<Real>& event) {
 /// Sets the pose to that of now.
 template <class Real>
 void Simulation<Real>::update_pose() {
-  model::with_parts<Real>(mill_.motion, mill_.vessel,
-                          [&](const auto& motion, const auto&) { pose_ = motion.pose(now_); });
+  const auto update = [&](const auto& motion, const auto&) { pose_ = motion.pose(now_); };
+  model::with_parts<Real>(mill_.motion, mill_.vessel, update);
 }
 
 /// The contact of a ball with a body: normal, overlap, and velocity of the body's surface.
@@ -480,7 +462,7 @@ Impact<Real> Simulation<Real>::collide_with_wall(const Event<Real>& event) {
   auto& flight = flights_[ball];
   const Real flight_time = dynamics::fly_to(flight, mill_.gravity, clock_, now_);
   bool pose_is_known = false;
-  if constexpr (!std::is_same_v<Real, double>) {  // a wide scalar has kept that of a predicted contact
+  if constexpr (!is_double) {  // a wide scalar has kept that of a predicted contact
     const Agenda<Real>& a = agendas_[ball];
     pose_is_known = a.wall_pose && a.times[wall_entry] == now_;
     if (pose_is_known) pose_ = *a.wall_pose;
@@ -494,15 +476,15 @@ Impact<Real> Simulation<Real>::collide_with_wall(const Event<Real>& event) {
     const auto touch = model::touch_of(mill_, wall, radius, now_, flight.position);
     impact.normal = touch.normal, impact.overlap = touch.overlap, impact.wall_velocity = touch.wall_velocity;
   } else {
-    model::with_parts<Real>(
-        mill_.motion, mill_.vessel, [&]<class M, class V>(const M& motion, const V& vessel) {
-          const auto& pose = model::pose_of<M>(pose_);
-          const auto place = motion.position_in_vessel(pose, flight.position);
-          const auto room = vessel.inset(radius);
-          impact.normal = motion.direction_to_inertial(pose, room.normal(wall, place));
-          impact.overlap = room.overlap(wall, place);
-          impact.wall_velocity = motion.wall_velocity(pose, flight.position - impact.normal * radius);
-        });
+    const auto touch = [&]<class M, class V>(const M& motion, const V& vessel) {
+      const auto& pose = model::pose_of<M>(pose_);
+      const auto place = motion.position_in_vessel(pose, flight.position);
+      const auto room = vessel.inset(radius);
+      impact.normal = motion.direction_to_inertial(pose, room.normal(wall, place));
+      impact.overlap = room.overlap(wall, place);
+      impact.wall_velocity = motion.wall_velocity(pose, flight.position - impact.normal * radius);
+    };
+    model::with_parts<Real>(mill_.motion, mill_.vessel, touch);
   }
   if (const auto* pistons = mill_.vessel.pistons(); pistons && !body) {
     const auto moved = pistons->of_wall(wall, now_);
@@ -513,9 +495,9 @@ Impact<Real> Simulation<Real>::collide_with_wall(const Event<Real>& event) {
   impact.spin_before[0] = bodies_[ball].spin;
   impact.flight_time[0] = flight_time;
   const auto& law = mill_.law_with_wall(properties(ball), wall);
+  const bool rests = friction_rests(ball, flight_time, law);
   impact.outcome = dynamics::collide_with_wall<Real>(impact.normal, properties(ball), impact.wall_velocity,
-                                                     flight.velocity, bodies_[ball].spin, law,
-                                                     friction_rests(ball, flight_time, law));
+                                                     flight.velocity, bodies_[ball].spin, law, rests);
   agendas_.number_impact(ball, ball);
   candidates_.update(ball);
   return impact;
@@ -526,26 +508,23 @@ Impact<Real> Simulation<Real>::collide_pair(const Event<Real>& event) {
   const int ball = event.ball, partner = event.partner;
   find_neighbours(ball, near_);
   auto &one = flights_[ball], &two = flights_[partner];
-  const Real flight_times[2] = {dynamics::fly_to(one, mill_.gravity, clock_, now_),
-                                dynamics::fly_to(two, mill_.gravity, clock_, now_)};
+  Impact<Real> impact{};
+  impact.flight_time[0] = dynamics::fly_to(one, mill_.gravity, clock_, now_);
+  impact.flight_time[1] = dynamics::fly_to(two, mill_.gravity, clock_, now_);
   const Vec3<Real> between = one.position - two.position;
   const Real distance = norm<Real>(between);
-
-  Impact<Real> impact{};
   impact.normal = between * (1 / distance);
   impact.overlap = properties(ball).radius + properties(partner).radius - distance;
   impact.velocity_before[0] = one.velocity;
   impact.velocity_before[1] = two.velocity;
   impact.spin_before[0] = bodies_[ball].spin;
   impact.spin_before[1] = bodies_[partner].spin;
-  impact.flight_time[0] = flight_times[0];
-  impact.flight_time[1] = flight_times[1];
   const auto& law = mill_.law_between(properties(ball), properties(partner));
-  const bool rests_for_one = friction_rests(ball, flight_times[0], law),
-             rests_for_two = friction_rests(partner, flight_times[1], law);
-  impact.outcome = dynamics::collide_balls<Real>(impact.normal, properties(ball), properties(partner),
-                                                 one.velocity, bodies_[ball].spin, two.velocity,
-                                                 bodies_[partner].spin, law, rests_for_one || rests_for_two);
+  const bool rests_for_one = friction_rests(ball, impact.flight_time[0], law);
+  const bool rests = friction_rests(partner, impact.flight_time[1], law) || rests_for_one;
+  impact.outcome =
+      dynamics::collide_balls<Real>(impact.normal, properties(ball), properties(partner), one.velocity,
+                                    bodies_[ball].spin, two.velocity, bodies_[partner].spin, law, rests);
   agendas_.number_impact(ball, partner);
   candidates_.update(ball);
   candidates_.update(partner);
@@ -553,8 +532,8 @@ Impact<Real> Simulation<Real>::collide_pair(const Event<Real>& event) {
   return impact;
 }
 
-/// Counts the ball's consecutive impacts without time to move. @return true if there were so many before this
-/// one that it is frictionless
+/// Counts the ball's impacts in a row without time to move. @return true if so many make this one
+/// frictionless
 template <class Real>
 bool Simulation<Real>::friction_rests(int ball, const Real& flight_time, const model::ContactLaw<Real>& law) {
   auto& unmoved = bodies_[ball].unmoved;
@@ -567,20 +546,20 @@ bool Simulation<Real>::friction_rests(int ball, const Real& flight_time, const m
   return false;
 }
 
-/// Raises the bounds that depend on the speed of the fastest ball if the ball's new velocity requires it.
+/// Raises the bounds that depend on the fastest ball if the ball's new velocity requires it.
 template <class Real>
 void Simulation<Real>::raise_top_speed(int ball) {
+  using std::sqrt;
   const Real fastest = top_speed_ - fall_;
   const Real speed_squared = squared_norm<Real>(flights_[ball].velocity);
   if (!(speed_squared > fastest * fastest)) return;
-  using std::sqrt;
   top_speed_ = 2 * sqrt(speed_squared) + fall_;
   ladder_.raise_top_speed(top_speed_);
   candidates_.raise_top_speed(top_speed_);
 }
 
-/// Tests whether the impact is one of infinitely many in finite time, or of many while time does not advance;
-/// then notifies all observers.
+/// Tests whether the impact is one of infinitely many in finite time, or of many at one time; then notifies
+/// all observers.
 template <class Real>
 void Simulation<Real>::notify(const Impact<Real>& impact) {
   if (may_collapse_) {
@@ -602,11 +581,12 @@ void Simulation<Real>::note_collapse(const Impact<Real>& impact, int ball, int p
                               : mill_.law_between(properties(ball), properties(partner));
   if (law.least_separation > 0) return;
   const Real slow = std::max(slow_, Real(1000 * epsilon<Real>() * top_speed_));
-  const bool collapsing = collapse_watch_.note(bodies_[ball].recent, key, now_, impact.outcome.approach_speed,
-                                               slow, impact.outcome.restitution_normal(), clock_);
-  if (!collapsing) return;
-  collapse_ = model::InelasticCollapse<Real>{ball, with_wall, partner,
-                                             collapse_watch_.accumulation_time(bodies_[ball].recent, clock_)};
+  auto& recent = bodies_[ball].recent;
+  const auto& out = impact.outcome;
+  if (!collapse_watch_.note(recent, key, now_, out.approach_speed, slow, out.restitution_normal(), clock_))
+    return;
+  const Real time = collapse_watch_.accumulation_time(recent, clock_);
+  collapse_ = model::InelasticCollapse<Real>{ball, with_wall, partner, time};
   stop_ = EndReason::inelastic_collapse;
 }
 
@@ -615,7 +595,7 @@ template <class Real>
 void Simulation<Real>::predict(const Impact<Real>& impact) {
   if (impact.with_wall) return predict_all(impact.ball, -1, pose_, near_);
   // Wide scalars begin their wall searches in double.
-  if constexpr (std::is_same_v<Real, double>) update_pose();
+  if constexpr (is_double) update_pose();
   predict_all(impact.ball, -1, pose_, near_);
   prefetcher_.more();
   predict_all(impact.partner, impact.ball, pose_, near_partner_);
@@ -628,7 +608,7 @@ void Simulation<Real>::predict_all(int ball, int already_done, const model::AnyP
   const auto state = candidates_.state(ball, now_);
   agendas_[ball].drop_pairs();
   const int found = candidates_.find(ball, state, now_, near);
-  // Before the candidates are used: their number is known late, and the processor can do this meanwhile.
+  // Before the candidates are used, whose number is known late: the processor can do this meanwhile.
   predict_crossing(ball, state);
   predict_pairs(ball, already_done, state, found, near);
   prefetcher_.more();
@@ -644,7 +624,7 @@ void Simulation<Real>::predict_pairs(int ball, int already_done, const DoubleSta
   for (int k = 0; k < found; ++k) {
     const int other = candidates_.ball_at(places[k], near);
     if (other == already_done) continue;
-    if constexpr (std::is_same_v<Real, double>) {
+    if constexpr (is_double) {
       const double delay = candidates_.delay(places[k]);
       if (delay >= 0) [[likely]] {
         expect_pair(ball, other, delay);
@@ -653,7 +633,7 @@ void Simulation<Real>::predict_pairs(int ball, int already_done, const DoubleSta
     }
     const Real sum = properties(ball).radius + properties(other).radius;
     dynamics::PairAnswer<Real> answer;
-    if constexpr (std::is_same_v<Real, double>)
+    if constexpr (is_double)
       answer = ladder_.pair(state, flights_[ball], flights_[other], now_, sum);
     else
       answer = ladder_.pair(flights_[ball], flights_[other], now_, sum);
@@ -684,8 +664,8 @@ void Simulation<Real>::predict_crossing(int ball, const DoubleState& state) {
   const auto velocity = dynamics::velocity_after(candidates_.flights()[ball], gravity, state.age);
   const auto crossing = candidates_.grid().crossing(bodies_[ball].cell, state.position, velocity, gravity);
   a.crossing_face = static_cast<std::int8_t>(2 * crossing.axis + (crossing.step > 0));
-  a.times[crossing_entry] =
-      crossing.delay < Crossing::never ? clock_.after(now_, Real(crossing.delay)) : Instant<Real>::never();
+  const bool leaves = crossing.delay < Crossing::never;
+  a.times[crossing_entry] = leaves ? clock_.after(now_, Real(crossing.delay)) : Instant<Real>::never();
 }
 
 /// Length of the window for a wall search from `begin` [s]: up to a little after the ball's nearest pair
@@ -703,16 +683,14 @@ template <class Real>
 void Simulation<Real>::predict_wall(int ball, const model::AnyPose<Real>& pose) {
   ++counts_.wall_searches;
   const Real length = search_length(ball, now_);
-  const auto& flight = flights_[ball];
-  const dynamics::WallQuery<Real> query{flight, properties(ball).radius, now_, length};
+  const dynamics::WallQuery<Real> query{flights_[ball], properties(ball).radius, now_, length};
   try {
-    if constexpr (std::is_same_v<Real, double>) {
+    if constexpr (is_double)
       take_wall_answer(ball, ladder_.wall(pose, query), now_);
-    } else {
+    else
       take_wall_answer(ball, ladder_.wall(query), now_);  // which begins in double
-    }
-  } catch (const InterruptedError&) {  // the impact has happened; a continued run begins by searching
-    agendas_[ball].wall = -1;
+  } catch (const InterruptedError&) {
+    agendas_[ball].wall = -1;  // the impact has happened; a continued run begins by searching
     agendas_[ball].times[wall_entry] = now_;
     stop_ = EndReason::interrupted;
   }
@@ -721,8 +699,8 @@ void Simulation<Real>::predict_wall(int ball, const model::AnyPose<Real>& pose) 
 template <class Real>
 void Simulation<Real>::continue_wall_search(int ball, const Instant<Real>& begin) {
   ++counts_.wall_searches;
-  const Real length = search_length(ball, begin);
-  take_wall_answer(ball, ladder_.wall({flights_[ball], properties(ball).radius, begin, length}), begin);
+  const Real length = search_length(ball, begin), &radius = properties(ball).radius;
+  take_wall_answer(ball, ladder_.wall({flights_[ball], radius, begin, length}), begin);
   requeue(ball);
 }
 
@@ -736,9 +714,9 @@ void Simulation<Real>::take_wall_answer(int ball, const dynamics::WallAnswer<Rea
     a.wall_pose = answer.pose;
   } else {
     // The next search begins where this proof is still valid, however the sum is rounded.
+    const Real proven = answer.searched - 4 * epsilon<Real>() * clock_.period();
     a.wall = -1;
-    a.times[wall_entry] =
-        clock_.after(begin, answer.searched - 4 * epsilon<Real>() * clock_.period());
+    a.times[wall_entry] = clock_.after(begin, proven);
   }
 }
 
