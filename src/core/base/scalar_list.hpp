@@ -182,12 +182,7 @@ inline edmill::mpfr max_value<edmill::mpfr>() {
 
 /// Applies `MACRO(Real)` to every scalar that a run can have.
 #if defined(EDMILL_WITHOUT_MPFR)
-#define EDMILL_FOR_EACH_SCALAR(MACRO) \
-  MACRO(double)                       \
-  MACRO(::edmill::float128)
+#define EDMILL_FOR_EACH_SCALAR(MACRO) MACRO(double) MACRO(::edmill::float128)
 #else
-#define EDMILL_FOR_EACH_SCALAR(MACRO) \
-  MACRO(double)                       \
-  MACRO(::edmill::float128)           \
-  MACRO(::edmill::mpfr)
+#define EDMILL_FOR_EACH_SCALAR(MACRO) MACRO(double) MACRO(::edmill::float128) MACRO(::edmill::mpfr)
 #endif

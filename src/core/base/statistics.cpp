@@ -79,8 +79,8 @@ double quantile(std::vector<double> values, double share) {
 Median median_of(std::vector<double> values, double alike) {
   if (values.empty()) return {};
   std::sort(values.begin(), values.end());
-  const double n = count_of(values), normal = boost::math::quantile(Student(1e6), 1 - 0.025 / alike);
-  const double middle = (n - 1) / 2, apart = normal / 2 * std::sqrt(n);
+  const double normal = boost::math::quantile(Student(1e6), 1 - 0.025 / alike);
+  const double n = count_of(values), middle = (n - 1) / 2, apart = normal / 2 * std::sqrt(n);
   const auto at = [&](double place) {
     return values[static_cast<std::size_t>(std::clamp(std::round(place), 0.0, n - 1))];
   };
@@ -141,8 +141,8 @@ std::vector<double> cosines_of(const std::vector<double>& values) {
   std::vector<double> transforms(std::clamp<std::size_t>(values.size() / 4, 2, 12));
   for (std::size_t j = 0; j < transforms.size(); ++j)
     for (std::size_t k = 0; k < values.size(); ++k) {
-      const double angle = pi<double>() * (static_cast<double>(j) + 1) / n * (static_cast<double>(k) + 0.5);
-      transforms[j] += deviations[k] * std::sqrt(2 / n) * sin_cos(angle).cos;
+      const double cycles = static_cast<double>(j) + 1, place = static_cast<double>(k) + 0.5;
+      transforms[j] += deviations[k] * std::sqrt(2 / n) * sin_cos(pi<double>() * cycles / n * place).cos;
     }
   return transforms;
 }

@@ -14,7 +14,7 @@ double quantile(std::vector<double> values, double share);
 
 /// A median with its interval from order statistics, which is valid for any distribution.
 struct Median {
-  static constexpr std::uint64_t least = 8;  ///< values that enclose the median with 99 % probability
+  static constexpr std::uint64_t least = 8;  ///< values that enclose the median with 99 %
 
   double value = 0, low = 0, high = 0;
   std::uint64_t count = 0;

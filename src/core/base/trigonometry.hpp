@@ -85,7 +85,7 @@ SinCos<Real> sin_cos_turns(const Real& turns) {
 }
 
 template <>
-[[gnu::always_inline]] inline SinCos<double> sin_cos_turns<double>(const double& turns) {
+[[gnu::always_inline]] inline SinCos<double> sin_cos_turns(const double& turns) {
   const int quarters = detail::nearest(4 * turns);
   const double rest = turns - 0.25 * quarters;  // exact: multiples of the same power of two
   return detail::quarter_turned(detail::sin_cos_kernel(6.283185307179586 * rest), quarters);

@@ -122,9 +122,8 @@ PairAnswer<Real> DecisionLadder<Real>::pair_above(const Flight<Real>& i, const F
     ++passed_up_.pair;
     const auto wide = above().ladder.pair(flight_cast<Wide>(i), flight_cast<Wide>(j), instant_cast<Wide>(now),
                                           Wide(radius_sum));
-    const Real delay = static_cast<Real>(wide.delay);
-    return {wide.verdict, delay,
-            static_cast<Real>(wide.time_error) + rounding() + 4 * epsilon<Real>() * delay};
+    const auto delay = static_cast<Real>(wide.delay), error = static_cast<Real>(wide.time_error);
+    return {wide.verdict, delay, error + rounding() + 4 * epsilon<Real>() * delay};
   }
 }
 
@@ -157,8 +156,9 @@ int DecisionLadder<Real>::order(const Contact<Real>& a, const Contact<Real>& b) 
   const Timed first = time_of(a), second = time_of(b);
   const bool both_at_once = first.time_error == 0 && second.time_error == 0;
   if (both_at_once && first.time == second.time) return 0;
-  const Real difference = pairs_.clock().elapsed(first.time, second.time);
-  const Real error = first.time_error + second.time_error + 16 * epsilon<Real>() * pairs_.clock().period();
+  const auto& clock = pairs_.clock();
+  const Real difference = clock.elapsed(first.time, second.time);
+  const Real error = first.time_error + second.time_error + 16 * epsilon<Real>() * clock.period();
   if (difference > error) return -1;
   if (difference < -error) return 1;
   if constexpr (std::is_void_v<Wider<Real>>) {
@@ -188,7 +188,7 @@ int DecisionLadder<Real>::order_by_exact_times(const Contact<Real>& a, const Con
     const auto& begin = c.flight.start;
     std::optional<ExactGap> gap;
     if (c.with_wall)
-      gap = exact_gap(mill_.motion, mill_.vessel, mill_.gravity, {c.flight, c.radius, begin, period}, c.wall);
+      gap = exact_gap(mill_, WallQuery<Real>{c.flight, c.radius, begin, period}, c.wall);
     else
       gap = exact_gap(c.flight, c.partner, begin, c.radius, mill_.gravity, period);
     return gap ? exact_contact_time(*gap) : std::nullopt;

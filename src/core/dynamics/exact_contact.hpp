@@ -64,22 +64,24 @@ inline std::optional<ExactTime> exact_contact_time(const ExactGap& gap) {
 /// Time from `from` to `to` [s].
 template <class Real>
 Dyadic exact_elapsed(const Instant<Real>& from, const Instant<Real>& to, const Real& period) {
-  return Dyadic::of(Real(to.period - from.period)) * Dyadic::of(period) + Dyadic::of(to.offset) -
-         Dyadic::of(from.offset);
+  const Dyadic periods = Dyadic::of(Real(to.period - from.period));
+  return periods * Dyadic::of(period) + Dyadic::of(to.offset) - Dyadic::of(from.offset);
 }
 
 /// Squared distance of two balls minus its value at contact, from `now` on [m^2].
 template <class Real>
 ExactGap exact_gap(const Flight<Real>& i, const Flight<Real>& j, const Instant<Real>& now,
                    const Real& radius_sum, const Vec3<Real>& gravity, const Real& period) {
-  const auto age_i = exact_elapsed(i.start, now, period), age_j = exact_elapsed(j.start, now, period);
-  const Dyadic sum = Dyadic::of(radius_sum);
+  const Dyadic age_i = exact_elapsed(i.start, now, period);
+  const Dyadic age_j = exact_elapsed(j.start, now, period), sum = Dyadic::of(radius_sum);
   ExactGap gap{-(sum * sum), {}, {}};
   for (int k = 0; k < 3; ++k) {
-    const auto g = Dyadic::of(gravity[k]), vi = Dyadic::of(i.velocity[k]), vj = Dyadic::of(j.velocity[k]);
-    const Dyadic r = Dyadic::of(i.position[k]) + age_i * (vi + (age_i * g).half()) -
-                     (Dyadic::of(j.position[k]) + age_j * (vj + (age_j * g).half()));
-    const Dyadic v = vi - vj + g * (age_i - age_j);
+    const Dyadic g = Dyadic::of(gravity[k]);
+    const auto place = [&](const Flight<Real>& f, const Dyadic& age) {
+      return Dyadic::of(f.position[k]) + age * (Dyadic::of(f.velocity[k]) + (age * g).half());
+    };
+    const Dyadic r = place(i, age_i) - place(j, age_j);
+    const Dyadic v = Dyadic::of(i.velocity[k]) - Dyadic::of(j.velocity[k]) + g * (age_i - age_j);
     gap.value = gap.value + r * r;
     gap.rate = gap.rate + Dyadic(2) * r * v;
     gap.bend = gap.bend + v * v;
@@ -113,22 +115,22 @@ struct Shape {
   Real distance{0};  ///< of the wall from the centre [m]
 };
 template <class V, class Real = typename V::Scalar>
-Shape<Real> shape_of(const V& vessel, int wall) {
+Shape<Real> shape_of(const V& vessel, int id) {
   const Real one(1), zero(0);
   if constexpr (std::is_same_v<V, model::AnyVessel<Real>>) {
     if (const auto* pistons = vessel.pistons())
       for (std::size_t k = 0; k < pistons->count(); ++k)
-        if (pistons->wall(k) == wall) return {};
-    return vessel.visit([&](const auto& v) { return shape_of(v, wall); });
+        if (pistons->wall(k) == id) return {};
+    return vessel.visit([&](const auto& v) { return shape_of(v, id); });
   } else if constexpr (std::is_same_v<V, model::SphereVessel<Real>>) {
     return {Shape<Real>::round, {one, one, one}, vessel.radius};
   } else if constexpr (model::HasRegions<V> || std::is_same_v<V, model::AlgebraicVessel<Real>>) {
     return {};
   } else {
     if constexpr (std::is_same_v<V, model::CylinderVessel<Real>>)
-      if (!vessel.is_flat(wall)) return {Shape<Real>::round, {one, zero, one}, vessel.radius};
+      if (!vessel.is_flat(id)) return {Shape<Real>::round, {one, zero, one}, vessel.radius};
     const Vec3<Real> centre = Vec3<Real>::Zero();
-    return {Shape<Real>::plane, vessel.normal(wall, centre), vessel.gap(wall, centre)};
+    return {Shape<Real>::plane, vessel.normal(id, centre), vessel.gap(id, centre)};
   }
 }
 
@@ -197,14 +199,13 @@ std::optional<ExactGap> exact_gap(const model::Joints<Real>& joints, const Shape
 
 }  // namespace detail
 
-/// The gap to a wall from the begin of the window on [m]; empty if it is not such a polynomial.
-template <model::Motion M, model::Vessel V, class Real = typename M::Scalar>
-std::optional<ExactGap> exact_gap(const M& motion, const V& vessel, const Vec3<Real>& gravity,
-                                  const WallQuery<Real>& query, int wall) {
-  if (wall >= vessel.wall_count()) return std::nullopt;  // a body
-  const auto shape = detail::shape_of(vessel, wall);
+/// The gap to a wall of a mill from the begin of the window on [m]; empty if it is not such a polynomial.
+template <class Real>
+std::optional<ExactGap> exact_gap(const auto& mill, const WallQuery<Real>& query, int wall) {
+  if (wall >= mill.vessel.wall_count()) return std::nullopt;  // a body
+  const auto shape = detail::shape_of(mill.vessel, wall);
   if (shape.kind == detail::Shape<Real>::other) return std::nullopt;
-  return detail::exact_gap(detail::joints_of(motion), shape, gravity, query);
+  return detail::exact_gap(detail::joints_of(mill.motion), shape, mill.gravity, query);
 }
 
 }  // namespace edmill::dynamics

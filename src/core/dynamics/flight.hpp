@@ -22,16 +22,17 @@ struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Flight {
 };
 
 template <class Real>
-inline Vec3<Real> position_after(const Flight<Real>& f, const Vec3<Real>& gravity, const Real& dt) {
+inline Vec3<Real> position_after(const Flight<Real>& f, const Vec3<Real>& g, const Real& dt) {
+  const auto& [r, v, start] = f;
   const Real half = dt / 2;
-  return {f.position[0] + dt * (f.velocity[0] + half * gravity[0]),
-          f.position[1] + dt * (f.velocity[1] + half * gravity[1]),
-          f.position[2] + dt * (f.velocity[2] + half * gravity[2])};
+  return {r[0] + dt * (v[0] + half * g[0]), r[1] + dt * (v[1] + half * g[1]),
+          r[2] + dt * (v[2] + half * g[2])};
 }
 
 template <class Real>
-inline Vec3<Real> velocity_after(const Flight<Real>& f, const Vec3<Real>& gravity, const Real& dt) {
-  return {f.velocity[0] + dt * gravity[0], f.velocity[1] + dt * gravity[1], f.velocity[2] + dt * gravity[2]};
+inline Vec3<Real> velocity_after(const Flight<Real>& f, const Vec3<Real>& g, const Real& dt) {
+  const auto& v = f.velocity;
+  return {v[0] + dt * g[0], v[1] + dt * g[1], v[2] + dt * g[2]};
 }
 
 template <class Real>
@@ -114,7 +115,7 @@ struct RoughAnswer {
   int region = 0;                             ///< of the gap functions, where a body has several
   double left = 0, right = 0;                 ///< its gap decreases throughout [left, right], through zero
   double root = 0;                            ///< estimate of the root
-  double curvature = 0, curvature_error = 0;  ///< second derivative of the gap there, bound on its error
+  double curvature = 0, curvature_error = 0;  ///< second derivative there, bound on its error
   double third = 0;                           ///< bound on the third derivative
   double error = 0;  ///< bound on the rounding of the gap in double, without that of the state
 };

@@ -15,6 +15,8 @@
 
 namespace edmill::dynamics {
 
+using model::Motion, model::Vessel;
+
 /// Yes or no for each wall.
 template <class V>
 using WallSet = typename V::template PerWall<bool>;
@@ -64,7 +66,7 @@ struct GapErrors {
 };
 
 /// A vessel with its motion, and constants that all flights in it share.
-template <model::Motion M, model::Vessel V>
+template <Motion M, Vessel V>
 struct MovingVessel {
   using Real = typename M::Scalar;
 
@@ -91,7 +93,7 @@ struct MovingVessel {
 };
 
 /// The gap functions of one flight, over offsets of one drive period.
-template <model::Motion M, model::Vessel V>
+template <Motion M, Vessel V>
 class GapFunctions {
  public:
   using Real = typename M::Scalar;
@@ -160,8 +162,8 @@ class GapFunctions {
 
   /// The start of a search at `offset`, from the vessel's pose and the ball's state in it.
   Start start(const Real& offset, const Pose& pose, const SeenBall<Real>& ball) const {
-    const auto& [velocity, state] = ball;
-    const auto second = mill_.motion.vessel_frame_acceleration(pose, state, velocity, mill_.gravity);
+    const auto& [v, state] = ball;
+    const auto second = mill_.motion.vessel_frame_acceleration(pose, state, v, mill_.gravity);
     Start start{plain_sample(offset, state), room_.curvatures(state.position, state.velocity, second)};
     for_each_piston(offset, [&](int wall, const auto& moved) {
       start.gap[wall] -= moved.value;

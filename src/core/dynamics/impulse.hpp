@@ -28,8 +28,8 @@ struct ImpactOutcome {
 
   /// M/2 g_n^2, the kinetic energy of the approach along the normal [J]; 0 without approach.
   Real impact_energy() const {
-    if (!(approach_speed > 0)) return Real(0);
-    return normal_impulse / (approach_speed + separation_speed) * (approach_speed * approach_speed) / 2;
+    const Real &before = approach_speed, &after = separation_speed;
+    return before > 0 ? Real(normal_impulse / (before + after) * (before * before) / 2) : Real(0);
   }
   /// Effective e_n = separation over approach speed; above 1 where energy is supplied, 1 without approach.
   Real restitution_normal() const {
@@ -80,8 +80,8 @@ ImpulseParts<Real> impulse_by(const Law& law, const Real& least_separation, cons
     out.supplied_energy = -normal_loss;
   else
     out.normal_dose = normal_loss;
-  const Real slip_loss = mass / 2 * ((1 - e_t * e_t) / compliance * (out.slip_speed * out.slip_speed));
-  out.milling_dose = out.normal_dose + slip_loss;
+  const Real slip_squared = out.slip_speed * out.slip_speed;
+  out.milling_dose = out.normal_dose + mass / 2 * ((1 - e_t * e_t) / compliance * slip_squared);
   return parts;
 }
 

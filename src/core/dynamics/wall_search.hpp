@@ -20,27 +20,21 @@ namespace edmill::dynamics {
 template <class Real>
 class AnyWallSearch;  // which a search in a wide scalar needs
 
-/// An empty RoughSearch for double, which has no narrower scalar.
+/// In place of a search in a narrower scalar, which double has not.
 struct NoSearch {
-  template <class... Args>
-  explicit NoSearch(const Args&...) {}
+  explicit NoSearch(const auto&...) {}
 };
-/// The search in double of the same walls.
-template <class Real, class V>
-struct RoughSearchOf {
-  using Type = std::conditional_t<std::is_same_v<Real, double>, NoSearch, AnyWallSearch<double>>;
-};
-template <class Real, class V>
-using RoughSearch = typename RoughSearchOf<Real, V>::Type;
 
 /// Finds the first time in the window at which a gap is zero or negative and decreasing, for the flight as
 /// stored. A ball that starts within rounding of a wall and leaves it is not in contact until it returns; one
 /// that overlaps by rounding at the start and approaches is in contact at once. Equations: theory.md
 /// (2.17')-(2.22'); source: Barahona 2011, (2.17)-(2.22), corrected.
-template <model::Motion M, model::Vessel V>
+template <Motion M, Vessel V>
 class WallSearch {
  public:
   using Real = typename M::Scalar;
+  using Query = WallQuery<Real>;
+  using Answer = WallAnswer<Real>;
   using Functions = GapFunctions<M, V>;
   using Pose = typename M::Pose;
   using Sample = GapSample<V>;
@@ -55,7 +49,7 @@ class WallSearch {
   /// The answer to a query. In a wide scalar, double first decides what it can prove for the wide flight,
   /// too.
   /// @pre the ball is inside the vessel at `begin`, up to rounding
-  WallAnswer<Real> operator()(const WallQuery<Real>& query) const {
+  Answer operator()(const Query& query) const {
     if constexpr (is_wide) {
       const auto answer = search_by_double(query);
       if (answer.verdict != Verdict::undecided) return answer;
@@ -69,18 +63,16 @@ class WallSearch {
                      const Real& length) const;
 
   /// The search in this scalar alone.
-  WallAnswer<Real> search(const WallQuery<Real>& query) const {
-    return search(mill_.motion.pose(query.begin), query);
-  }
+  Answer search(const Query& query) const { return search(mill_.motion.pose(query.begin), query); }
   /// @param pose  of the vessel at the window's begin
-  WallAnswer<Real> search(const Pose& pose, const WallQuery<Real>& query) const;
+  Answer search(const Pose& pose, const Query& query) const;
 
   /// The search in double, with only the root computed in this scalar; undecided if double cannot prove the
   /// result. The window searched may be a few roundings of double longer than requested.
-  WallAnswer<Real> search_by_double(const WallQuery<Real>& query) const;
+  Answer search_by_double(const Query& query) const;
 
   /// The search in double for a wider scalar, whose flight, radius and mill were rounded to it.
-  RoughAnswer rough(const WallQuery<Real>& query) const;
+  RoughAnswer rough(const Query& query) const;
 
   const MovingVessel<M, V>& mill() const { return mill_; }
 
@@ -120,30 +112,24 @@ class WallSearch {
     [[no_unique_address]] ContactPose<Real> pose{};
     bool at_once = false;  ///< see Bracket
   };
-  [[gnu::noinline]] Bracket isolate_exactly(const Curve& curve, const WallQuery<Real>& query,
-                                            const Real& end) const;
-  [[gnu::noinline]] std::optional<int> exact_order(const WallQuery<Real>& query, int one,
-                                                   const Root& one_root, int other,
-                                                   const Root& other_root) const;
-  [[gnu::noinline]] bool has_exact_gap(int wall) const;
+  [[gnu::noinline]] Bracket isolate_exactly(const Curve& curve, const Query& query, const Real& end) const;
 
   /// If `rounded`, bounds include the rounding of the flight and the mill, and `rough` is filled.
   template <bool rounded>
-  WallAnswer<Real> first_contact(const Functions& functions, const Start& first, Walls reachable,
-                                 const Real& speed, const WallQuery<Real>& query, RoughAnswer* rough) const;
+  Answer first_contact(const Functions& functions, const Start& first, Walls reachable, const Real& speed,
+                       const Query& query, RoughAnswer* rough) const;
   bool drop_clear(const auto& curve_of, Walls& reachable, Real& length,
                   const DerivativeBounds<V>& derivatives) const;
-  void require_length(const WallQuery<Real>& query) const;
+  void require_length(const Query& query) const;
   Real clear_time(const Functions& functions, const Vec3<Real>& position, const Real& speed) const;
   /// The query with its window shortened so that all active gap functions are smooth in it.
-  decltype(auto) smooth(const WallQuery<Real>& query, const Functions& functions, const Vec3<Real>& position,
+  decltype(auto) smooth(const Query& query, const Functions& functions, const Vec3<Real>& position,
                         const Real& speed) const;
   Real top_speed(const Vec3<Real>& velocity, const Real& length) const {
     return norm<Real>(velocity) + mill_.gravity_size * length;
   }
-  [[gnu::noinline]] Bracket isolate_further(const Curve& curve, const Point& right,
-                                            const WallQuery<Real>& query, const Real& end,
-                                            const Bracket& found) const;
+  [[gnu::noinline]] Bracket isolate_further(const Curve& curve, const Point& right, const Query& query,
+                                            const Real& end, const Bracket& found) const;
   template <bool rounded>
   Bracket isolate_from_start(const Curve& curve, const Point& right) const;
   Bracket isolate(const Curve& curve, Point left, const Point& right) const;
@@ -162,7 +148,7 @@ class WallSearch {
     double curvature, curvature_error, third;
   };
   template <bool rounded>
-  std::optional<bool> comes_first(const WallQuery<Real>& query, int wall, const Root& root, int other,
+  std::optional<bool> comes_first(const Query& query, int wall, const Root& root, int other,
                                   const Root& other_root, bool& by_rule) const;
   std::optional<Root> polish(const Curve& curve, const Bracket& bracket) const;
   std::optional<Root> close_in(const Functions& functions, int wall, const Real& from, const Real& to,
@@ -181,17 +167,14 @@ class WallSearch {
   MovingVessel<M, V> mill_;
   BoundsTable<M, V> bounds_;
   Real own_speed_{0};  ///< no point of a body is faster [m/s]
-  [[no_unique_address]] RoughSearch<Real, V> rough_;
+  using RoughBodySearch = WallSearch<model::ChainMotion<double>, model::RoundedBody<double>>;
+  using RoughSearch = std::conditional_t<is_body, RoughBodySearch, AnyWallSearch<double>>;
+  [[no_unique_address]] std::conditional_t<is_wide, RoughSearch, NoSearch> rough_;
 };
 
 /// First contact with a body inside the vessel.
 template <class Real>
 using BodySearch = WallSearch<model::ChainMotion<Real>, model::RoundedBody<Real>>;
-
-template <class Real>
-struct RoughSearchOf<Real, model::RoundedBody<Real>> {
-  using Type = std::conditional_t<std::is_same_v<Real, double>, NoSearch, BodySearch<double>>;
-};
 
 /// The wall search of a run, whose motion and vessel are known only when the case is read. In double,
 /// cylinders on a SPEX and on a chain have searches with everything inlined. All others use a general one
@@ -199,11 +182,13 @@ struct RoughSearchOf<Real, model::RoundedBody<Real>> {
 template <class Real>
 class AnyWallSearch {
  public:
+  using Query = WallQuery<Real>;
+  using Answer = WallAnswer<Real>;
   using Spex = WallSearch<model::SpexMotion<Real>, model::CylinderVessel<Real>>;
   using OnChain = WallSearch<model::ChainMotion<Real>, model::CylinderVessel<Real>>;
   using General = WallSearch<model::AnyMotion<Real>, model::AnyVessel<Real>>;
   /// A search that replaces these; it receives the vessel's pose at the begin of the window.
-  using Policy = std::function<WallAnswer<Real>(const model::AnyPose<Real>&, const WallQuery<Real>&)>;
+  using Policy = std::function<Answer(const model::AnyPose<Real>&, const Query&)>;
 
   AnyWallSearch(const model::AnyMotion<Real>& motion, const model::AnyVessel<Real>& vessel,
                 const Vec3<Real>& gravity)
@@ -225,7 +210,7 @@ class AnyWallSearch {
   /// Largest distance of a ball from the origin [m].
   const Real& reach() const { return reach_; }
 
-  WallAnswer<Real> operator()(const WallQuery<Real>& query) const {
+  Answer operator()(const Query& query) const {
     auto answer = with([&]<class M, class V>(const WallSearch<M, V>& search) {
       if constexpr (std::is_same_v<WallSearch<M, V>, General>)
         if (policy_) return policy_(search.mill().motion.pose(query.begin), query);
@@ -235,7 +220,7 @@ class AnyWallSearch {
       answer = with_bodies(query, answer);
     return answer;
   }
-  WallAnswer<Real> search(const model::AnyPose<Real>& pose, const WallQuery<Real>& query) const {
+  Answer search(const model::AnyPose<Real>& pose, const Query& query) const {
     auto answer = with([&]<class M, class V>(const WallSearch<M, V>& search) {
       if constexpr (std::is_same_v<WallSearch<M, V>, General>)
         if (policy_) return policy_(pose, query);
@@ -253,7 +238,7 @@ class AnyWallSearch {
     });
     policy_ = std::move(policy);
   }
-  RoughAnswer rough(const WallQuery<Real>& query) const {
+  RoughAnswer rough(const Query& query) const {
     return with([&](const auto& search) { return search.rough(query); });
   }
 
@@ -284,10 +269,9 @@ class AnyWallSearch {
     return f(*std::get_if<General>(&search_));
   }
 
-  [[gnu::noinline]] WallAnswer<Real> with_bodies(const WallQuery<Real>& query, WallAnswer<Real> first) const;
-  BodyGroups::Times clear_times(const WallQuery<Real>& query) const;
-  WallAnswer<Real> first_with_body(std::size_t body, const WallQuery<Real>& query, const Real& length,
-                                   const Real& clear) const;
+  [[gnu::noinline]] Answer with_bodies(const Query& query, Answer first) const;
+  BodyGroups::Times clear_times(const Query& query) const;
+  Answer first_with_body(std::size_t body, const Query& query, const Real& length, const Real& clear) const;
 
   Search search_;
   std::vector<BodySearch<Real>> bodies_;

@@ -13,7 +13,29 @@
 
 namespace edmill::dynamics {
 
-template <model::Motion M, model::Vessel V>
+/// Whether exact arithmetic applies to a wall.
+[[gnu::noinline]] bool has_exact_gap(const auto& mill, int wall) {
+  using Real = std::decay_t<decltype(mill.reach)>;
+  const Vec3<Real> zero = Vec3<Real>::Zero();
+  return exact_gap(mill, WallQuery<Real>{{zero, zero, {}}, Real(0), {}, Real(0)}, wall).has_value();
+}
+
+/// Orders the contacts with two walls by exact arithmetic: negative if `one` is hit first, positive if
+/// `other` is, zero if both are hit at one time. Empty if an exact time is unknown.
+[[gnu::noinline]] std::optional<int> exact_order(const auto& mill, const auto& query, int one,
+                                                 bool one_at_once, int other, bool other_at_once) {
+  const auto time_of = [&](int wall, bool at_once) -> std::optional<ExactTime> {
+    if (at_once) return ExactTime{};
+    const auto gap = exact_gap(mill, query, wall);
+    return gap ? exact_contact_time(*gap) : std::nullopt;
+  };
+  const auto first = time_of(one, one_at_once);
+  if (!first) return std::nullopt;
+  const auto second = time_of(other, other_at_once);
+  return second ? std::optional(first->compare(*second)) : std::nullopt;
+}
+
+template <Motion M, Vessel V>
 WallSearch<M, V>::WallSearch(const M& motion, const V& vessel, const Vec3<Real>& gravity)
     : mill_(motion, vessel, gravity),
       bounds_(mill_),
@@ -21,7 +43,7 @@ WallSearch<M, V>::WallSearch(const M& motion, const V& vessel, const Vec3<Real>&
   if constexpr (is_body) own_speed_ = motion.wall_speed(vessel.size());
 }
 
-template <model::Motion M, model::Vessel V>
+template <Motion M, Vessel V>
 auto WallSearch<M, V>::within_reach(const Functions& functions, const Vec3<Real>& position, const Real& speed,
                                     const Real& length) const -> Walls {
   const Real margin = rounding_margin<Real>();
@@ -34,7 +56,7 @@ auto WallSearch<M, V>::within_reach(const Functions& functions, const Vec3<Real>
 
 /// For how long a ball cannot reach a body, however it flies [s]: their distance changes by no more than both
 /// move, in whatever frame it is measured.
-template <model::Motion M, model::Vessel V>
+template <Motion M, Vessel V>
 auto WallSearch<M, V>::clear_time(const Functions& functions, const Vec3<Real>& position,
                                   const Real& speed) const -> Real {
   if constexpr (is_body) {
@@ -45,14 +67,14 @@ auto WallSearch<M, V>::clear_time(const Functions& functions, const Vec3<Real>& 
   }
 }
 
-template <model::Motion M, model::Vessel V>
-auto WallSearch<M, V>::require_length(const WallQuery<Real>& query) const -> void {
+template <Motion M, Vessel V>
+void WallSearch<M, V>::require_length(const Query& query) const {
   EDMILL_REQUIRE(query.length > 0 && query.length <= longest_window() * (1 + rounding_margin<Real>()),
                  "window length out of range");
 }
 
-template <model::Motion M, model::Vessel V>
-decltype(auto) WallSearch<M, V>::smooth(const WallQuery<Real>& query, const Functions& functions,
+template <Motion M, Vessel V>
+decltype(auto) WallSearch<M, V>::smooth(const Query& query, const Functions& functions,
                                         const Vec3<Real>& position, const Real& speed) const {
   if constexpr (model::HasRegions<V>) {
     auto shorter = query;
@@ -65,8 +87,8 @@ decltype(auto) WallSearch<M, V>::smooth(const WallQuery<Real>& query, const Func
   }
 }
 
-template <model::Motion M, model::Vessel V>
-auto WallSearch<M, V>::search(const Pose& pose, const WallQuery<Real>& query) const -> WallAnswer<Real> {
+template <Motion M, Vessel V>
+auto WallSearch<M, V>::search(const Pose& pose, const Query& query) const -> Answer {
   require_length(query);
   Functions functions(mill_, query.flight, query.radius, query.begin.period);
   const Real& begin = query.begin.offset;
@@ -75,16 +97,16 @@ auto WallSearch<M, V>::search(const Pose& pose, const WallQuery<Real>& query) co
   const Real speed = top_speed(ball.velocity, query.length);
   if constexpr (is_body)
     if (const Real leap = clear_time(functions, ball.state.position, speed); 16 * leap > query.length)
-      return WallAnswer<Real>::none(leap < query.length ? leap : query.length);
+      return Answer::none(leap < query.length ? leap : query.length);
   const Walls reachable = within_reach(functions, ball.state.position, speed, query.length);
-  if (!any_from(reachable, 0)) return WallAnswer<Real>::none(query.length);
+  if (!any_from(reachable, 0)) return Answer::none(query.length);
   return first_contact<false>(functions, functions.start(begin, pose, ball), reachable, speed,
                               smooth(query, functions, ball.state.position, speed), nullptr);
 }
 
 /// Removes the walls that the state at the start proves not to be hit within `length`, which are most.
 /// @return true if any wall is left; `length` is then shortened to the window that must be searched
-template <model::Motion M, model::Vessel V>
+template <Motion M, Vessel V>
 bool WallSearch<M, V>::drop_clear(const auto& curve_of, Walls& reachable, Real& length,
                                   const DerivativeBounds<V>& derivatives) const {
   const Real whole = length;
@@ -107,31 +129,29 @@ bool WallSearch<M, V>::drop_clear(const auto& curve_of, Walls& reachable, Real& 
   return any;
 }
 
-template <model::Motion M, model::Vessel V>
+template <Motion M, Vessel V>
 template <bool rounded>
 auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& first, Walls reachable,
-                                     const Real& speed, const WallQuery<Real>& query,
-                                     RoughAnswer* rough) const -> WallAnswer<Real> {
+                                     const Real& speed, const Query& query, RoughAnswer* rough) const
+    -> Answer {
   const Real begin = query.begin.offset, oldest = functions.elapsed(begin + query.length);
   const auto own_errors = functions.errors(oldest, speed, reachable);
   auto errors = own_errors;
   if constexpr (rounded) errors = errors + functions.state_errors(oldest, speed);
   const auto curve_of = [&](int wall, const DerivativeBounds<V>& derivatives) {
     const auto& d = derivatives[functions.room().kind_of(wall)];
-    return Curve{functions,
-                 wall,
-                 {d[0], d[1], d[2], errors.gap[wall], errors.rate[wall], errors.curvature[wall]},
-                 {first.offset, first.gap[wall], first.rate[wall]},
-                 first.curvature[wall]};
+    const Bounds bounds{d[0], d[1], d[2], errors.gap[wall], errors.rate[wall], errors.curvature[wall]};
+    const Point start{first.offset, first.gap[wall], first.rate[wall]};
+    return Curve{functions, wall, bounds, start, first.curvature[wall]};
   };
   Real length = query.length;
   if (!drop_clear(curve_of, reachable, length, bounds_.at(speed, query.length)))
-    return WallAnswer<Real>::none(query.length);
+    return Answer::none(query.length);
 
   const auto derivatives = bounds_.at(speed, length);
   Real end = begin + length;
   Sample last = sample_of_end(functions, reachable, errors, begin, end);
-  auto answer = WallAnswer<Real>::none(end - begin);
+  auto answer = Answer::none(end - begin);
   Root best{};
   bool by_rule = false;
   for (int wall = 0; wall < model::function_count(mill_.vessel); ++wall) {
@@ -159,7 +179,7 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
     }
     best = *root;
     const auto time = mill_.clock.instant(query.begin.period, best.t);
-    answer = WallAnswer<Real>::contact(wall, time, best.time_error);
+    answer = Answer::contact(wall, time, best.time_error);
     if constexpr (rounded)
       *rough = {.wall = wall,
                 .left = found.left.t,
@@ -177,14 +197,14 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
   answer.by_rule = by_rule;
   if constexpr (model::HasRegions<V>)
     if (answer.verdict == Verdict::contact && answer.wall >= mill_.vessel.wall_count())
-      return WallAnswer<Real>::none(best.t - begin);  // another region: must be searched again
+      return Answer::none(best.t - begin);  // another region: must be searched again
   return answer;
 }
 
 /// Samples the gaps at the end of a window. A gap that is zero within rounding there would leave the window
 /// undecided in every scalar: the end is moved towards `from`. A gap that is zero at two successive ends
 /// stays zero for long, so that a shorter window does not help.
-template <model::Motion M, model::Vessel V>
+template <Motion M, Vessel V>
 auto WallSearch<M, V>::sample_of_end(const Functions& functions, const Walls& reachable, const Errors& errors,
                                      const Real& from, Real& end) const -> Sample {
   const auto touches = [&](const Sample& sample, int wall) {
@@ -212,7 +232,7 @@ auto WallSearch<M, V>::sample_of_end(const Functions& functions, const Walls& re
 }
 
 /// Isolates a root in the first part of a window, where the second derivative is known too.
-template <model::Motion M, model::Vessel V>
+template <Motion M, Vessel V>
 template <bool rounded>
 auto WallSearch<M, V>::isolate_from_start(const Curve& curve, const Point& right) const -> Bracket {
   const Point& start = curve.start;
@@ -230,7 +250,7 @@ auto WallSearch<M, V>::isolate_from_start(const Curve& curve, const Point& right
 
 /// A rising gap keeps rising while its second derivative is positive, so that one long step suffices at
 /// first, also from an overlap. Where the third derivative is zero, it covers the window.
-template <model::Motion M, model::Vessel V>
+template <Motion M, Vessel V>
 auto WallSearch<M, V>::isolate_rising(const Curve& curve, const Point& right) const -> Bracket {
   const Bounds& b = curve.bounds;
   const Real t = curve.start.t + (curve.curvature - b.curvature_error) / (2 * b.third);
@@ -239,7 +259,7 @@ auto WallSearch<M, V>::isolate_rising(const Curve& curve, const Point& right) co
 
 /// Isolates the root for a ball that has just left the wall and whose gap is provably concave throughout the
 /// window: the gap has one maximum and one root after it.
-template <model::Motion M, model::Vessel V>
+template <Motion M, Vessel V>
 auto WallSearch<M, V>::isolate_hop(const Curve& curve, const Point& right) const -> std::optional<Bracket> {
   const Bounds& b = curve.bounds;
   const Point& left = curve.start;
@@ -252,7 +272,7 @@ auto WallSearch<M, V>::isolate_hop(const Curve& curve, const Point& right) const
   return Bracket{Verdict::contact, left, right, Real(0), left.t + fraction * length};
 }
 
-template <model::Motion M, model::Vessel V>
+template <Motion M, Vessel V>
 auto WallSearch<M, V>::isolate(const Curve& curve, Point left, const Point& right) const -> Bracket {
   const Bounds& b = curve.bounds;
   if (left.value > b.value_error) {
@@ -277,7 +297,7 @@ auto WallSearch<M, V>::isolate(const Curve& curve, Point left, const Point& righ
 
 /// Walks the window from the left over intervals that are proven free of contact, splitting where the proof
 /// fails, up to one that contains exactly one sign change.
-template <model::Motion M, model::Vessel V>
+template <Motion M, Vessel V>
 auto WallSearch<M, V>::isolate_outside(const Curve& curve, Point left, const Point& right,
                                        bool departing) const -> Bracket {
   constexpr int deepest = 64;
@@ -289,8 +309,8 @@ auto WallSearch<M, V>::isolate_outside(const Curve& curve, Point left, const Poi
     if (steps % 32 == 0) {
       Interruption::check();
       // A gap that hardly changes is excluded on short windows only.
-      const bool enough = steps >= curve.most_steps || (steps == 64 && has_exact_gap(curve.wall));
-      if (enough) return {Verdict::undecided};
+      if (steps >= curve.most_steps) return {Verdict::undecided};
+      if (steps == 64 && has_exact_gap(mill_, curve.wall)) return {Verdict::undecided};
     }
     const Point& end = ends[count - 1];
     if (departing ? numerics::proven_departure(left, end, b) : numerics::proven_positive(left, end, b)) {
@@ -332,7 +352,7 @@ auto WallSearch<M, V>::isolate_outside(const Curve& curve, Point left, const Poi
 
 /// The gap is zero within rounding and falling at the start: the contact is at the start or within rounding
 /// after it, provided that the gap provably falls to a negative value.
-template <model::Motion M, model::Vessel V>
+template <Motion M, Vessel V>
 auto WallSearch<M, V>::isolate_touching(const Curve& curve, const Point& left, Point right) const -> Bracket {
   const Bounds& b = curve.bounds;
   // If another wall has shortened the window, extend it to where this gap is certainly negative.
@@ -353,7 +373,7 @@ auto WallSearch<M, V>::isolate_touching(const Curve& curve, const Point& left, P
 /// ball that is pressed against the wall is in contact at once. For one that accelerates away it is unknown
 /// whether it approaches at first; the widest scalar treats values within rounding as zero, so that the ball
 /// leaves.
-template <model::Motion M, model::Vessel V>
+template <Motion M, Vessel V>
 auto WallSearch<M, V>::isolate_resting(const Curve& curve, const Point& right) const -> Bracket {
   using std::sqrt;
   const Bounds& b = curve.bounds;
@@ -375,7 +395,7 @@ auto WallSearch<M, V>::isolate_resting(const Curve& curve, const Point& right) c
 /// Follows a ball that certainly overlaps the wall at the start, by rounding, and moves away. Either the gap
 /// opens, and the search continues from outside, or the ball turns back before: the contact is where it
 /// begins to approach.
-template <model::Motion M, model::Vessel V>
+template <Motion M, Vessel V>
 auto WallSearch<M, V>::follow_overlap(const Curve& curve, const Point& start, const Point& right) const
     -> Bracket {
   using std::sqrt;
@@ -417,7 +437,7 @@ auto WallSearch<M, V>::follow_overlap(const Curve& curve, const Point& start, co
 
 /// Refines the root in the bracket to the last digit of the scalar; the result is the end of the final
 /// bracket at which the gap is not negative.
-template <model::Motion M, model::Vessel V>
+template <Motion M, Vessel V>
 auto WallSearch<M, V>::polish(const Curve& curve, const Bracket& bracket) const -> std::optional<Root> {
   const Point &left = bracket.left, &right = bracket.right;
   if (bracket.at_once) return Root{.t = left.t, .time_error = Real(0), .at_once = true};
@@ -467,7 +487,7 @@ auto digits_of_step(int step) {
 /// Finds the root of a gap that provably falls through zero in (from, to): by Newton's iteration with the
 /// curvature until another step would change nothing, then by toms748 in a bracket of a few units of the
 /// clock. Empty if rounding hides the signs at the ends of such a bracket.
-template <model::Motion M, model::Vessel V>
+template <Motion M, Vessel V>
 auto WallSearch<M, V>::close_in(const Functions& functions, int wall, const Real& from, const Real& to,
                                 const Approach& approach, const Real& value_error) const
     -> std::optional<Root> {
@@ -496,7 +516,8 @@ auto WallSearch<M, V>::close_in(const Functions& functions, int wall, const Real
       using Size = std::decay_t<decltype(size)>;
       const Size square = size * size, length = size < 0 ? -size : size;
       const Size off = (approach.curvature_error + approach.third * length) * square;
-      return {Real(approach.curvature * square / (2 * flatness)), off > -flatness * static_cast<Size>(unit)};
+      const bool goes_on = off > -flatness * static_cast<Size>(unit);
+      return {Real(approach.curvature * square / (2 * flatness)), goes_on};
     };
     const auto [bend, goes_on] =
         few_digits ? bent(static_cast<double>(newton)) : bent(static_cast<Hint<Real>>(newton));
@@ -525,18 +546,18 @@ auto WallSearch<M, V>::close_in(const Functions& functions, int wall, const Real
       }
     }
     if (!(low > from && high < to)) return std::nullopt;
+    using boost::math::tools::toms748_solve;
     std::uintmax_t iterations = 100;
-    const Real root =
-        boost::math::tools::toms748_solve(gap, low, high, at_low, at_high, closed(), iterations).first;
-    Root found{root, resolution() + 4 * time_error};
-    if constexpr (is_wide) found.pose = pose_at(root);
+    const auto bracket = toms748_solve(gap, low, high, at_low, at_high, closed(), iterations);
+    Root found{bracket.first, resolution() + 4 * time_error};
+    if constexpr (is_wide) found.pose = pose_at(found.t);
     return found;
   }
   return std::nullopt;
 }
 
-template <model::Motion M, model::Vessel V>
-auto WallSearch<M, V>::rough(const WallQuery<Real>& query) const -> RoughAnswer {
+template <Motion M, Vessel V>
+RoughAnswer WallSearch<M, V>::rough(const Query& query) const {
   if constexpr (is_wide) {
     return {};
   } else {
@@ -577,8 +598,8 @@ auto WallSearch<M, V>::rough(const WallQuery<Real>& query) const -> RoughAnswer 
 /// Evaluates the wide gap at the root found in double. Its error is of the order of double's rounding, so
 /// that one step of Newton's iteration with the curvature in double yields nearly three times the digits. The
 /// result is the root in the bracket, because the gap falls throughout it.
-template <model::Motion M, model::Vessel V>
-auto WallSearch<M, V>::search_by_double(const WallQuery<Real>& query) const -> WallAnswer<Real> {
+template <Motion M, Vessel V>
+auto WallSearch<M, V>::search_by_double(const Query& query) const -> Answer {
   if constexpr (!is_wide) {
     return search(query);
   } else {
@@ -592,7 +613,7 @@ auto WallSearch<M, V>::search_by_double(const WallQuery<Real>& query) const -> W
     const Real& begin = query.begin.offset;
     if (rough.verdict == Verdict::none) {
       const Real searched = Real(rough.until) - begin;
-      if (searched > 0) return WallAnswer<Real>::none(searched);
+      if (searched > 0) return Answer::none(searched);
     }
     if (rough.verdict != Verdict::contact) return {Verdict::undecided};
 
@@ -622,8 +643,8 @@ auto WallSearch<M, V>::search_by_double(const WallQuery<Real>& query) const -> W
 /// Finds the first contact with one wall up to `end` if the bounds do not decide, or, in the widest scalar,
 /// if the ball touches: in exact arithmetic where it applies, otherwise, in the widest scalar, by a rule.
 /// @param found  result by bounds
-template <model::Motion M, model::Vessel V>
-auto WallSearch<M, V>::isolate_further(const Curve& curve, const Point& right, const WallQuery<Real>& query,
+template <Motion M, Vessel V>
+auto WallSearch<M, V>::isolate_further(const Curve& curve, const Point& right, const Query& query,
                                        const Real& end, const Bracket& found) const -> Bracket {
   const bool undecided = found.verdict == Verdict::undecided;
   // Exact arithmetic needs no rule for values that are zero within rounding.
@@ -639,15 +660,15 @@ auto WallSearch<M, V>::isolate_further(const Curve& curve, const Point& right, c
 /// True if `wall` is hit before `other`. If the times agree within rounding, exact arithmetic decides; if it
 /// does not apply, the result is empty and a wider scalar must decide. If the times are equal, or the widest
 /// scalar does not separate them, the rule puts `other` first.
-template <model::Motion M, model::Vessel V>
+template <Motion M, Vessel V>
 template <bool rounded>
-std::optional<bool> WallSearch<M, V>::comes_first(const WallQuery<Real>& query, int wall, const Root& root,
-                                                  int other, const Root& other_root, bool& by_rule) const {
+std::optional<bool> WallSearch<M, V>::comes_first(const Query& query, int wall, const Root& root, int other,
+                                                  const Root& other_root, bool& by_rule) const {
   const Real later = root.t - other_root.t, error = root.time_error + other_root.time_error;
   if (later > error) return false;
   if (later < -error) return true;
   std::optional<int> order;
-  if constexpr (!rounded) order = exact_order(query, wall, root, other, other_root);
+  if constexpr (!rounded) order = exact_order(mill_, query, wall, root.at_once, other, other_root.at_once);
   if (!order && !is_widest) return std::nullopt;
   by_rule |= (!order || *order == 0) && wall < mill_.vessel.wall_count();
   return order && *order < 0;
@@ -657,7 +678,7 @@ std::optional<bool> WallSearch<M, V>::comes_first(const WallQuery<Real>& query, 
 /// are zero within rounding, or change too slowly to be excluded. The rule is that a gap which does not
 /// measurably fall does not fall. It is evaluated at times after the start that grow by factors of 16; if it
 /// falls before it has opened, the contact is at the evaluation before.
-template <model::Motion M, model::Vessel V>
+template <Motion M, Vessel V>
 auto WallSearch<M, V>::isolate_by_rule(const Curve& curve, const Point& right) const -> Bracket {
   const Bounds& b = curve.bounds;
   const Point& start = curve.start;
@@ -671,7 +692,8 @@ auto WallSearch<M, V>::isolate_by_rule(const Curve& curve, const Point& right) c
     const Point next = t < right.t ? curve.at(t) : right;
     const bool opens = next.value > b.value_error || next.slope > 2 * b.slope_error;
     if (next.slope < -2 * b.slope_error && !opens) {
-      auto found = last.value > b.value_error ? isolate(curve, last, next) : Bracket{Verdict::undecided};
+      Bracket found{Verdict::undecided};
+      if (last.value > b.value_error) found = isolate(curve, last, next);
       if (found.verdict == Verdict::undecided)
         found = {.verdict = Verdict::contact, .left = last, .right = last, .time_error = next.t - last.t};
       found.by_rule = true;
@@ -687,18 +709,11 @@ auto WallSearch<M, V>::isolate_by_rule(const Curve& curve, const Point& right) c
   return {.verdict = Verdict::none, .by_rule = true};
 }
 
-template <model::Motion M, model::Vessel V>
-bool WallSearch<M, V>::has_exact_gap(int wall) const {
-  const Vec3<Real> zero = Vec3<Real>::Zero();
-  const WallQuery<Real> any{{zero, zero, {}}, Real(0), {}, Real(0)};
-  return exact_gap(mill_.motion, mill_.vessel, mill_.gravity, any, wall).has_value();
-}
-
 /// Isolates the first contact up to `end` exactly. Undecided if the gap is not a polynomial.
-template <model::Motion M, model::Vessel V>
-auto WallSearch<M, V>::isolate_exactly(const Curve& curve, const WallQuery<Real>& query,
-                                       const Real& end) const -> Bracket {
-  const auto gap = exact_gap(mill_.motion, mill_.vessel, mill_.gravity, query, curve.wall);
+template <Motion M, Vessel V>
+auto WallSearch<M, V>::isolate_exactly(const Curve& curve, const Query& query, const Real& end) const
+    -> Bracket {
+  const auto gap = exact_gap(mill_, query, curve.wall);
   if (!gap) return {Verdict::undecided};
   const auto time = exact_contact_time(*gap);
   if (!time) return {Verdict::none};
@@ -712,29 +727,12 @@ auto WallSearch<M, V>::isolate_exactly(const Curve& curve, const WallQuery<Real>
           .at_once = time->compare({}) == 0};
 }
 
-/// Orders the contacts with two walls by exact arithmetic: negative if `one` is hit first, positive if
-/// `other` is, zero if both are hit at one time. Empty if an exact time is unknown.
-template <model::Motion M, model::Vessel V>
-std::optional<int> WallSearch<M, V>::exact_order(const WallQuery<Real>& query, int one, const Root& one_root,
-                                                 int other, const Root& other_root) const {
-  const auto time_of = [&](int wall, const Root& root) -> std::optional<ExactTime> {
-    if (root.at_once) return ExactTime{};
-    const auto gap = exact_gap(mill_.motion, mill_.vessel, mill_.gravity, query, wall);
-    return gap ? exact_contact_time(*gap) : std::nullopt;
-  };
-  const auto first = time_of(one, one_root);
-  if (!first) return std::nullopt;
-  const auto second = time_of(other, other_root);
-  return second ? std::optional(first->compare(*second)) : std::nullopt;
-}
-
 /// The first contact with the vessel or a body. Each body is searched window by window as far as the others
 /// have been. Where the times of two contacts are closer than their errors a wider scalar decides; in the
 /// widest, the lower id goes first by a rule.
 /// @param first  answer for the vessel
 template <class Real>
-WallAnswer<Real> AnyWallSearch<Real>::with_bodies(const WallQuery<Real>& query,
-                                                  WallAnswer<Real> first) const {
+auto AnyWallSearch<Real>::with_bodies(const Query& query, Answer first) const -> Answer {
   const DriveClock<Real>& clock = bodies_.front().mill().clock;
   const auto clear = clear_times(query);
   for (std::size_t k = 0; k < bodies_.size() && first.verdict != Verdict::undecided; ++k) {
@@ -749,7 +747,7 @@ WallAnswer<Real> AnyWallSearch<Real>::with_bodies(const WallQuery<Real>& query,
     if (found.verdict == Verdict::undecided) return found;
     const bool by_rule = first.by_rule || found.by_rule;
     if (found.verdict == Verdict::none) {
-      if (found.searched < needed) first = WallAnswer<Real>::none(found.searched);
+      if (found.searched < needed) first = Answer::none(found.searched);
     } else if (none_yet) {
       first = found;
     } else {
@@ -766,7 +764,7 @@ WallAnswer<Real> AnyWallSearch<Real>::with_bodies(const WallQuery<Real>& query,
 }
 
 template <class Real>
-BodyGroups::Times AnyWallSearch<Real>::clear_times(const WallQuery<Real>& query) const {
+BodyGroups::Times AnyWallSearch<Real>::clear_times(const Query& query) const {
   const auto& mill = bodies_.front().mill();
   const Real dt = mill.clock.elapsed(query.flight.start, query.begin);
   const Real speed =
@@ -779,8 +777,8 @@ BodyGroups::Times AnyWallSearch<Real>::clear_times(const WallQuery<Real>& query)
 /// The first contact with a body within `length` of the begin of a query. None, too, if it takes too many
 /// windows to find. @param clear  so long it is out of reach [s]
 template <class Real>
-WallAnswer<Real> AnyWallSearch<Real>::first_with_body(std::size_t body, const WallQuery<Real>& query,
-                                                      const Real& length, const Real& clear) const {
+auto AnyWallSearch<Real>::first_with_body(std::size_t body, const Query& query, const Real& length,
+                                          const Real& clear) const -> Answer {
   constexpr int most_windows = 64;
   const DriveClock<Real>& clock = bodies_.front().mill().clock;
   auto rest = query;
@@ -810,7 +808,7 @@ WallAnswer<Real> AnyWallSearch<Real>::first_with_body(std::size_t body, const Wa
     rest.begin = clock.after(query.begin, searched);
     rest.length = length - searched;
   }
-  auto none = WallAnswer<Real>::none(rest.length > 0 ? searched : length);
+  auto none = Answer::none(rest.length > 0 ? searched : length);
   none.by_rule = by_rule;
   return none;
 }

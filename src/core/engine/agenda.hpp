@@ -144,7 +144,7 @@ template <class Real>
 struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Body {
   Vec3<Real> spin;  ///< [rad/s]
   RecentImpacts<Real> recent;
-  std::int16_t unmoved = 0;  ///< impacts in a row without time to move, up to the stall rule's limit
+  std::int16_t unmoved = 0;  ///< impacts in a row without time to move, up to the rule's limit
   CellOfBall cell;
 
   void archive(Archive& a) { a(spin, recent, unmoved, cell); }

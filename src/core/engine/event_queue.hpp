@@ -105,37 +105,19 @@ class EventQueue {
     put(ball);
   }
 
-  /// Finds all balls with an event up to `limit`, in ascending order.
-  void due_until(const Instant<Real>& limit, std::vector<int>& balls) const {
-    balls.clear();
-    const std::int64_t last = std::max(day_of(limit), today_);
-    const auto add = [&](int i) {
-      if (entries_[i].time <= limit) balls.push_back(i);
-    };
-    if (last < horizon_) {
-      add_from_heap(0, limit, balls);
-      for (auto day = next_occupied(today_); day <= last && day < horizon_; day = next_occupied(day + 1))
-        for (int i = head(day); i != none; i = entries_[i].next) add(i);
-      std::sort(balls.begin(), balls.end());
-    } else {
-      for (int i = 0; i < static_cast<int>(entries_.size()); ++i) add(i);
-    }
-  }
-
-  /// The ball whose event is next after the last `top`, if it is not later than `limit`; or -1.
-  int runner_up(const Instant<Real>& limit) const {
-    const auto due = [&](int ball) { return ball != none && entries_[ball].time <= limit ? ball : none; };
-    if (heap_.size() > 1) return due(heap_.size() > 2 && before(heap_[2], heap_[1]) ? heap_[2] : heap_[1]);
+  /// True if another ball than that of the last `top` has an event up to `limit`.
+  bool has_more_until(const Instant<Real>& limit) const {
+    const auto is_due = [&](int ball) { return ball != top_ && entries_[ball].time <= limit; };
+    if (heap_.size() > 1) return is_due(heap_[1]) || (heap_.size() > 2 && is_due(heap_[2]));
     const bool alone = !heap_.empty() || (head(today_) == top_ && entries_[top_].next == none);
-    if (alone && day_of(limit) <= today_) return none;
+    if (alone && day_of(limit) <= today_) return false;
     const std::int64_t last = std::max(day_of(limit), today_);
     for (auto day = next_occupied(today_); day <= last && day < horizon_; day = next_occupied(day + 1))
-      if (const int second = first_of(day, top_); second != none) return due(second);
-    if (last < horizon_) return none;
-    int second = none;
-    for (int i = 0; i < static_cast<int>(entries_.size()); ++i)
-      if (i != top_ && (second == none || before(i, second))) second = i;
-    return due(second);
+      for (int i = head(day); i != none; i = entries_[i].next)
+        if (is_due(i)) return true;
+    for (int i = 0; last >= horizon_ && i < static_cast<int>(entries_.size()); ++i)
+      if (is_due(i)) return true;
+    return false;
   }
 
  private:
@@ -191,13 +173,6 @@ class EventQueue {
       if (best == none || before(i, best)) best = i;
     if (count > crowd) [[unlikely]]
       fill_heap();
-    return best;
-  }
-
-  int first_of(std::int64_t day, int except) const {
-    int best = none;
-    for (int i = head(day); i != none; i = entries_[i].next)
-      if (i != except && (best == none || before(i, best))) best = i;
     return best;
   }
 
@@ -291,12 +266,6 @@ class EventQueue {
       set_place(at, heap_[child]);
     }
     set_place(at, ball);
-  }
-  void add_from_heap(std::size_t at, const Instant<Real>& limit, std::vector<int>& balls) const {
-    if (at >= heap_.size() || limit < entries_[heap_[at]].time) return;
-    balls.push_back(heap_[at]);
-    add_from_heap(2 * at + 1, limit, balls);
-    add_from_heap(2 * at + 2, limit, balls);
   }
 
   /// Moves the horizon by a week.

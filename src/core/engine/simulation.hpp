@@ -42,11 +42,18 @@ using States = std::vector<model::BallState<Real>>;
 /// A run of one case. Balls are advanced only when they collide; every contact is certified.
 template <class Real>
 class Simulation {
+  using Instant = edmill::Instant<Real>;
+  using Event = engine::Event<Real>;
+  using Agenda = engine::Agenda<Real>;
+  using Impact = engine::Impact<Real>;
+  using DoubleState = typename Candidates<Real>::DoubleState;
+  static constexpr bool is_double = std::is_same_v<Real, double>;
+
  public:
   /// @param states  of the case's balls, in order, at `start`
   /// @pre no two balls overlap and all are inside the vessel, up to rounding
   /// @throws InterruptedError when `interrupt` becomes true meanwhile
-  Simulation(const model::Case<Real>& the_case, const States<Real>& states, const Instant<Real>& start,
+  Simulation(const model::Case<Real>& the_case, const States<Real>& states, const Instant& start,
              const std::atomic<bool>* interrupt = nullptr);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
@@ -56,7 +63,7 @@ class Simulation {
 
   /// Processes every event up to `end`, inclusive; returns early when an observer asks for it, on collapse
   /// and stalls, or when `interrupt` becomes true. Can be called again with a later end.
-  EndReason run_until(const Instant<Real>& end, const std::atomic<bool>* interrupt = nullptr);
+  EndReason run_until(const Instant& end, const std::atomic<bool>* interrupt = nullptr);
 
   /// Enables or disables prefetching, which changes no result (default: enabled with many balls).
   void prefetch(bool yes) { prefetcher_.enable(yes && candidates_.uses_cells()); }
@@ -79,11 +86,11 @@ class Simulation {
   /// @throws InputError when the loaded data cannot be a state of this case
   void archive(Archive& a);
 
-  const Instant<Real>& now() const { return now_; }
+  const Instant& now() const { return now_; }
   Real seconds() const { return clock_.seconds(now_); }
   const DriveClock<Real>& clock() const { return clock_; }
   /// The instant of a record at `time` [s]: the current one where they agree up to rounding.
-  Instant<Real> instant_of(const Real& time) const {
+  Instant instant_of(const Real& time) const {
     const Real off = time - seconds(), unit = 8 * epsilon<Real>() * (time + clock_.period());
     return off <= unit && off >= -unit ? now_ : clock_.at(time);
   }
@@ -92,44 +99,41 @@ class Simulation {
   const model::BallProperties<Real>& properties(int i) const { return balls_[i * stride_]; }
   const dynamics::Flight<Real>& flight(int i) const { return flights_[i]; }
   const Vec3<Real>& spin(int i) const { return bodies_[i].spin; }
-  model::BallState<Real> state_at(int i, const Instant<Real>& when) const;
-  model::Energy<Real> energy_at(const Instant<Real>& when) const;
+  model::BallState<Real> state_at(int i, const Instant& when) const;
+  model::Energy<Real> energy_at(const Instant& when) const;
   const EngineCounts<Real>& counts() const { return counts_; }
   std::vector<model::Escalations> escalations() const { return ladder_.escalations(); }
   const std::optional<model::InelasticCollapse<Real>>& collapse() const { return collapse_; }
   const std::optional<model::Stall<Real>>& stall() const { return stall_; }
 
  private:
-  static constexpr bool is_double = std::is_same_v<Real, double>;
-  using DoubleState = typename Candidates<Real>::DoubleState;
-
   bool is_sound() const;
-  Event<Real> event_of(int ball);
-  Event<Real> queued_event(int ball) const;
+  Event event_of(int ball);
+  Event queued_event(int ball) const;
   void requeue(int ball);
   void drop_void_contact(int ball);
   void cross_cell(int ball);
-  void continue_wall_search(int ball, const Instant<Real>& begin);
+  void continue_wall_search(int ball, const Instant& begin);
 
-  bool has_rivals(const Event<Real>& event) const;
-  Event<Real> settle_ties(Event<Real> event);
-  void finish_wall_searches(const Event<Real>& event, const Instant<Real>& limit);
-  void find_rivals(const Event<Real>& event, const Instant<Real>& limit);
-  void find_due(const Event<Real>& event, const Instant<Real>& limit);
+  bool has_rivals(const Event& event) const;
+  Event settle_ties(Event event);
+  void finish_wall_searches(const Event& event, const Instant& limit);
+  void find_rivals(const Event& event, const Instant& limit);
+  void find_due(const Event& event, const Instant& limit);
   void add_near(int ball, std::vector<int>& balls);
-  void add_rivals_of_full_agenda(int ball, const Event<Real>& event, const Instant<Real>& limit);
-  dynamics::Contact<Real> contact_of(const Event<Real>& event) const;
+  void add_rivals_of_full_agenda(int ball, const Event& event, const Instant& limit);
+  dynamics::Contact<Real> contact_of(const Event& event) const;
 
-  Impact<Real> collide(const Event<Real>& event);
-  Impact<Real> collide_with_wall(const Event<Real>& event);
-  Impact<Real> collide_pair(const Event<Real>& event);
+  Impact collide(const Event& event);
+  Impact collide_with_wall(const Event& event);
+  Impact collide_pair(const Event& event);
   void update_pose();
   void raise_top_speed(int ball);
   bool friction_rests(int ball, const Real& flight_time, const model::ContactLaw<Real>& law);
-  void notify(const Impact<Real>& impact);
-  void note_collapse(const Impact<Real>& impact, int ball, int partner);
+  void notify(const Impact& impact);
+  void note_collapse(const Impact& impact, int ball, int partner);
 
-  void predict(const Impact<Real>& impact);
+  void predict(const Impact& impact);
   void predict_all(int ball, int already_done, const model::AnyPose<Real>& pose, FoundBalls& near);
   /// The balls of the adjacent cells, where cells are used.
   void find_neighbours(int ball, FoundBalls& near) {
@@ -141,8 +145,8 @@ class Simulation {
   void expect_pair(int ball, int other, const Real& delay);
   void predict_crossing(int ball, const DoubleState& state);
   void predict_wall(int ball, const model::AnyPose<Real>& pose);
-  Real search_length(int ball, const Instant<Real>& begin) const;
-  void take_wall_answer(int ball, const dynamics::WallAnswer<Real>& answer, const Instant<Real>& begin);
+  Real search_length(int ball, const Instant& begin) const;
+  void take_wall_answer(int ball, const dynamics::WallAnswer<Real>& answer, const Instant& begin);
 
   model::Mill<Real> mill_;
   DriveClock<Real> clock_;
@@ -165,15 +169,15 @@ class Simulation {
   std::optional<model::InelasticCollapse<Real>> collapse_;
   std::optional<model::Stall<Real>> stall_;
   std::optional<EndReason> stop_;
-  Instant<Real> now_;
+  Instant now_;
   Real tolerated_overlap_;  ///< above rounding and errors of states, far below a missed impact [m]
   Real fall_;               ///< the most that gravity adds to a ball's speed in one flight [m/s]
   // Scratch, valid during one event.
   FoundBalls near_, near_partner_;  ///< balls of the adjacent cells
   model::AnyPose<Real> pose_;       ///< now
   FoundBalls near_due_;
-  std::vector<int> due_;             ///< balls with an event at nearly the same time
-  std::vector<Event<Real>> rivals_;  ///< contacts that may be first
+  std::vector<int> due_;       ///< balls with an event at nearly the same time
+  std::vector<Event> rivals_;  ///< contacts that may be first
 };
 
 // Instantiated in the source that is compiled with all optimisations.

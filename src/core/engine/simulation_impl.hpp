@@ -54,7 +54,7 @@ Real shortest_advance(const model::Mill<Real>& mill) {
 /// Bound on the speed of all balls [m/s], until one is faster than twice the fastest ball or wall at the
 /// start.
 template <class Real>
-Real largest_speed(const States<Real>& states, const model::Mill<Real>& mill) {
+Real top_speed_of(const States<Real>& states, const model::Mill<Real>& mill) {
   Real largest{1};
   for (const auto& s : states) largest = std::max(largest, norm<Real>(s.velocity));
   Real wall = mill.motion.speed_within(mill.motion.reach(mill.vessel.extent()));
@@ -73,8 +73,8 @@ CellGrid make_grid(const model::Mill<Real>& mill, const Balls<Real>& balls) {
   // The C library's cube root is not the same on every machine; nor is long double.
   using boost::math::policies::promote_double;
   constexpr boost::math::policies::policy<promote_double<false>> portable;
-  const double share = static_cast<double>(mill.vessel.volume()) / static_cast<double>(balls.size());
-  const double spacing = 0.45 * boost::math::cbrt(share, portable);
+  const auto volume = static_cast<double>(mill.vessel.volume()), count = static_cast<double>(balls.size());
+  const double spacing = 0.45 * boost::math::cbrt(volume / count, portable);
   Real edge = 2 * largest * (1 + Real(1) / 1024);
   if (balls.size() <= 32) edge = 2 * (region.high - region.low).maxCoeff();
   if (edge < spacing) edge = Real(spacing);
@@ -105,13 +105,13 @@ CellOfBall Candidates<Real>::insert(int ball) {
 
 template <class Real>
 Simulation<Real>::Simulation(const model::Case<Real>& the_case, const States<Real>& states,
-                             const Instant<Real>& start, const std::atomic<bool>* interrupt)
+                             const Instant& start, const std::atomic<bool>* interrupt)
     : mill_(the_case.mill),
       clock_(mill_.motion.period()),
       balls_(the_case.balls),
       stride_(all_alike(balls_) ? 0 : 1),
       agendas_(states.size()),
-      top_speed_(largest_speed(states, mill_)),
+      top_speed_(top_speed_of(states, mill_)),
       ladder_(mill_, 2 * smallest_radius(balls_), top_speed_),
       candidates_(mill_, balls_, flights_, ladder_.walls().reach(), top_speed_),
       queue_(static_cast<int>(states.size()), clock_.period()),
@@ -159,8 +159,8 @@ void Simulation<Real>::archive(Archive& a) {
 template <class Real>
 bool Simulation<Real>::is_sound() const {
   using std::isfinite;
-  const std::int64_t most = Instant<Real>::never().period;
-  const auto timed = [&](const Instant<Real>& t) {
+  const std::int64_t most = Instant::never().period;
+  const auto timed = [&](const Instant& t) {
     return t.period >= -most && t.period <= most && t.offset >= 0 && t.offset <= clock_.period();
   };
   const auto finite = [](const Vec3<Real>& v) { return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]); };
@@ -182,14 +182,14 @@ bool Simulation<Real>::is_sound() const {
 }
 
 template <class Real>
-model::BallState<Real> Simulation<Real>::state_at(int i, const Instant<Real>& when) const {
+model::BallState<Real> Simulation<Real>::state_at(int i, const Instant& when) const {
   const Real dt = clock_.elapsed(flights_[i].start, when);
   return {dynamics::position_after(flights_[i], mill_.gravity, dt),
           dynamics::velocity_after(flights_[i], mill_.gravity, dt), bodies_[i].spin};
 }
 
 template <class Real>
-model::Energy<Real> Simulation<Real>::energy_at(const Instant<Real>& when) const {
+model::Energy<Real> Simulation<Real>::energy_at(const Instant& when) const {
   model::Energy<Real> energy;
   for (int i = 0; i < ball_count(); ++i)
     energy += model::energy_of<Real>(properties(i), state_at(i, when), mill_.gravity);
@@ -200,7 +200,7 @@ model::Energy<Real> Simulation<Real>::energy_at(const Instant<Real>& when) const
 
 /// Processes every event up to `end`.
 template <class Real>
-EndReason Simulation<Real>::run_until(const Instant<Real>& end, const std::atomic<bool>* interrupt) try {
+EndReason Simulation<Real>::run_until(const Instant& end, const std::atomic<bool>* interrupt) try {
   const Interruption scope(interrupt);
   stop_.reset();
   for (int next = queue_.top(); queue_.time(next) <= end; next = queue_.top()) {
@@ -237,7 +237,7 @@ EndReason Simulation<Real>::run_until(const Instant<Real>& end, const std::atomi
 /// The next event, where `ball` is the first in the queue: the queued event of this ball, unless that is a
 /// contact and another one is simultaneous within rounding.
 template <class Real>
-auto Simulation<Real>::event_of(int ball) -> Event<Real> {
+auto Simulation<Real>::event_of(int ball) -> Event {
   auto event = queued_event(ball);
   const bool with_wall = event.kind == EventKind::wall_contact;
   if ((with_wall || event.is_pair()) && has_rivals(event)) event = settle_ties(event);
@@ -247,9 +247,9 @@ auto Simulation<Real>::event_of(int ball) -> Event<Real> {
 }
 
 template <class Real>
-auto Simulation<Real>::queued_event(int ball) const -> Event<Real> {
-  const Agenda<Real>& a = agendas_[ball];
-  const Instant<Real>& time = a.times[a.next];
+auto Simulation<Real>::queued_event(int ball) const -> Event {
+  const Agenda& a = agendas_[ball];
+  const Instant& time = a.times[a.next];
   if (a.next == crossing_entry) return {EventKind::cell_crossing, time, ball};
   if (a.next == wall_entry && !a.hits_wall()) return {EventKind::wall_horizon, time, ball};
   if (a.next == wall_entry) return {EventKind::wall_contact, time, ball, a.wall_id(), a.wall_is_tied()};
@@ -260,7 +260,7 @@ auto Simulation<Real>::queued_event(int ball) const -> Event<Real> {
 /// Queues the earliest entry of a ball's agenda.
 template <class Real>
 void Simulation<Real>::requeue(int ball) {
-  Agenda<Real>& a = agendas_[ball];
+  Agenda& a = agendas_[ball];
   a.next = static_cast<std::int8_t>(a.earliest());
   queue_.set(ball, a.times[a.next]);
 }
@@ -269,9 +269,9 @@ void Simulation<Real>::requeue(int ball) {
 template <class Real>
 void Simulation<Real>::drop_void_contact(int ball) {
   ++counts_.stale_events;
-  Agenda<Real>& a = agendas_[ball];
+  Agenda& a = agendas_[ball];
   a.drop_nearest();
-  if (a.pair_count == 0 && a.forgotten_from < Instant<Real>::never()) {
+  if (a.pair_count == 0 && a.forgotten_from < Instant::never()) {
     find_neighbours(ball, near_);
     a.drop_pairs();
     const auto state = candidates_.state(ball, now_);
@@ -296,27 +296,27 @@ void Simulation<Real>::cross_cell(int ball) {
 
 /// True if another event follows a contact so soon that it may be first, which is rare.
 template <class Real>
-bool Simulation<Real>::has_rivals(const Event<Real>& event) const {
-  const Instant<Real> limit = clock_.after(event.time, ladder_.tie_window());
-  const Agenda<Real>& a = agendas_[event.ball];
+bool Simulation<Real>::has_rivals(const Event& event) const {
+  const Instant limit = clock_.after(event.time, ladder_.tie_window());
+  const Agenda& a = agendas_[event.ball];
   int due = (a.times[wall_entry] <= limit) + (a.forgotten_from <= limit);
-  for (int k = 0; k < Agenda<Real>::capacity; ++k) due += a.times[first_pair + k] <= limit;
-  return due > 1 || queue_.runner_up(limit) >= 0;  // one is the event itself
+  for (int k = 0; k < Agenda::capacity; ++k) due += a.times[first_pair + k] <= limit;
+  return due > 1 || queue_.has_more_until(limit);  // one is the event itself
 }
 
 /// Finds the first of contacts that share a ball and are so close in time that rounding may have reversed
 /// them: wider scalars recompute their times. Those that no scalar separates are ordered by a rule and
 /// marked.
 template <class Real>
-auto Simulation<Real>::settle_ties(Event<Real> event) -> Event<Real> {
-  std::vector<Event<Real>> passed;  // contacts that come after another one
+auto Simulation<Real>::settle_ties(Event event) -> Event {
+  std::vector<Event> passed;  // contacts that come after another one
   for (;;) {
-    const Instant<Real> limit = clock_.after(event.time, ladder_.tie_window());
+    const Instant limit = clock_.after(event.time, ladder_.tie_window());
     finish_wall_searches(event, limit);
     find_rivals(event, limit);
-    std::optional<Event<Real>> first;
-    for (const Event<Real>& rival : rivals_) {
-      const auto same = [&](const Event<Real>& e) { return e.same_bodies(rival); };
+    std::optional<Event> first;
+    for (const Event& rival : rivals_) {
+      const auto same = [&](const Event& e) { return e.same_bodies(rival); };
       if (std::any_of(passed.begin(), passed.end(), same)) continue;
       const int order = ladder_.order(contact_of(event), contact_of(rival));
       event.by_rule |= order == 0;
@@ -333,11 +333,11 @@ auto Simulation<Real>::settle_ties(Event<Real> event) -> Event<Real> {
 
 /// Continues wall searches whose windows end before `limit`: a contact may follow immediately.
 template <class Real>
-void Simulation<Real>::finish_wall_searches(const Event<Real>& event, const Instant<Real>& limit) {
+void Simulation<Real>::finish_wall_searches(const Event& event, const Instant& limit) {
   const auto finish = [&](int ball) {
-    const Agenda<Real>& a = agendas_[ball];
+    const Agenda& a = agendas_[ball];
     while (!a.hits_wall() && a.times[wall_entry] <= limit)
-      continue_wall_search(ball, Instant<Real>(a.times[wall_entry]));
+      continue_wall_search(ball, Instant(a.times[wall_entry]));
   };
   finish(event.ball);
   if (event.is_pair()) finish(event.partner);
@@ -345,15 +345,15 @@ void Simulation<Real>::finish_wall_searches(const Event<Real>& event, const Inst
 
 /// Fills `rivals_` with the contacts up to `limit` that share a ball with the event.
 template <class Real>
-void Simulation<Real>::find_rivals(const Event<Real>& event, const Instant<Real>& limit) {
+void Simulation<Real>::find_rivals(const Event& event, const Instant& limit) {
   rivals_.clear();
   find_due(event, limit);
   for (const int ball : due_) {
-    const Agenda<Real>& a = agendas_[ball];
-    const auto add = [&](const Event<Real>& rival) {
+    const Agenda& a = agendas_[ball];
+    const auto add = [&](const Event& rival) {
       if (rival.shares_ball(event) && !rival.same_bodies(event)) rivals_.push_back(rival);
     };
-    const Instant<Real>& wall_time = a.times[wall_entry];
+    const Instant& wall_time = a.times[wall_entry];
     if (a.hits_wall() && wall_time <= limit)
       add({EventKind::wall_contact, wall_time, ball, a.wall_id(), a.wall_is_tied()});
     for (int entry = first_pair; entry < first_pair + a.pair_count; ++entry)
@@ -365,8 +365,7 @@ void Simulation<Real>::find_rivals(const Event<Real>& event, const Instant<Real>
 
 /// Fills `due_` with balls that have an event up to `limit`, among them all that may share one with `event`.
 template <class Real>
-void Simulation<Real>::find_due(const Event<Real>& event, const Instant<Real>& limit) {
-  if (!candidates_.uses_cells()) return queue_.due_until(limit, due_);
+void Simulation<Real>::find_due(const Event& event, const Instant& limit) {
   due_.clear();  // only balls nearby, however many others have events at the same time
   add_near(event.ball, due_);
   if (event.is_pair()) add_near(event.partner, due_);
@@ -375,21 +374,16 @@ void Simulation<Real>::find_due(const Event<Real>& event, const Instant<Real>& l
   std::erase_if(due_, [&](int ball) { return limit < queue_.time(ball); });
 }
 
-/// Adds the balls of the adjacent cells and the ball itself, or all where cells are not used.
+/// Adds the balls of the adjacent cells and the ball itself.
 template <class Real>
 void Simulation<Real>::add_near(int ball, std::vector<int>& balls) {
-  if (!candidates_.uses_cells()) {
-    for (int other = 0; other < ball_count(); ++other) balls.push_back(other);
-    return;
-  }
   candidates_.grid().neighbours(bodies_[ball].cell, near_due_);
   balls.insert(balls.end(), near_due_.balls.begin(), near_due_.balls.begin() + near_due_.count);
 }
 
 /// Adds the contacts that did not fit into the ball's agenda, by predicting them again.
 template <class Real>
-void Simulation<Real>::add_rivals_of_full_agenda(int ball, const Event<Real>& event,
-                                                 const Instant<Real>& limit) {
+void Simulation<Real>::add_rivals_of_full_agenda(int ball, const Event& event, const Instant& limit) {
   std::vector<int> others;
   if (event.involves(ball)) {
     add_near(ball, others);
@@ -400,7 +394,7 @@ void Simulation<Real>::add_rivals_of_full_agenda(int ball, const Event<Real>& ev
   }
   for (const int other : others) {
     if (other == ball) continue;
-    Event<Real> rival{EventKind::pair_contact, limit, ball, other};
+    Event rival{EventKind::pair_contact, limit, ball, other};
     if (rival.same_bodies(event)) continue;
     const auto contact = contact_of(rival);
     const auto& begin = contact.flight.start;
@@ -412,7 +406,7 @@ void Simulation<Real>::add_rivals_of_full_agenda(int ball, const Event<Real>& ev
 }
 
 template <class Real>
-dynamics::Contact<Real> Simulation<Real>::contact_of(const Event<Real>& event) const {
+auto Simulation<Real>::contact_of(const Event& event) const -> dynamics::Contact<Real> {
   const auto& flight = flights_[event.ball];
   if (event.kind == EventKind::wall_contact)
     return {.with_wall = true,
@@ -429,7 +423,7 @@ dynamics::Contact<Real> Simulation<Real>::contact_of(const Event<Real>& event) c
 
 /// Advances the balls of a contact to it and applies the impulse.
 template <class Real>
-Impact<Real> Simulation<Real>::collide(const Event<Real>& event) {
+auto Simulation<Real>::collide(const Event& event) -> Impact {
   if (event.by_rule) ++counts_.simultaneous_contacts;
   const bool with_wall = event.kind == EventKind::wall_contact;
   auto impact = with_wall ? collide_with_wall(event) : collide_pair(event);
@@ -456,21 +450,21 @@ void Simulation<Real>::update_pose() {
 
 /// The contact of a ball with a body: normal, overlap, and velocity of the body's surface.
 template <class Real>
-Impact<Real> Simulation<Real>::collide_with_wall(const Event<Real>& event) {
+auto Simulation<Real>::collide_with_wall(const Event& event) -> Impact {
   const int ball = event.ball, wall = event.partner;
   find_neighbours(ball, near_);
   auto& flight = flights_[ball];
   const Real flight_time = dynamics::fly_to(flight, mill_.gravity, clock_, now_);
   bool pose_is_known = false;
   if constexpr (!is_double) {  // a wide scalar has kept that of a predicted contact
-    const Agenda<Real>& a = agendas_[ball];
+    const Agenda& a = agendas_[ball];
     pose_is_known = a.wall_pose && a.times[wall_entry] == now_;
     if (pose_is_known) pose_ = *a.wall_pose;
   }
   if (!pose_is_known) update_pose();
   const Real radius = properties(ball).radius;
 
-  Impact<Real> impact{};
+  Impact impact{};
   const auto* body = mill_.body_of(wall);
   if (body) [[unlikely]] {
     const auto touch = model::touch_of(mill_, wall, radius, now_, flight.position);
@@ -504,11 +498,11 @@ Impact<Real> Simulation<Real>::collide_with_wall(const Event<Real>& event) {
 }
 
 template <class Real>
-Impact<Real> Simulation<Real>::collide_pair(const Event<Real>& event) {
+auto Simulation<Real>::collide_pair(const Event& event) -> Impact {
   const int ball = event.ball, partner = event.partner;
   find_neighbours(ball, near_);
   auto &one = flights_[ball], &two = flights_[partner];
-  Impact<Real> impact{};
+  Impact impact{};
   impact.flight_time[0] = dynamics::fly_to(one, mill_.gravity, clock_, now_);
   impact.flight_time[1] = dynamics::fly_to(two, mill_.gravity, clock_, now_);
   const Vec3<Real> between = one.position - two.position;
@@ -561,7 +555,7 @@ void Simulation<Real>::raise_top_speed(int ball) {
 /// Tests whether the impact is one of infinitely many in finite time, or of many at one time; then notifies
 /// all observers.
 template <class Real>
-void Simulation<Real>::notify(const Impact<Real>& impact) {
+void Simulation<Real>::notify(const Impact& impact) {
   if (may_collapse_) {
     note_collapse(impact, impact.ball, impact.partner);
     if (!impact.with_wall) note_collapse(impact, impact.partner, impact.ball);
@@ -574,7 +568,7 @@ void Simulation<Real>::notify(const Impact<Real>& impact) {
 }
 
 template <class Real>
-void Simulation<Real>::note_collapse(const Impact<Real>& impact, int ball, int partner) {
+void Simulation<Real>::note_collapse(const Impact& impact, int ball, int partner) {
   const bool with_wall = impact.with_wall;
   const int key = with_wall ? ball_count() + partner : partner;
   const auto& law = with_wall ? mill_.law_with_wall(properties(ball), partner)
@@ -592,7 +586,7 @@ void Simulation<Real>::note_collapse(const Impact<Real>& impact, int ball, int p
 
 /// Predicts the next events of the balls of an impact.
 template <class Real>
-void Simulation<Real>::predict(const Impact<Real>& impact) {
+void Simulation<Real>::predict(const Impact& impact) {
   if (impact.with_wall) return predict_all(impact.ball, -1, pose_, near_);
   // Wide scalars begin their wall searches in double.
   if constexpr (is_double) update_pose();
@@ -644,10 +638,10 @@ void Simulation<Real>::predict_pairs(int ball, int already_done, const DoubleSta
 /// Puts a contact into the ball's agenda.
 template <class Real>
 void Simulation<Real>::expect_pair(int ball, int other, const Real& delay) {
-  Agenda<Real>& a = agendas_[ball];
-  const Instant<Real> time = clock_.after(now_, delay);
+  Agenda& a = agendas_[ball];
+  const Instant time = clock_.after(now_, delay);
   if (time >= a.forgotten_from) return;
-  if (a.pair_count < Agenda<Real>::capacity) [[likely]] {
+  if (a.pair_count < Agenda::capacity) [[likely]] {
     a.put_pair(first_pair + a.pair_count++, time, other, agendas_.latest_impact());
     return;
   }
@@ -659,21 +653,21 @@ void Simulation<Real>::expect_pair(int ball, int other, const Real& delay) {
 template <class Real>
 void Simulation<Real>::predict_crossing(int ball, const DoubleState& state) {
   if (!candidates_.uses_cells()) return;
-  Agenda<Real>& a = agendas_[ball];
+  Agenda& a = agendas_[ball];
   const auto& gravity = candidates_.filter().gravity;
   const auto velocity = dynamics::velocity_after(candidates_.flights()[ball], gravity, state.age);
   const auto crossing = candidates_.grid().crossing(bodies_[ball].cell, state.position, velocity, gravity);
   a.crossing_face = static_cast<std::int8_t>(2 * crossing.axis + (crossing.step > 0));
   const bool leaves = crossing.delay < Crossing::never;
-  a.times[crossing_entry] = leaves ? clock_.after(now_, Real(crossing.delay)) : Instant<Real>::never();
+  a.times[crossing_entry] = leaves ? clock_.after(now_, Real(crossing.delay)) : Instant::never();
 }
 
 /// Length of the window for a wall search from `begin` [s]: up to a little after the ball's nearest pair
 /// contact, so that every wall contact that may come first is found.
 template <class Real>
-Real Simulation<Real>::search_length(int ball, const Instant<Real>& begin) const {
+Real Simulation<Real>::search_length(int ball, const Instant& begin) const {
   const Real& longest = ladder_.walls().longest_window();
-  const Agenda<Real>& a = agendas_[ball];
+  const Agenda& a = agendas_[ball];
   if (a.pair_count == 0) return longest;
   const Real until_pair = clock_.elapsed(begin, a.times[a.nearest()]) + 2 * ladder_.tie_window();
   return std::min(longest, std::max(Real(longest / 4096), until_pair));
@@ -697,7 +691,7 @@ void Simulation<Real>::predict_wall(int ball, const model::AnyPose<Real>& pose) 
 }
 
 template <class Real>
-void Simulation<Real>::continue_wall_search(int ball, const Instant<Real>& begin) {
+void Simulation<Real>::continue_wall_search(int ball, const Instant& begin) {
   ++counts_.wall_searches;
   const Real length = search_length(ball, begin), &radius = properties(ball).radius;
   take_wall_answer(ball, ladder_.wall({flights_[ball], radius, begin, length}), begin);
@@ -706,10 +700,10 @@ void Simulation<Real>::continue_wall_search(int ball, const Instant<Real>& begin
 
 template <class Real>
 void Simulation<Real>::take_wall_answer(int ball, const dynamics::WallAnswer<Real>& answer,
-                                        const Instant<Real>& begin) {
-  Agenda<Real>& a = agendas_[ball];
+                                        const Instant& begin) {
+  Agenda& a = agendas_[ball];
   if (answer.verdict == dynamics::Verdict::contact) {
-    a.wall = static_cast<std::int8_t>(answer.wall + (answer.by_rule ? Agenda<Real>::tied : 0));
+    a.wall = static_cast<std::int8_t>(answer.wall + (answer.by_rule ? Agenda::tied : 0));
     a.times[wall_entry] = answer.time;
     a.wall_pose = answer.pose;
   } else {

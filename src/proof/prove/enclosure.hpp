@@ -4,6 +4,7 @@
 #include <arb.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -27,7 +28,7 @@ class Precision {
   static slong bits() { return current; }
 
  private:
-  static thread_local slong current;
+  static inline thread_local slong current = 64;
   slong before_;
 };
 
@@ -137,6 +138,18 @@ inline Enclosure rounded(const Enclosure& value, slong bits) {
 
 /// A slightly wider enclosure with few digits: the midpoint keeps 20 bits beyond the radius (`bits` bits if
 /// the value is exact); the radius grows by 2^-20 and is rounded up to ten bits.
-Enclosure rounded_out(const Enclosure& value, slong bits);
+inline Enclosure rounded_out(const Enclosure& value, slong bits) {
+  if (arb_is_exact(value.arb()) && arb_bits(value.arb()) <= bits) return value;
+  Enclosure result = rounded(
+      value, arb_is_exact(value.arb()) ? bits : std::max<slong>(arb_rel_accuracy_bits(value.arb()) + 22, 22));
+  const auto radius = result.radius();
+  Enclosure more;
+  arb_mul_2exp_si(more.arb(), radius.arb(), -20);
+  arb_add(more.arb(), more.arb(), radius.arb(), ARF_PREC_EXACT);
+  const auto size = arb_midref(more.arb());
+  arf_set_round(size, size, 10, ARF_RND_UP);
+  arf_get_mag_lower(arb_radref(result.arb()), size);  // exact: a radius has 30 bits
+  return result;
+}
 
 }  // namespace edmill::prove

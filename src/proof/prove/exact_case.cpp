@@ -1,5 +1,7 @@
 #include "prove/exact_case.hpp"
 
+#include <flint/fmpq.h>
+
 #include <filesystem>
 #include <optional>
 
@@ -9,6 +11,7 @@
 #include "base/wide_trigonometry.hpp"
 #include "casefile/build_case.hpp"
 #include "casefile/rational.hpp"
+#include "prove/enclosure.hpp"
 
 namespace edmill::prove {
 
@@ -189,6 +192,21 @@ ExactCase exact_case(const CaseSpec& spec) {
   }
   add_batches(spec, vessel.half, materials, result);
   fill_laws(spec, materials, result);
+  return result;
+}
+
+Enclosure enclosure_of(const casefile::Quantity& quantity) {
+  Enclosure result;
+  fmpq_t ratio;
+  fmpq_init(ratio);
+  fmpq_set_str(ratio, casefile::rational(quantity).str().c_str(), 10);
+  arb_set_fmpq(result.arb(), ratio, Precision::bits());
+  fmpq_clear(ratio);
+  if (quantity.pi_power == 0) return result;
+  Enclosure pi;
+  arb_const_pi(pi.arb(), Precision::bits());
+  for (int k = 0; k < quantity.pi_power; ++k) result *= pi;
+  for (int k = 0; k > quantity.pi_power; --k) result /= pi;
   return result;
 }
 
