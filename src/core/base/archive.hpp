@@ -31,9 +31,9 @@ T in_file_order(T value) {
   return value;
 }
 
-/// Saves or loads the values it is called with. A class takes part by a list of its members,
-/// `void archive(Archive& a) { a(x_, y_); }`, a scalar by `archive_value` (base/scalar_list.hpp). Every
-/// bit is preserved; the bytes are the same on every machine, but only the build that saved can load them.
+/// Saves or loads the values it is called with. A class lists its members, `void archive(Archive& a) {
+/// a(x_, y_); }`, a scalar has `archive_value` (base/scalar_list.hpp). Every bit is preserved; the bytes
+/// are the same on every machine, but only the build that saved can load them.
 class Archive {
  public:
   Archive() : loading_(false) {}
@@ -83,7 +83,7 @@ inline void archive_value(Archive& a, std::string& text) {
   a.raw(text.data(), text.size());
 }
 /// A vector that is not empty before loading was sized by the case and keeps its length. An empty one
-/// grows with the elements read, so that a wrong number cannot allocate more than the bytes account for.
+/// grows with what is read, so that a wrong number cannot allocate more memory.
 template <class T, class Allocator>
 void archive_value(Archive& a, std::vector<T, Allocator>& values) {
   const std::size_t size = a.count(values.size());

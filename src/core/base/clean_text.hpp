@@ -1,4 +1,4 @@
-// Cleans texts of any bytes for formats that restrict characters; formats shares, counts, intervals.
+// Cleans texts of any bytes for formats that restrict characters; formats shares and intervals.
 #pragma once
 
 #include <cstdint>

@@ -24,9 +24,8 @@ struct CurveBounds {
 };
 
 /// Bernstein coefficients b_1..b_4 of a quartic lower bound of f on [left, right]; b_0 is the left value.
-/// The cubic Hermite interpolant errs by f''''(xi)/24 tau^2 (s-tau)^2. Raised to degree four, that error
-/// lowers the middle coefficient alone, by sup|f''''| s^4 / 144. Where all coefficients are positive so is f:
-/// a Bernstein polynomial lies in the hull of its coefficients. (theory.md, section 3)
+/// The cubic Hermite interpolant errs by f''''(xi)/24 tau^2 (s-tau)^2: in degree four this lowers the
+/// middle coefficient alone, by sup|f''''| s^4 / 144. f lies above the least coefficient (theory.md, 3).
 template <class Real>
 struct QuarticLowerBound {
   Real b1, b2, b3, b4;
@@ -66,14 +65,14 @@ bool can_depart(const Point<Real>& left, const CurveBounds<Real>& bounds) {
          left.slope * left.slope > 16 * (bounds.second * bounds.value_error);
 }
 
-/// Proven: f, zero within rounding and rising at the left end, does not fall below zero on (left, right]: it
-/// rises at first and is positive then. @pre |left.value| <= value_error and can_depart(left, bounds)
+/// Proven: f, zero within rounding and rising at the left end, falls not below zero: it rises at first
+/// and is positive then. @pre |left.value| <= value_error and can_depart(left, bounds)
 template <class Real>
 bool proven_departure(const Point<Real>& left, const Point<Real>& right, const CurveBounds<Real>& bounds) {
   const QuarticLowerBound<Real> quartic(left, right, bounds);
   const Real least = quartic.least() - quartic.slack - 2 * bounds.value_error;
   const Real s = right.t - left.t;
-  // f' > 0 up to the fraction x = f0' / (2 sup|f''| s); then the quartic is >= least x - value_error.
+  // f' > 0 up to the fraction x = f0' / (2 sup|f''| s); then the quartic >= least x - value_error.
   return least > 0 && least * left.slope > 8 * (bounds.value_error * bounds.second) * s;
 }
 
@@ -93,9 +92,9 @@ bool proven_increasing(const Point<Real>& left, const Point<Real>& right, const 
   return least - bounds.third * (s * s) / 8 - bounds.slope_error * 2 > 0;
 }
 
-/// Estimates the last root of the cubic Hermite interpolant, as a fraction of [left, right]; outside (0, 1)
-/// if there is none. A hint, which decides nothing, so that double suffices for every scalar.
-/// @param precision  Newton's iteration for the cubic ends after a step below this fraction of the root
+/// Estimates the last root of the cubic Hermite interpolant, as a fraction of [left, right]; outside
+/// (0, 1) if there is none. A hint, which decides nothing: double suffices for every scalar.
+/// @param precision  Newton's iteration ends after a step below this fraction of the root
 /// @pre right.value < 0
 template <class Real>
 double last_root_hint(const Point<Real>& left, const Point<Real>& right, double precision = 1.0 / 64) {

@@ -1,4 +1,4 @@
-// Simulated time as whole drive periods and a remainder: late instants are as precise as early ones.
+// Simulated time as whole drive periods and a remainder, so that late instants are not less precise.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace edmill {
 
-/// An instant: `period` whole drive periods and `offset` [s], from 0 to below the length of a period.
+/// An instant: `period` whole drive periods and `offset` [s], which is less than another one.
 template <class Real>
 struct Instant {
   std::int64_t period = 0;

@@ -17,8 +17,7 @@ inline void fetch(const void* address) {
 
 inline constexpr std::size_t large_page = std::size_t{1} << 21;  ///< [bytes]
 
-/// @return at least `size` bytes, aligned to a large page, to be freed by std::free
-/// @throws std::bad_alloc
+/// @return at least `size` bytes, aligned to a large page, for std::free. @throws std::bad_alloc
 void* allocate_pages(std::size_t size);
 
 /// Puts large arrays into large pages, where the system has them: an event among many balls accesses dozens

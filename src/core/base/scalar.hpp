@@ -1,4 +1,4 @@
-// What the core requires of a scalar type. The scalars themselves are listed in base/scalar_list.hpp.
+// What the core requires of a scalar type; base/scalar_list.hpp lists the scalars themselves.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@ struct ScalarName;
 inline constexpr unsigned fewest_digits = 20, most_digits = 1'000'000;
 /// Numbers of digits that have a short name: "mpfr50" for "mpfr:50".
 inline constexpr unsigned named_digits[] = {50, 100, 200};
-/// The digits in a scalar's name: 3000 for "mpfr:3000", 50 for "mpfr50"; 0 for others or out of range.
+/// The digits in a scalar's name: 3000 for "mpfr:3000", 50 for "mpfr50"; 0 for all other names.
 inline unsigned chosen_digits_of(std::string_view name) {
   for (const unsigned digits : named_digits)
     if (name == "mpfr" + std::to_string(digits)) return digits;
@@ -104,8 +104,7 @@ struct ChosenDigits {
   Scope use() const { return {}; }
 };
 
-/// A scope in which sums of this number with narrower ones lose no digits, even if the thread has chosen
-/// fewer digits since.
+/// A scope where sums of x with narrower numbers lose no digits, whatever the thread's precision.
 template <class Real>
 typename ChosenDigits<Real>::Scope with_all_digits_of(const Real&) {
   return {};

@@ -132,9 +132,8 @@ Estimate estimate(const std::vector<double>& values) {
 
 namespace {
 
-/// Cosine transforms of a series at 1/2, 1, 3/2 ... cycles, each with the variance of a single value if the
-/// values are independent. Twelve of them account for correlation over a twentieth of the series; a short
-/// series gets fewer.
+/// Cosine transforms of a series at 1/2, 1, 3/2 ... cycles, each with the variance of a single value if
+/// these are independent. Twelve cover correlation over a twentieth of the series; a short one has fewer.
 std::vector<double> cosines_of(const std::vector<double>& values) {
   const auto deviations = deviations_of(values);
   const double n = count_of(values);

@@ -53,13 +53,12 @@ struct SteadyState {
 };
 /// Estimate of a mean from runs that differ in their seeds only.
 struct OfSeeds : Estimate {
-  /// In ascending order, if the runs differ by more than their own intervals allow; otherwise empty.
+  /// Ascending, if the runs differ by more than their own intervals allow; otherwise empty.
   std::vector<SteadyState> states = {};
 };
-/// Mean of several runs with an interval from the pooled variance within and between the runs. If the
-/// variance between them is larger (F test, 1 %) and the runs fall into groups with separate intervals, the
-/// groups are reported as steady states.
-/// @param half_widths  of the runs' 95 % intervals; if empty, only the scatter of the means is used
+/// Mean of several runs with an interval from the pooled variance within and between the runs. If that
+/// between them is larger (F test, 1 %) and the runs form groups with separate intervals, these are the
+/// steady states. @param half_widths  of the runs' 95 % intervals; if empty, only the means are used
 OfSeeds pooled(const std::vector<double>& means, const std::vector<double>& half_widths);
 
 /// Whether the means of series differ by more than their scatter allows (analysis of variance, with this
@@ -121,7 +120,7 @@ class WeightedQuantiles {
   std::vector<double> weights_;  ///< of each bin, up to the last one that is not zero
 };
 
-/// Whether the means of two samples differ (Welch's test, two-sided); never for fewer than two values.
+/// Whether the means of two samples differ (Welch's test, two-sided); never if one has a single value.
 bool differ(const std::vector<double>& a, const std::vector<double>& b, double significance);
 
 /// p-value of a paired t test: the probability of a mean of `differences` at least this far from 0 if 0 is

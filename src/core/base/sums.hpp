@@ -26,8 +26,8 @@ class CompensatedSum {
   Real sum_{0}, lost_{0};
 };
 
-/// Totals at the ends of batches of whole drive periods, which cover all phases of the drive. Too many are
-/// merged in pairs: after its first 64 periods, a run of any length has 64 to 127 complete batches.
+/// Totals at the ends of batches of whole drive periods, which cover all phases of the drive. Batches
+/// are merged in pairs so that from 64 periods on there are 64 to 127 complete ones.
 template <class Real>
 class Batches {
  public:

@@ -91,7 +91,7 @@ template <>
   return detail::quarter_turned(detail::sin_cos_kernel(6.283185307179586 * rest), quarters);
 }
 
-// Updates of sine and cosine for a small increment of the angle: sines of wide scalars are expensive.
+// Updates of sine and cosine for a small increment, for sines of wide scalars are expensive.
 
 /// Largest increment [rad] for which the rounding of the cubic term in double, d^3 2^-53 / 6, and the
 /// quintic term, d^5 / 120, are below the rounding of 1 in a scalar of so many binary digits.

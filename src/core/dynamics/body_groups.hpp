@@ -20,9 +20,8 @@ class BodyGroups {
   BodyGroups() = default;
   explicit BodyGroups(const std::vector<model::Body<double>>& bodies);
 
-  /// For how long a ball cannot reach each body, however it flies, by body [s]; negative where it is near.
-  /// @param position  of its centre at `when`, inertial
-  /// @param speed     its largest [m/s]
+  /// For how long a ball cannot reach each body, whatever its path [s]; negative where it is near.
+  /// @param position, speed  of its centre at `when`, inertial; its largest [m/s]
   Times clear_times(const Instant<double>& when, const Vec3<double>& position, double radius,
                     double speed) const;
 

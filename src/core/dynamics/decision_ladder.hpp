@@ -1,4 +1,4 @@
-// Escalation: a decision that a scalar cannot make is left to the next wider one, for the state as stored.
+// Escalation: a decision that a scalar cannot make is left to the next wider one, for the same state.
 #pragma once
 
 #include <memory>
@@ -32,8 +32,7 @@ class DecisionLadder {
   DecisionLadder(DecisionLadder&&) noexcept;
 
   /// Certified answer to a wall query; `pose` is the vessel's at the begin of the window.
-  /// @throws UndecidedError only for a defect of the search, since the widest scalar decides every query; the
-  /// message contains the state that reproduces it
+  /// @throws UndecidedError, with the state, only for a defect: the widest scalar decides every query
   WallAnswer<Real> wall(const model::AnyPose<Real>& pose, const WallQuery<Real>& query) {
     const auto answer = walls_.search(pose, query);
     return is_settled(answer) ? answer : wall_above(query);

@@ -134,8 +134,7 @@ Shape<Real> shape_of(const V& vessel, int id) {
   }
 }
 
-/// A vessel coordinate that equals an inertial one up to its sign and a constant: the acceleration of a ball
-/// in flight along it is constant.
+/// A vessel coordinate that equals an inertial one up to sign and a constant: balls accelerate evenly.
 struct StillCoordinate {
   int axis, sign;
   Dyadic offset;  ///< coordinate in the vessel = sign * coordinate in the ground - offset [m]
@@ -199,7 +198,7 @@ std::optional<ExactGap> exact_gap(const model::Joints<Real>& joints, const Shape
 
 }  // namespace detail
 
-/// The gap to a wall of a mill from the begin of the window on [m]; empty if it is not such a polynomial.
+/// The gap to a wall of a mill from the begin of the window on [m]; empty if it is no polynomial.
 template <class Real>
 std::optional<ExactGap> exact_gap(const auto& mill, const WallQuery<Real>& query, int wall) {
   if (wall >= mill.vessel.wall_count()) return std::nullopt;  // a body

@@ -1,5 +1,5 @@
-// Gaps of a ball in flight to the moving walls, their rates and rounding errors, and bounds on their
-// derivatives, which exclude contacts. (2.17'), (2.19'), (2.21'), (2.22') and section 3 of docs/theory.md
+// Gaps of a ball in flight to moving walls, their rates, rounding errors, and bounds on derivatives,
+// which exclude contacts. (2.17'), (2.19'), (2.21'), (2.22') and section 3 of docs/theory.md
 #pragma once
 
 #include <array>
@@ -187,8 +187,7 @@ class GapFunctions {
     return sample;
   }
 
-  /// Rounding bounds for every sample up to `elapsed` [s] after the start of the flight with inertial speeds
-  /// up to `speed` [m/s].
+  /// Rounding bounds for samples up to `elapsed` [s] after the start of a flight at up to `speed` [m/s].
   /// @param walls  those whose bounds are needed; the other bounds are unspecified
   Errors errors(const Real& elapsed, const Real& speed, const Walls& walls) const {
     const Real u = epsilon<Real>() / 2;
@@ -199,7 +198,7 @@ class GapFunctions {
     return errors(elapsed, speed, model::per_wall(mill_.vessel, true));
   }
 
-  /// Additional errors from rounding a wider flight, radius and mill to this scalar, but not the offset.
+  /// Further errors from rounding a wider flight, radius and mill, but not the offset, to this scalar.
   Errors state_errors(const Real& elapsed, const Real& speed) const {
     const Real u = epsilon<Real>() / 2;
     const auto flight = bounds(elapsed, speed);
@@ -226,8 +225,7 @@ class GapFunctions {
   }
 
   /// Converts bounds on a coordinate in the vessel frame to bounds for each wall. A sample is inside the
-  /// vessel, or outside by at most the distance that a flight covers when it is searched beyond its contact,
-  /// for an eighth of a period at most.
+  /// vessel, or outside as far as a flight goes in an eighth of a period: searches end there.
   Errors spread(const Real& u, const model::ErrorBounds<Real>& coordinate,
                 const model::FlightBounds<Real>& flight, const Walls& walls) const {
     const auto none = model::per_wall(mill_.vessel, Real(0));
@@ -267,8 +265,7 @@ class GapFunctions {
 template <class V>
 using DerivativeBounds = typename V::template PerKind<std::array<typename V::Scalar, 3>>;
 
-/// Bounds for a ball of any size whose speed stays below `speed` [m/s] over a window of `length` [s] that it
-/// enters inside the vessel.
+/// Bounds for a ball with at most `speed` [m/s] in a window of `length` [s], inside when it begins.
 template <class M, class V, class Real = typename M::Scalar>
 DerivativeBounds<V> derivative_bounds(const MovingVessel<M, V>& mill, const Real& speed, const Real& length) {
   Real reach = mill.vessel_reach;

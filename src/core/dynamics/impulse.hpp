@@ -31,7 +31,7 @@ struct ImpactOutcome {
     const Real &before = approach_speed, &after = separation_speed;
     return before > 0 ? Real(normal_impulse / (before + after) * (before * before) / 2) : Real(0);
   }
-  /// Effective e_n = separation over approach speed; above 1 where energy is supplied, 1 without approach.
+  /// Effective e_n = separation over approach speed; above 1 with supplied energy, 1 without approach.
   Real restitution_normal() const {
     return approach_speed > 0 ? Real(separation_speed / approach_speed) : Real(1);
   }
@@ -98,8 +98,7 @@ ImpulseParts<Real> impulse_parts(const Vec3<Real>& normal, const Vec3<Real>& con
 
 }  // namespace detail
 
-/// Impact of two balls. (2.28'), (2.30')
-/// @param normal    contact normal, unit, from ball j to ball i
+/// Impact of two balls. (2.28'), (2.30') @param normal  contact normal, unit, from ball j to ball i
 /// @param in_stall  the impact is frictionless (theory.md, section 6)
 template <class Real>
 ImpactOutcome<Real> collide_balls(const Vec3<Real>& normal, const model::BallProperties<Real>& ball_i,
@@ -120,7 +119,7 @@ ImpactOutcome<Real> collide_balls(const Vec3<Real>& normal, const model::BallPro
   return parts.outcome;
 }
 
-/// Impact of a ball with a wall that moves with `wall_velocity` at the contact. (2.34'), (2.35), (2.36')
+/// Impact of a ball with a wall that moves with `wall_velocity` there. (2.34'), (2.35), (2.36')
 /// @param normal  unit, from the wall to the ball
 template <class Real>
 ImpactOutcome<Real> collide_with_wall(const Vec3<Real>& normal, const model::BallProperties<Real>& ball,

@@ -13,7 +13,7 @@ struct PairAnswer {
   Real time_error{0};  ///< of a contact: bound on the rounding error of the delay [s]
 };
 
-/// Constants, valid for a whole run, of the filter that proves for nearly all pairs that they never meet.
+/// Constants, for a whole run, of the filter that proves that nearly all pairs never meet.
 template <class Real>
 struct PairFilter {
   Vec3<Real> gravity;
@@ -32,7 +32,7 @@ struct PairFilter {
 };
 
 /// First contact of two balls in flight. Both have the same acceleration, so their relative motion is
-/// uniform: with r = r_i - r_j, v = v_i - v_j, b = r.v < 0, c = r.r - R^2, dt = c / (-b + sqrt(b^2 - v.v c)).
+/// uniform: r = r_i - r_j, v = v_i - v_j, b = r.v < 0, c = r.r - R^2, dt = c / (-b + sqrt(b^2 - v.v c)).
 /// (3.1) Balls that overlap by rounding collide at once if they approach and never if they separate.
 template <class Real>
 class PairSearch {
@@ -56,7 +56,7 @@ class PairSearch {
   }
 
   const Real& top_speed() const { return top_speed_; }
-  /// Contacts farther apart in time than this [s] occur as predicted: errors of times are below a quarter.
+  /// Contacts farther apart in time than this [s] occur as predicted: errors are below its quarter.
   const Real& tie_window() const { return tie_window_; }
   const DriveClock<Real>& clock() const { return clock_; }
 
@@ -98,7 +98,7 @@ class PairSearch {
     return {position_after(flight, gravity_, age), flight.velocity, age};
   }
 
-  /// The filter: false if the two balls provably never meet, as nearly all pairs. It contains no branch.
+  /// The filter: false if the two balls provably never meet, as nearly all pairs. It has no branch.
   bool may_meet(const State& i, const Flight<Real>& j, const Instant<Real>& now,
                 const Real& radius_sum) const {
     const Relative s = relative(i, j, now, radius_sum);
@@ -158,15 +158,14 @@ class PairSearch {
     return 4 * u * speed + (s.dt == 0 ? Real(0) : Real(12 * u * gravity_size_ * (age + clock_.period())));
   }
 
-  /// Twice a bound on the rounding error of (r.r - R^2)/2 at the computed time: the path is displaced by
-  /// `displaced`, and the sums of (3.1) are rounded. theory.md, section 4
-  /// @param b_delay  |r.v| times the delay
+  /// Twice a bound on the rounding of (r.r - R^2)/2 at the computed time: the path is displaced, and the
+  /// sums of (3.1) are rounded. theory.md, section 4. @param b_delay  |r.v| times the delay
   static Real contact_error(const Real& r2, const Real& radius_sum, const Real& displaced,
                             const Real& b_delay) {
     const Real u = epsilon<Real>() / 2;
     return 2 * radius_sum * displaced + 16 * u * (r2 + radius_sum * radius_sum + b_delay);
   }
-  /// Bound on the error of a delay [s]: `contact_error` over its rate, the root of the discriminant.
+  /// Bound on the error of a delay [s]: `contact_error` over its rate, the discriminant's root.
   Real time_error(const Relative& s, const Real& delay, const Real& root, const Real& radius_sum,
                   const Real& age) const {
     using std::sqrt;

@@ -25,9 +25,9 @@ struct NoSearch {
   explicit NoSearch(const auto&...) {}
 };
 
-/// Finds the first time in the window at which a gap is zero or negative and decreasing, for the flight as
-/// stored. A ball that starts within rounding of a wall and leaves it is not in contact until it returns; one
-/// that overlaps by rounding at the start and approaches is in contact at once. Equations: theory.md
+/// Finds the first time in the window at which a gap is zero or negative and decreasing, for the flight
+/// as stored. A ball that starts within rounding of a wall and leaves it is not in contact until it
+/// returns; one that overlaps by rounding and approaches is in contact at once. Equations: theory.md
 /// (2.17')-(2.22'); source: Barahona 2011, (2.17)-(2.22), corrected.
 template <Motion M, Vessel V>
 class WallSearch {
@@ -46,8 +46,7 @@ class WallSearch {
 
   const Real& longest_window() const { return bounds_.longest_window(); }
 
-  /// The answer to a query. In a wide scalar, double first decides what it can prove for the wide flight,
-  /// too.
+  /// The answer to a query. In a wide scalar, double first decides what it can prove for its flight.
   /// @pre the ball is inside the vessel at `begin`, up to rounding
   Answer operator()(const Query& query) const {
     if constexpr (is_wide) {
@@ -57,8 +56,8 @@ class WallSearch {
     return search(query);
   }
 
-  /// For each wall, whether a ball at `position` in the vessel can reach it in a window of `length` [s] with
-  /// a speed below `speed` [m/s]. False is a proof, which needs no rates or curvatures. theory.md, section 3
+  /// For each wall, whether a ball at `position` in the vessel can reach it in a window of `length` [s] at
+  /// up to `speed` [m/s]. False is a proof, without rates or curvatures. theory.md, section 3
   Walls within_reach(const Functions& functions, const Vec3<Real>& position, const Real& speed,
                      const Real& length) const;
 
@@ -161,7 +160,7 @@ class WallSearch {
       return high - low <= resolution() * 7 / 8 || middle <= low || middle >= high;
     };
   }
-  /// Time resolution of a root [s], far above the rounding of a gap over its slope: toms748 follows no noise.
+  /// Time resolution of a root [s], far above the rounding of a gap over its slope, for toms748.
   Real resolution() const { return 8 * epsilon<Real>() * mill_.clock.period(); }
 
   MovingVessel<M, V> mill_;
@@ -177,8 +176,8 @@ template <class Real>
 using BodySearch = WallSearch<model::ChainMotion<Real>, model::RoundedBody<Real>>;
 
 /// The wall search of a run, whose motion and vessel are known only when the case is read. In double,
-/// cylinders on a SPEX and on a chain have searches with everything inlined. All others use a general one
-/// that selects the types of motion and vessel at every step. All give the same bits.
+/// cylinders on a SPEX and on a chain have searches with everything inlined. A general one, with the
+/// same bits, selects the types of motion and vessel at every step.
 template <class Real>
 class AnyWallSearch {
  public:

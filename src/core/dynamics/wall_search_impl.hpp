@@ -104,7 +104,7 @@ auto WallSearch<M, V>::search(const Pose& pose, const Query& query) const -> Ans
                               smooth(query, functions, ball.state.position, speed), nullptr);
 }
 
-/// Removes the walls that the state at the start proves not to be hit within `length`, which are most.
+/// Removes the walls, most of them, that the start proves not to be hit within `length`.
 /// @return true if any wall is left; `length` is then shortened to the window that must be searched
 template <Motion M, Vessel V>
 bool WallSearch<M, V>::drop_clear(const auto& curve_of, Walls& reachable, Real& length,
@@ -201,9 +201,9 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
   return answer;
 }
 
-/// Samples the gaps at the end of a window. A gap that is zero within rounding there would leave the window
-/// undecided in every scalar: the end is moved towards `from`. A gap that is zero at two successive ends
-/// stays zero for long, so that a shorter window does not help.
+/// Samples the gaps at the end of a window. One that is zero within rounding there would leave the
+/// window undecided in every scalar: the end is moved towards `from`. One that is zero at two successive
+/// ends stays zero for long, so that a shorter window does not help.
 template <Motion M, Vessel V>
 auto WallSearch<M, V>::sample_of_end(const Functions& functions, const Walls& reachable, const Errors& errors,
                                      const Real& from, Real& end) const -> Sample {
@@ -249,7 +249,7 @@ auto WallSearch<M, V>::isolate_from_start(const Curve& curve, const Point& right
 }
 
 /// A rising gap keeps rising while its second derivative is positive, so that one long step suffices at
-/// first, also from an overlap. Where the third derivative is zero, it covers the window.
+/// first, also from an overlap; where the third derivative is zero, for the whole window.
 template <Motion M, Vessel V>
 auto WallSearch<M, V>::isolate_rising(const Curve& curve, const Point& right) const -> Bracket {
   const Bounds& b = curve.bounds;
@@ -369,10 +369,9 @@ auto WallSearch<M, V>::isolate_touching(const Curve& curve, const Point& left, P
   return {Verdict::contact, left, right};
 }
 
-/// The gap is zero within rounding at the start and neither falls nor rises: the second derivative decides. A
-/// ball that is pressed against the wall is in contact at once. For one that accelerates away it is unknown
-/// whether it approaches at first; the widest scalar treats values within rounding as zero, so that the ball
-/// leaves.
+/// The gap is zero within rounding at the start and neither falls nor rises: the second derivative
+/// decides. A ball pressed against the wall is in contact at once. One that accelerates away may
+/// approach at first; for the widest scalar values within rounding are zero, so that it leaves.
 template <Motion M, Vessel V>
 auto WallSearch<M, V>::isolate_resting(const Curve& curve, const Point& right) const -> Bracket {
   using std::sqrt;
@@ -392,9 +391,8 @@ auto WallSearch<M, V>::isolate_resting(const Curve& curve, const Point& right) c
   return isolate_rising(curve, right);
 }
 
-/// Follows a ball that certainly overlaps the wall at the start, by rounding, and moves away. Either the gap
-/// opens, and the search continues from outside, or the ball turns back before: the contact is where it
-/// begins to approach.
+/// Follows a ball that certainly overlaps the wall at the start, by rounding, and moves away. Either the
+/// gap opens, and the search goes on from outside, or the ball turns back: the contact is there.
 template <Motion M, Vessel V>
 auto WallSearch<M, V>::follow_overlap(const Curve& curve, const Point& start, const Point& right) const
     -> Bracket {
@@ -473,7 +471,7 @@ auto WallSearch<M, V>::polish(const Curve& curve, const Bracket& bracket) const 
   return Root{root.first, time_error_at(end.slope)};
 }
 
-/// Sets the digits, where a scalar has many, for a step of Newton's iteration from a root in double.
+/// Sets the digits, where a scalar has many, for a step of Newton's iteration from a double root.
 template <class Real>
 auto digits_of_step(int step) {
   ChosenDigits<Real> digits;
@@ -595,8 +593,8 @@ RoughAnswer WallSearch<M, V>::rough(const Query& query) const {
   }
 }
 
-/// Evaluates the wide gap at the root found in double. Its error is of the order of double's rounding, so
-/// that one step of Newton's iteration with the curvature in double yields nearly three times the digits. The
+/// Evaluates the wide gap at the root found in double, whose error is of the order of double's rounding:
+/// one step of Newton's iteration with the curvature in double yields nearly three times the digits. The
 /// result is the root in the bracket, because the gap falls throughout it.
 template <Motion M, Vessel V>
 auto WallSearch<M, V>::search_by_double(const Query& query) const -> Answer {
@@ -640,8 +638,8 @@ auto WallSearch<M, V>::search_by_double(const Query& query) const -> Answer {
 
 // Decisions that bounds cannot make: by exact arithmetic or by a rule.
 
-/// Finds the first contact with one wall up to `end` if the bounds do not decide, or, in the widest scalar,
-/// if the ball touches: in exact arithmetic where it applies, otherwise, in the widest scalar, by a rule.
+/// Finds the first contact with one wall up to `end` where the bounds do not decide, or, in the widest
+/// scalar, the ball touches: exactly where possible, otherwise, in the widest scalar, by a rule.
 /// @param found  result by bounds
 template <Motion M, Vessel V>
 auto WallSearch<M, V>::isolate_further(const Curve& curve, const Point& right, const Query& query,
@@ -674,10 +672,10 @@ std::optional<bool> WallSearch<M, V>::comes_first(const Query& query, int wall, 
   return order && *order < 0;
 }
 
-/// For gaps that neither the widest scalar nor, since they are no polynomials, exact arithmetic decides: they
-/// are zero within rounding, or change too slowly to be excluded. The rule is that a gap which does not
-/// measurably fall does not fall. It is evaluated at times after the start that grow by factors of 16; if it
-/// falls before it has opened, the contact is at the evaluation before.
+/// For gaps that neither the widest scalar nor, since they are no polynomials, exact arithmetic decides:
+/// they are zero within rounding, or change too slowly. By the rule a gap which does not measurably fall
+/// does not fall. It is evaluated at times after the start that grow by factors of 16; if it falls
+/// before it has opened, the contact is at the evaluation before.
 template <Motion M, Vessel V>
 auto WallSearch<M, V>::isolate_by_rule(const Curve& curve, const Point& right) const -> Bracket {
   const Bounds& b = curve.bounds;

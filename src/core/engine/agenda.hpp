@@ -16,9 +16,9 @@ namespace edmill::engine {
 /// Entries of an agenda: the wall, the next cell, and the pair contacts from here on.
 inline constexpr int wall_entry = 0, crossing_entry = 1, first_pair = 2;
 
-/// The predicted events of one ball. The pair contacts are those predicted for this ball, in any order. One
-/// becomes void when the partner has an impact; of predictions by both balls the later one is valid. Which
-/// entry is the earliest cannot be predicted by the processor: it is found without branches.
+/// The predicted events of one ball. Its own pair contacts are in any order; one becomes void when the
+/// partner has an impact, and of predictions by both balls the later one is valid. The processor cannot
+/// predict which entry is the earliest: it is found without branches.
 template <class Real>
 struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Agenda {
   static constexpr int capacity = 3;                            ///< of pair contacts
@@ -29,8 +29,7 @@ struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Agenda {
   std::array<std::uint32_t, capacity> known;  ///< latest impact of any ball when the contact was predicted
   std::uint32_t last_impact = 0;              ///< number of the ball's latest
   std::int8_t pair_count = 0;
-  /// A wall id, plus `tied` if another wall is hit at the same time; -1 if the wall's time is only the end of
-  /// the window searched so far.
+  /// A wall id, plus `tied` if another wall is hit at that time; -1 if the time is the end of a search.
   std::int8_t wall = -1;
   std::int8_t crossing_face = 0;  ///< twice the axis, and 1 more when upwards
   std::int8_t next = wall_entry;  ///< the entry that was queued

@@ -15,17 +15,15 @@ namespace edmill::engine {
 template <class Real>
 using Balls = std::vector<model::BallProperties<Real>>;
 
-/// Pairs are filtered, and cells crossed, in double whatever the scalar: bounds and margins cover the
-/// rounding of the flights.
+/// Pairs are filtered, and cells crossed, in double: bounds and margins cover the flights' rounding.
 template <class Real>
 class Candidates {
  public:
   /// A ball's flight as seen now, in double.
   using DoubleState = dynamics::PairSearch<double>::State;
 
-  /// @param flights    of all balls; must outlive this
-  /// @param reach      largest distance of a ball from the origin [m]
-  /// @param top_speed  no ball is faster [m/s]
+  /// @param flights           of all balls; must outlive this
+  /// @param reach, top_speed  largest distance of a ball from the origin [m], and speed [m/s]
   Candidates(const model::Mill<Real>& mill, const Balls<Real>& balls,
              const LargeVector<dynamics::Flight<Real>>& flights, const Real& reach, const Real& top_speed);
 
@@ -52,8 +50,7 @@ class Candidates {
     grid_.new_neighbours(cell, axis, step, near);
   }
 
-  /// Finds the candidates for a contact with the ball. @param near  result of `neighbours`
-  /// @return their number
+  /// Finds the candidates for a contact. @param near  result of `neighbours` @return their number
   int find(int ball, const DoubleState& state, const Instant<Real>& now, FoundBalls& near) {
     if (columns_) return columns_->filter(query(ball, state, now), result_);
     return find_among(ball, state, now, near);

@@ -38,11 +38,10 @@ struct FoundBalls {
   int count = 0;
 };
 
-/// The balls that each cell contains. The cell of each ball is stored by the owner, next to its other data,
-/// where it costs no cache line of its own.
-/// Cells are thicker than the largest ball, by far more than the rounding of crossing times, so that no late
-/// crossing hides a contact: double suffices for every scalar. The outermost cells are unbounded. A layer of
-/// cells that stay empty surrounds them, so that every cell with balls has neighbours on all sides.
+/// The balls of each cell. The cell of each ball is stored by the owner, next to its other data, where
+/// it costs no cache line of its own. Cells are thicker than the largest ball, by far more than the
+/// rounding of crossing times, so that no late crossing hides a contact: double suffices. The outermost
+/// ones are unbounded, and surrounded by a layer of empty cells, so that all balls have neighbours.
 class CellGrid {
  public:
   /// @param low, high  corners of the region that the balls' centres sweep [m]
@@ -136,7 +135,7 @@ class CellGrid {
     collect<3>(&at_[0][x], &at_[1][y], &at_[2][z], found);
   }
 
-  /// Finds the balls of the cells, one layer, that became adjacent when a ball moved to `cell` by `step`.
+  /// Finds the balls of the cells, one layer, that became adjacent by a move of `step` to `cell`.
   void new_neighbours(const CellOfBall& cell, int axis, int step, FoundBalls& found) const {
     const auto [one, other] = across(axis);
     const int layer = at_[axis][cell.at[axis] + 1 + step];
@@ -225,8 +224,8 @@ class CellGrid {
     return {denominator > 0 ? delay : far_off, back ? -step : step};
   }
 
-  /// A cell stores up to two balls; in a crowded cell, which is rare, they form a list that begins with its
-  /// first ball. The two highest bits of `second`, as a signed number, are the number of balls minus two.
+  /// A cell stores up to two balls; in a crowded cell, which is rare, they form a list from its first one.
+  /// The two highest bits of `second`, as a signed number, are the number of balls minus two.
   struct Cell {
     static constexpr std::uint32_t single = 3u << 30, empty = 2u << 30, crowded = empty | 1u << 29;
     std::uint32_t first = 0, second = empty;

@@ -46,11 +46,11 @@ struct Event {
   }
 };
 
-/// A calendar queue: each drive period is divided into days so short that few contain more than one event.
-/// Days up to the horizon, three to four weeks ahead, have a list each. Later events are noted for their
-/// week, without order, and put into lists when the horizon reaches it. So taking and setting an event cost
-/// the same for any number of balls, and the lists fit into the near caches. A day of many events, since
-/// balls share an instant, is turned into a heap when it comes. Equal times are ordered by the ball's number,
+/// A calendar queue: each drive period is divided into days so short that few contain more than one
+/// event. Days up to the horizon, three to four weeks ahead, have a list each. Later events are noted
+/// for their week, without order, and put into lists when the horizon reaches it. So events cost the
+/// same for any number of balls, and the lists fit into the near caches. A day of many events, since
+/// balls share an instant, becomes a heap when it comes. Equal times are ordered by the ball's number,
 /// whatever the history. (Brown 1988; Tang, Goh and Thng 2005)
 template <class Real>
 class EventQueue {
@@ -226,7 +226,7 @@ class EventQueue {
     marks_[list / 64] &= ~(std::uint64_t{e.next == none} << (list % 64));
   }
 
-  // The heap of today's events: the earliest is first. The day's mark is set while the heap is not empty.
+  // The heap of today's events, the earliest first. The day's mark is set while it is not empty.
 
   [[gnu::noinline]] void fill_heap() {
     for (int i = head(today_), next; i != none; i = next) {

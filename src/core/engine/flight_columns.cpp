@@ -146,9 +146,8 @@ constexpr auto lanes_by_bits = [] {
 }();
 constexpr std::uint64_t counts_by_bits = 0x4332322132212110;
 
-/// Applies the pair filter, see PairFilter, to a batch whose first ball has the place `first`. Each step is a
-/// short chain of operations, so that the processor overlaps several vectors. A ball at exactly the same
-/// place is the query's own.
+/// Applies PairFilter to a batch whose first ball has the place `first`. Each step is a short chain of
+/// operations: the processor overlaps several vectors. A ball at exactly the same place is the query's.
 /// @param found  number of candidates so far
 /// @return the number including this batch
 EDMILL_INTO_CLONES int filter_batch(const FlightBatch& batch, const PairFilterQuery& query, bool alike,

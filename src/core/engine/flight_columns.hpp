@@ -35,7 +35,7 @@ class PairFilterResult {
       grow(count);
   }
 
-  /// Time until the contact with the k-th ball [s]; negative if only a pair search can decide. (3.1)
+  /// Time until the contact with the k-th ball [s], (3.1); negative if a pair search must decide.
   double delay(int k) const {
     return discriminant_[k] < 0 ? -1.0 : gap_[k] / (std::sqrt(discriminant_[k]) - approach_[k]);
   }
@@ -53,12 +53,11 @@ class PairFilterResult {
   std::vector<double> approach_, gap_, discriminant_;
 };
 
-/// Finds the candidates in a list of balls. Compiled for several instruction sets, which all give the same
-/// bits since no operations are contracted.
+/// Finds the candidates in a list of balls, and returns their number. Compiled for several instruction
+/// sets, which all give the same bits since no operations are contracted.
 /// @param flights, radii  of all balls; ball i has radius radii[i * stride]
 /// @param self            the ball of the query, which is never a candidate
-/// @param balls, result    with room for three more than `count`
-/// @return the number of candidates
+/// @param balls, result   with room for three more than `count`
 int filter_pairs(const dynamics::Flight<double>* flights, const double* radii, int stride,
                  const PairFilterQuery& query, int self, int* balls, int count, PairFilterResult& result);
 
@@ -83,8 +82,7 @@ class FlightColumns {
     batch.radius[place] = radius;
   }
 
-  /// Finds the candidates among all balls; the k-th ball filtered is ball k.
-  /// @return how many there are
+  /// Finds the candidates among all balls; the k-th ball filtered is ball k. @return their number
   int filter(const PairFilterQuery& query, PairFilterResult& result) const;
 
  private:

@@ -10,10 +10,10 @@
 
 namespace edmill::engine {
 
-/// Prefetches data for the next events, without which a run has the same bits and takes longer. The memory
-/// system handles about ten cache lines at a time, so there should be other work between two portions. The
-/// ball of an event is prefetched three events ahead. Two events ahead its agenda shows what else is needed,
-/// and one event ahead the partner's agenda shows whether the contact is void.
+/// Prefetches data for the next events, without which a run has the same bits and takes longer. The
+/// memory system handles about ten cache lines at a time, so there is other work between two portions. A
+/// ball is prefetched three events ahead; two events ahead its agenda shows what else is needed, and one
+/// event ahead the partner's agenda shows whether the contact is void.
 template <class Real>
 class Prefetcher {
  public:

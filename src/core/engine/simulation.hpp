@@ -80,8 +80,7 @@ class Simulation {
     if (!stop_) stop_ = EndReason::paused;
   }
 
-  /// Saves or loads everything that changes in a run, so that another simulation of the same case continues
-  /// with the same bits.
+  /// Saves or loads everything that changes, so that another simulation of the case has the same bits.
   /// @pre no event is being processed
   /// @throws InputError when the loaded data cannot be a state of this case
   void archive(Archive& a);

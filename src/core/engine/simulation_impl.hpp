@@ -1,4 +1,4 @@
-// Implementation of Simulation: set-up, saving, and the loop; included by the instantiation files only.
+// Implementation of Simulation: set-up, saving, and the loop; for the instantiation files only.
 #pragma once
 
 #include <algorithm>
@@ -51,8 +51,7 @@ Real shortest_advance(const model::Mill<Real>& mill) {
   return std::max(by_rule, Real(1000000 * epsilon<Real>() * mill.motion.period()));
 }
 
-/// Bound on the speed of all balls [m/s], until one is faster than twice the fastest ball or wall at the
-/// start.
+/// Bound on the speed of all balls [m/s], until one has twice that of the fastest at the start.
 template <class Real>
 Real top_speed_of(const States<Real>& states, const model::Mill<Real>& mill) {
   Real largest{1};
@@ -63,8 +62,7 @@ Real top_speed_of(const States<Real>& states, const model::Mill<Real>& mill) {
   return 2 * (largest + wall) + largest_fall(mill);
 }
 
-/// Divides the region that the vessel sweeps into cells that contain about one ball each but are thicker than
-/// the largest.
+/// Divides the region that the vessel sweeps into cells of about one ball, thicker than the largest.
 template <class Real>
 CellGrid make_grid(const model::Mill<Real>& mill, const Balls<Real>& balls) {
   const auto region = mill.motion.swept(mill.vessel.half_sizes(), mill.vessel.reach());
@@ -304,9 +302,8 @@ bool Simulation<Real>::has_rivals(const Event& event) const {
   return due > 1 || queue_.has_more_until(limit);  // one is the event itself
 }
 
-/// Finds the first of contacts that share a ball and are so close in time that rounding may have reversed
-/// them: wider scalars recompute their times. Those that no scalar separates are ordered by a rule and
-/// marked.
+/// Finds the first of contacts that share a ball and are so close in time that rounding may have
+/// reversed them: wider scalars recompute the times. If none separates them a rule does, and marks them.
 template <class Real>
 auto Simulation<Real>::settle_ties(Event event) -> Event {
   std::vector<Event> passed;  // contacts that come after another one
@@ -363,7 +360,7 @@ void Simulation<Real>::find_rivals(const Event& event, const Instant& limit) {
   }
 }
 
-/// Fills `due_` with balls that have an event up to `limit`, among them all that may share one with `event`.
+/// Fills `due_` with the balls near those of `event` that have an event up to `limit`.
 template <class Real>
 void Simulation<Real>::find_due(const Event& event, const Instant& limit) {
   due_.clear();  // only balls nearby, however many others have events at the same time
@@ -526,8 +523,7 @@ auto Simulation<Real>::collide_pair(const Event& event) -> Impact {
   return impact;
 }
 
-/// Counts the ball's impacts in a row without time to move. @return true if so many make this one
-/// frictionless
+/// Counts the ball's impacts in a row without time to move. @return true if this is frictionless
 template <class Real>
 bool Simulation<Real>::friction_rests(int ball, const Real& flight_time, const model::ContactLaw<Real>& law) {
   auto& unmoved = bodies_[ball].unmoved;
@@ -552,8 +548,7 @@ void Simulation<Real>::raise_top_speed(int ball) {
   candidates_.raise_top_speed(top_speed_);
 }
 
-/// Tests whether the impact is one of infinitely many in finite time, or of many at one time; then notifies
-/// all observers.
+/// Tests whether the impact is one of infinitely many in finite time, or at one time; then notifies.
 template <class Real>
 void Simulation<Real>::notify(const Impact& impact) {
   if (may_collapse_) {
@@ -602,7 +597,7 @@ void Simulation<Real>::predict_all(int ball, int already_done, const model::AnyP
   const auto state = candidates_.state(ball, now_);
   agendas_[ball].drop_pairs();
   const int found = candidates_.find(ball, state, now_, near);
-  // Before the candidates are used, whose number is known late: the processor can do this meanwhile.
+  // Before the candidates are used, whose number is known late: the processor does this meanwhile.
   predict_crossing(ball, state);
   predict_pairs(ball, already_done, state, found, near);
   prefetcher_.more();

@@ -15,8 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using TextOfFlint = std::unique_ptr<char, void (*)(void*)>;
 
-/// "1a2b -8c 3ff -98": midpoint and radius, each a whole number times a power of two, all in hexadecimal, as
-/// Arb writes them.
+/// "1a2b -8c 3ff -98": midpoint and radius, each a whole number and a power of two, in hexadecimal.
 std::string text_of(const Enclosure& value) {
   return TextOfFlint(arb_dump_str(value.arb()), flint_free).get();
 }
@@ -131,8 +130,7 @@ Json read_header(std::istream& in) {
   return header;
 }
 
-/// "2.560368941527883137177675704e-03,1.2e-40": the midpoint to `digits` places, and the radius with which it
-/// encloses `value`.
+/// "2.560368941527883137e-03,1.2e-40": the midpoint to `digits` places, a radius that covers `value`.
 std::string decimal_of(const Enclosure& value, int digits) {
   const TextOfFlint middle(arf_get_str(arb_midref(value.arb()), digits + 1), flint_free);
   Enclosure printed, difference;

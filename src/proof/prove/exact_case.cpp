@@ -29,7 +29,7 @@ ExactJoints moving_joints(ExactJoints joints) {
   return joints;
 }
 
-/// A plane across an axis, at this distance from the origin, on the negative (-1) or positive (1) side.
+/// A plane across an axis, at this distance from the origin, on its negative (-1) or positive side.
 ExactWall plane(std::size_t axis, int side, const Quantity& distance) {
   ExactWall wall;
   wall.normal[axis] = side;
@@ -114,8 +114,8 @@ void fill_laws(const CaseSpec& spec, const std::vector<int>& materials, ExactCas
   }
 }
 
-/// The exact position of a ball placed at random. Its coordinates are multiples of 2^-52 of the room for its
-/// centre; the whole numbers are recovered from a placement in many digits, in the thread's precision.
+/// The exact position of a ball placed at random: its coordinates are multiples of 2^-52 of the room for
+/// its centre, recovered from a placement in many digits, in the thread's precision.
 QuantityVector exact_place(const Vec3<mpfr>& local, QuantityVector room, const std::string& where) {
   for (int axis = 0; auto& size : room) {
     const mpfr steps = ldexp(local[axis++] / size.to<mpfr>(), 52), whole = round(steps);

@@ -1,5 +1,5 @@
-// Enclosures of the poses of the vessel and of bodies in it, of balls in flight and of their gaps, and proofs
-// that bodies do not meet in a flight. docs/certificates.md, "Rules for the states", rules 4 and 5
+// Enclosures of the poses of the vessel and of bodies in it, of balls in flight and of their gaps, and
+// proofs that they do not meet. docs/certificates.md, "Rules for the states", rules 4 and 5
 #pragma once
 
 #include <map>
@@ -189,10 +189,9 @@ struct Excess {
   }
 };
 
-/// The squared distance of a point from the core of a solid. It is differentiable everywhere, and its second
-/// derivative, which jumps where the nearest point of the core passes from a face to an edge, is enclosed
-/// with both of its values there: Taylor's formula is valid for such functions.
-/// @param square  of the distance at which the ball touches the solid
+/// The squared distance of a point from the core of a solid. Its second derivative, which jumps where
+/// the nearest point of the core passes from a face to an edge, is enclosed with both of its values
+/// there: Taylor's formula is valid for such functions. @param square  of the distance at contact
 inline Gap gap_of_solid(bool round, const Vector& half, const Enclosure& square, const InFrame& ball) {
   const auto& [p, v, a] = ball;
   Gap half_gap{-square / 2, {}, {}};

@@ -63,8 +63,7 @@ bool has_moved(const Law& law, const Enclosure& flight_time) {
   throw Undecided{"whether a ball has had time to move"};
 }
 
-/// The effect of an impact on velocities and spins. (2.23'), (2.24'), (2.28'); docs/certificates.md,
-/// "Impulse"
+/// The effect of an impact. (2.23'), (2.24'), (2.28'); docs/certificates.md, "Impulse"
 struct Impulse {
   Vector push;  ///< P: change of velocity of a body of the effective mass [m/s]
   Vector turn;  ///< Q: n x S gain [m/s]
@@ -109,8 +108,7 @@ class Prover {
     }
   }
 
-  /// Proves that this is the next event, and continues with the states after it.
-  /// @throws Undecided
+  /// Proves that this is the next event, and continues with the states after it. @throws Undecided
   ProvenEvent take(const Meeting& next) {
     const Precision scope(fine_.bits);
     const Enclosure time = bracket(next);
@@ -266,7 +264,7 @@ class Prover {
     return texts;
   }
 
-  /// Excludes all other balls whose flights have not ended; flights that ended have excluded this one.
+  /// Excludes all other balls whose flights have not ended; the others have excluded this one.
   void exclude_balls(int ball, int partner, const Enclosure& end, long through) const {
     const Track& track = tracks_[ball];
     for (int k = 0; k < static_cast<int>(tracks_.size()); ++k) {
@@ -286,7 +284,7 @@ class Prover {
     }
   }
 
-  /// Counts the ball's impacts in a row without time to move. @return true if this one is frictionless
+  /// Counts the ball's impacts in a row without time to move. @return true if this is frictionless
   bool friction_rests(int ball, const Law& law, const Enclosure& time) {
     Track& track = tracks_[ball];
     if (has_moved(law, time - track.since)) {
@@ -403,8 +401,7 @@ bool attempt(Proof& proof, const std::vector<Meeting>& next, slong bits, const P
   return result.undecided.empty();
 }
 
-/// Candidates for the events to be proven: the first ones of a run in the widest scalar.
-/// @throws InputError when the case ends before
+/// Candidates to be proven: the first events of a run. @throws InputError when the case ends before
 std::vector<Meeting> candidates(const casefile::CaseSpec& spec, const ProofOptions& options) {
   const std::size_t collisions = options.collisions;
   const auto source = run::make_source("mpfr:" + std::to_string(placing_digits), spec, false);

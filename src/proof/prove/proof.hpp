@@ -1,4 +1,4 @@
-// The first events of a case, proven: which bodies meet, and when. theory.md, section 7; certificates.md
+// The first events of a case, proven: what meets when. docs/theory.md, section 7; docs/certificates.md
 #pragma once
 
 #include <atomic>
@@ -54,18 +54,16 @@ struct Proof {
                            ///< scalar finds it; otherwise empty
 };
 
-/// Proves the first events with 128 bits, doubled until all are proven; then once more with only as many bits
-/// as the last attempt used.
+/// Proves the first events with 128 bits, doubled until all are proven, then with as few as needed.
 /// @throws InputError for a case that `prove` does not know
 Proof prove(const casefile::CaseSpec& spec, const ProofOptions& options);
 
-/// The file that anybody can check, as JSON lines: the exact case, the events, the flights at the end.
+/// The file that anybody can check, as JSON lines: the exact case, the events, the last flights.
 void write_certificate(std::ostream& out, const Proof& proof);
 
 /// The differences between the header of a certificate and this case, a line each:
-/// "/balls/0/radius: found "1/250", expected "119/25000"". Name, digest, bits and number of events are not
-/// compared: what is proven follows from the other numbers.
-/// @param name  of the file, for messages
+/// "/balls/0/radius: found "1/250", expected "119/25000"". Name, digest, bits and number of events are
+/// not compared: what is proven follows from the rest. @param name  of the file, for messages
 /// @throws InputError when the file is not a certificate, or its header contains a key twice
 std::vector<std::string> other_case(std::istream& certificate, const std::string& name,
                                     const ExactCase& exact);
