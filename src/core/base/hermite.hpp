@@ -8,7 +8,6 @@
 
 namespace edmill::numerics {
 
-/// Value and slope of a function at one abscissa.
 template <class Real>
 struct Point {
   Real t;  ///< abscissa

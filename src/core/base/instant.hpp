@@ -28,9 +28,8 @@ struct Instant {
   friend bool operator>=(const Instant& a, const Instant& b) { return !(a < b); }
   friend bool operator==(const Instant& a, const Instant& b) = default;
 
-  /// Later than every instant of a run.
+  /// Later, and earlier, than every instant of a run.
   static Instant never() { return {std::int64_t{1} << 52, Real(0)}; }
-  /// Earlier than every instant of a run.
   static Instant long_ago() { return {-(std::int64_t{1} << 52), Real(0)}; }
 };
 
@@ -42,7 +41,6 @@ class DriveClock {
 
   const Real& period() const { return period_; }
 
-  /// Time [s] from `from` to `to`.
   Real elapsed(const Instant<Real>& from, const Instant<Real>& to) const {
     if (from.period == to.period) return to.offset - from.offset;
     return Real(to.period - from.period) * period_ + (to.offset - from.offset);

@@ -39,7 +39,6 @@ double size_of(const std::vector<double>& values, std::size_t first = 0) {
   return largest * std::sqrt(sum / static_cast<double>(values.size() - first));
 }
 
-/// Standard error of the mean.
 double error_of_mean(const std::vector<double>& values) {
   return size_of(deviations_of(values)) / std::sqrt(count_of(values) - 1);
 }

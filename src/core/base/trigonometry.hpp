@@ -38,7 +38,6 @@ namespace detail {
 
 // Always inlined: the wall search of the SPEX evaluates these functions for every pose.
 
-/// A SIMD vector of two doubles.
 typedef double TwoDoubles __attribute__((vector_size(16)));
 
 /// Taylor polynomials of sin and cos on [-pi/4, pi/4], side by side, in Estrin order: short chains.

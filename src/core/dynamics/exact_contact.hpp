@@ -61,7 +61,6 @@ inline std::optional<ExactTime> exact_contact_time(const ExactGap& gap) {
   return ExactTime{-rate, Dyadic(2) * bend, -1, discriminant};
 }
 
-/// Time from `from` to `to` [s].
 template <class Real>
 Dyadic exact_elapsed(const Instant<Real>& from, const Instant<Real>& to, const Real& period) {
   const Dyadic periods = Dyadic::of(Real(to.period - from.period));

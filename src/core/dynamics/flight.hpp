@@ -97,7 +97,6 @@ struct WallAnswer {
   }
 };
 
-/// A query of a wall search: a ball's flight and the window to be searched.
 template <class Real>
 struct WallQuery {
   Flight<Real> flight;

@@ -43,14 +43,12 @@ struct GapStart : GapSample<V> {
   typename V::template PerWall<typename V::Scalar> curvature;
 };
 
-/// A ball at one time.
 template <class Real>
 struct SeenBall {
   Vec3<Real> velocity;                  ///< inertial [m/s]
   model::VesselFrameState<Real> state;  ///< in the vessel
 };
 
-/// Bounds on the rounding errors of a sample.
 template <class V>
 struct GapErrors {
   typename V::template PerWall<typename V::Scalar> gap, rate, curvature;
@@ -152,7 +150,6 @@ class GapFunctions {
     return own;
   }
 
-  /// The ball at `offset`, where the vessel has this pose.
   SeenBall<Real> seen(const Real& offset, const Pose& pose) const {
     const Real dt = elapsed(offset);
     const auto place = position_after(flight_, mill_.gravity, dt);
@@ -177,7 +174,6 @@ class GapFunctions {
     return start(offset, at, seen(offset, at));
   }
 
-  /// The sample for a state in the vessel frame.
   Sample sample(const Real& offset, const model::VesselFrameState<Real>& state) const {
     auto sample = plain_sample(offset, state);
     for_each_piston(offset, [&](int wall, const auto& moved) {
@@ -307,7 +303,6 @@ class BoundsTable {
       for (int row = 0; row < speeds * lengths; ++row) rows_[row] = made(row);
   }
 
-  /// Longest window [s] that the bounds serve.
   const Real& longest_window() const { return longest_; }
 
   Bounds at(const Real& speed, const Real& length) const {

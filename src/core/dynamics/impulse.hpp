@@ -10,7 +10,6 @@
 
 namespace edmill::dynamics {
 
-/// The quantities of one impact.
 template <class Real>
 struct ImpactOutcome {
   Real approach_speed{};          ///< -g.n before the impact [m/s]
@@ -39,7 +38,6 @@ struct ImpactOutcome {
 
 namespace detail {
 
-/// The common part of both impacts.
 template <class Real>
 struct ImpulseParts {
   Vec3<Real> per_mass;     ///< velocity change of a body i of the effective mass M

@@ -171,7 +171,6 @@ class WallSearch {
   [[no_unique_address]] std::conditional_t<is_wide, RoughSearch, NoSearch> rough_;
 };
 
-/// First contact with a body inside the vessel.
 template <class Real>
 using BodySearch = WallSearch<model::ChainMotion<Real>, model::RoundedBody<Real>>;
 

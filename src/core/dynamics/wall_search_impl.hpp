@@ -13,7 +13,6 @@
 
 namespace edmill::dynamics {
 
-/// Whether exact arithmetic applies to a wall.
 [[gnu::noinline]] bool has_exact_gap(const auto& mill, int wall) {
   using Real = std::decay_t<decltype(mill.reach)>;
   const Vec3<Real> zero = Vec3<Real>::Zero();

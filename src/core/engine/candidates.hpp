@@ -64,7 +64,6 @@ class Candidates {
   /// Places of the candidates found among the balls filtered.
   const int* places() { return result_.candidates(); }
   int ball_at(int place, const FoundBalls& near) const { return columns_ ? place : near.balls[place]; }
-  /// See PairFilterResult::delay.
   double delay(int place) const { return result_.delay(place); }
 
   const dynamics::Flight<double>* flights() const {

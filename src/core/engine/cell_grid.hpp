@@ -70,7 +70,6 @@ class CellGrid {
   int cells(int axis) const { return cells_[axis]; }
   bool single_cell() const { return cells_[0] * cells_[1] * cells_[2] == 1; }
 
-  /// @return the cell that the ball is in now
   CellOfBall insert(int ball, const Vec3<double>& position) {
     CellOfBall cell;
     for (int k = 0; k < 3; ++k) {
@@ -129,7 +128,6 @@ class CellGrid {
         fetch(&content_[layer + at_[one][cell.at[one] + u] + at_[other][cell.at[other] + v]]);
   }
 
-  /// Finds every ball in the cell and the adjacent ones.
   void neighbours(const CellOfBall& cell, FoundBalls& found) const {
     const auto [x, y, z] = cell.at;
     collect<3>(&at_[0][x], &at_[1][y], &at_[2][z], found);

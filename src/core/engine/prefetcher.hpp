@@ -73,7 +73,6 @@ class Prefetcher {
     }
   }
 
-  /// Prefetches what every event of a ball needs.
   void fetch_ball(int ball) const {
     const char* agenda = reinterpret_cast<const char*>(&agendas_[ball]);
     for (std::size_t line = 0; line < sizeof(Agenda<Real>); line += 64) fetch(agenda + line);

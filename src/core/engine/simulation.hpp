@@ -21,7 +21,6 @@ namespace edmill::engine {
 
 using model::EndReason;
 
-/// Counters of the engine.
 template <class Real>
 struct EngineCounts {
   std::uint64_t impacts = 0;

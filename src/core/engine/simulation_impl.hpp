@@ -196,7 +196,6 @@ model::Energy<Real> Simulation<Real>::energy_at(const Instant& when) const {
 
 // The loop: the next event, the order of contacts that are close in time, impacts, and predictions.
 
-/// Processes every event up to `end`.
 template <class Real>
 EndReason Simulation<Real>::run_until(const Instant& end, const std::atomic<bool>* interrupt) try {
   const Interruption scope(interrupt);
@@ -255,7 +254,6 @@ auto Simulation<Real>::queued_event(int ball) const -> Event {
   return {holds ? EventKind::pair_contact : EventKind::void_contact, time, ball, a.partner_at(a.next)};
 }
 
-/// Queues the earliest entry of a ball's agenda.
 template <class Real>
 void Simulation<Real>::requeue(int ball) {
   Agenda& a = agendas_[ball];
@@ -438,7 +436,6 @@ auto Simulation<Real>::collide(const Event& event) -> Impact {
   return impact;
 }
 
-/// Sets the pose to that of now.
 template <class Real>
 void Simulation<Real>::update_pose() {
   const auto update = [&](const auto& motion, const auto&) { pose_ = motion.pose(now_); };
@@ -579,7 +576,6 @@ void Simulation<Real>::note_collapse(const Impact& impact, int ball, int partner
   stop_ = EndReason::inelastic_collapse;
 }
 
-/// Predicts the next events of the balls of an impact.
 template <class Real>
 void Simulation<Real>::predict(const Impact& impact) {
   if (impact.with_wall) return predict_all(impact.ball, -1, pose_, near_);
@@ -605,7 +601,6 @@ void Simulation<Real>::predict_all(int ball, int already_done, const model::AnyP
   requeue(ball);
 }
 
-/// Predicts contacts with the candidates found.
 template <class Real>
 void Simulation<Real>::predict_pairs(int ball, int already_done, const DoubleState& state, int found,
                                      const FoundBalls& near) {
@@ -630,7 +625,6 @@ void Simulation<Real>::predict_pairs(int ball, int already_done, const DoubleSta
   }
 }
 
-/// Puts a contact into the ball's agenda.
 template <class Real>
 void Simulation<Real>::expect_pair(int ball, int other, const Real& delay) {
   Agenda& a = agendas_[ball];

@@ -12,7 +12,6 @@
 
 namespace edmill::engine {
 
-/// Data about the recent impacts of a ball.
 template <class Real>
 struct RecentImpacts {
   Instant<Real> last = Instant<Real>::long_ago();

@@ -97,7 +97,6 @@ inline Enclosure sqrt(const Enclosure& a) {
 struct SinCos {
   Enclosure sin, cos;
 };
-/// Sine and cosine of an angle in turns.
 inline SinCos sin_cos_turns(const Enclosure& turns) {
   SinCos result;
   const Enclosure half_turns = turns + turns;
@@ -120,7 +119,6 @@ namespace edmill::prove {
 using Vector = Vec3<Enclosure>;
 using Matrix = Eigen::Matrix<Enclosure, 3, 3>;
 
-/// Applies `change` to each component of a vector.
 Vector each(const auto& v, const auto& change) { return {change(v[0]), change(v[1]), change(v[2])}; }
 
 /// Encloses an exact quantity, in the current precision.

@@ -159,7 +159,6 @@ struct Flight {
   InFrame seen(const Pose& pose, const Enclosure& time, const Vector& gravity) const {
     return pose.seen(position_at(time, gravity), velocity_at(time, gravity), gravity);
   }
-  /// A copy with `change` applied to each component.
   Flight with_each(const auto& change) const {
     return {reference, each(position, change), each(velocity, change), each(spin, change)};
   }

@@ -16,7 +16,6 @@ namespace {
 
 constexpr slong coarse_bits = 64, guard_bits = 64;
 
-/// The name of a meeting or an event.
 std::string name_of(const auto& next) {
   const auto* kind = next.with_wall ? "wall" : "ball";
   return fmt::format("ball {} and {} {}", next.ball, kind, next.partner);
@@ -32,7 +31,6 @@ Vector blurred(const Vector& v, slong bits, bool may_vanish) {
   return each(v, [&](const Enclosure& component) { return blurred(component, bits, may_vanish); });
 }
 
-/// A contact law at the precision in force.
 using Law = ContactLaw<Enclosure>;
 
 /// max(e_n a, v_s)
