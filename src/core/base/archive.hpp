@@ -84,8 +84,8 @@ inline void archive_value(Archive& a, std::string& text) {
 }
 /// A vector that is not empty before loading was sized by the case and keeps its length. An empty one
 /// grows with what is read, so that a wrong number cannot allocate more memory.
-template <class T, class Allocator>
-void archive_value(Archive& a, std::vector<T, Allocator>& values) {
+template <class T, class Pages>
+void archive_value(Archive& a, std::vector<T, Pages>& values) {
   const std::size_t size = a.count(values.size());
   if (values.size() != size) {
     if (!values.empty()) throw InputError("the saved state belongs to another case");

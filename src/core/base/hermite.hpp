@@ -24,7 +24,7 @@ struct CurveBounds {
 
 /// Bernstein coefficients b_1..b_4 of a quartic lower bound of f on [left, right]; b_0 is the left value.
 /// The cubic Hermite interpolant errs by f''''(xi)/24 tau^2 (s-tau)^2: in degree four this lowers the
-/// middle coefficient alone, by sup|f''''| s^4 / 144. f lies above the least coefficient (theory.md, 3).
+/// middle coefficient alone, by sup|f''''| s^4 / 144. No value is below all of them (theory.md, 3).
 template <class Real>
 struct QuarticLowerBound {
   Real b1, b2, b3, b4;
@@ -93,10 +93,10 @@ bool proven_increasing(const Point<Real>& left, const Point<Real>& right, const 
 
 /// Estimates the last root of the cubic Hermite interpolant, as a fraction of [left, right]; outside
 /// (0, 1) if there is none. A hint, which decides nothing: double suffices for every scalar.
-/// @param precision  Newton's iteration ends after a step below this fraction of the root
+/// @param least  Newton's iteration ends after a step below this fraction of the root
 /// @pre right.value < 0
 template <class Real>
-double last_root_hint(const Point<Real>& left, const Point<Real>& right, double precision = 1.0 / 64) {
+double last_root_hint(const Point<Real>& left, const Point<Real>& right, double least = 1.0 / 64) {
   const Real s = right.t - left.t;
   const auto c0 = static_cast<double>(left.value), c1 = static_cast<double>(left.slope * s);
   const auto rise = static_cast<double>(right.value - left.value);
@@ -111,7 +111,7 @@ double last_root_hint(const Point<Real>& left, const Point<Real>& right, double 
     if (!(next > 0 && next < 1)) return 2;
     const double change = next - x;
     x = next;
-    if (change * change < precision * precision * (x * x)) break;
+    if (change * change < least * least * (x * x)) break;
   }
   return x;
 }
@@ -123,8 +123,8 @@ Real inverse_cubic_hint(const Point<Real>& left, const Point<Real>& right) {
   const Real s = right.t - left.t;
   const auto rise = static_cast<double>(right.value - left.value);
   const double w = -static_cast<double>(left.value) / rise, v = 1 - w;
-  const auto first = static_cast<double>(left.slope * s), last = static_cast<double>(right.slope * s);
-  const double fraction = w * w * (1 + 2 * v) + rise * (w * v * v / first - v * w * w / last);
+  const auto a = static_cast<double>(left.slope * s), b = static_cast<double>(right.slope * s);
+  const double fraction = w * w * (1 + 2 * v) + rise * (w * v * v / a - v * w * w / b);
   return left.t + s * static_cast<Real>(fraction);
 }
 

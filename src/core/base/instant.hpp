@@ -1,4 +1,4 @@
-// Simulated time as whole drive periods and a remainder, so that late instants are not less precise.
+// Simulated time as whole drive periods and a remainder: its precision does not decrease.
 #pragma once
 
 #include <cmath>

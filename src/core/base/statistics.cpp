@@ -54,7 +54,8 @@ bool exceeds(double one, double freedom, double other, double other_freedom, dou
   if (!(one > other)) return false;
   if (!(other > 0)) return true;
   const Fisher fisher(freedom, other_freedom);
-  return one / other * (one / other) > boost::math::quantile(boost::math::complement(fisher, significance));
+  const double limit = boost::math::quantile(boost::math::complement(fisher, significance));
+  return one / other * (one / other) > limit;
 }
 
 /// The indices of the values in ascending order.
@@ -69,8 +70,8 @@ std::vector<std::size_t> ascending(const std::vector<double>& values) {
 
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
-  const auto place = std::min(static_cast<std::size_t>(share * count_of(values)), values.size() - 1);
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(place);
+  const auto place = static_cast<std::size_t>(share * count_of(values));
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::min(place, values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
@@ -100,7 +101,8 @@ Median median_at_zero(const std::vector<double>& x, std::vector<double> y, doubl
   }
   auto median = median_of(std::move(y), alike);
   // The uncertainty of the slope, which follows from the scatter of y, widens the interval.
-  const double wider = median.half_width() * centre * std::sqrt(count_of(x) / std::max(spread, 1e-300));
+  const double relative = count_of(x) / std::max(spread, 1e-300);
+  const double wider = median.half_width() * centre * std::sqrt(relative);
   median.low -= wider;
   median.high += wider;
   return median;
@@ -132,7 +134,7 @@ Estimate estimate(const std::vector<double>& values) {
 namespace {
 
 /// Cosine transforms of a series at 1/2, 1, 3/2 ... cycles, each with the variance of a single value if
-/// these are independent. Twelve cover correlation over a twentieth of the series; a short one has fewer.
+/// these are independent. Twelve cover correlation over a twentieth of a series that is not short.
 std::vector<double> cosines_of(const std::vector<double>& values) {
   const auto deviations = deviations_of(values);
   const double n = count_of(values);
@@ -140,7 +142,8 @@ std::vector<double> cosines_of(const std::vector<double>& values) {
   for (std::size_t j = 0; j < transforms.size(); ++j)
     for (std::size_t k = 0; k < values.size(); ++k) {
       const double cycles = static_cast<double>(j) + 1, place = static_cast<double>(k) + 0.5;
-      transforms[j] += deviations[k] * std::sqrt(2 / n) * sin_cos(pi<double>() * cycles / n * place).cos;
+      const double phase = pi<double>() * cycles / n * place;
+      transforms[j] += deviations[k] * std::sqrt(2 / n) * sin_cos(phase).cos;
     }
   return transforms;
 }
@@ -162,8 +165,8 @@ Estimate series_estimate(const std::vector<double>& values) {
   const auto transforms = cosines_of(values);
   const double n = count_of(values), skewness = skewness_of(values);
   const double limit = student_limit(count_of(transforms), 0.05);
-  // The factor is measured: docs/theory.md, section 8.
-  return {mean_of(values), limit * size_of(transforms) / std::sqrt(n) * (1 + 3 * skewness * skewness / n)};
+  const double factor = 1 + 3 * skewness * skewness / n;  // measured: docs/theory.md, section 8
+  return {mean_of(values), limit * size_of(transforms) / std::sqrt(n) * factor};
 }
 
 bool drifts(const std::vector<double>& values) {

@@ -58,7 +58,7 @@ struct OfSeeds : Estimate {
 };
 /// Mean of several runs with an interval from the pooled variance within and between the runs. If that
 /// between them is larger (F test, 1 %) and the runs form groups with separate intervals, these are the
-/// steady states. @param half_widths  of the runs' 95 % intervals; if empty, only the means are used
+/// steady states. @param half_widths  of the 95 % intervals; if empty, only the means count
 OfSeeds pooled(const std::vector<double>& means, const std::vector<double>& half_widths);
 
 /// Whether the means of series differ by more than their scatter allows (analysis of variance, with this
@@ -120,7 +120,7 @@ class WeightedQuantiles {
   std::vector<double> weights_;  ///< of each bin, up to the last one that is not zero
 };
 
-/// Whether the means of two samples differ (Welch's test, two-sided); never if one has a single value.
+/// Whether the means of two samples differ (Welch's test, two-sided); never for single values.
 bool differ(const std::vector<double>& a, const std::vector<double>& b, double significance);
 
 /// p-value of a paired t test: the probability of a mean of `differences` at least this far from 0 if 0 is

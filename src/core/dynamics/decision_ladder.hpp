@@ -1,4 +1,4 @@
-// Escalation: a decision that a scalar cannot make is left to the next wider one, for the same state.
+// Escalation: a decision that a scalar cannot make is left to the next wider one, for one state.
 #pragma once
 
 #include <memory>
@@ -24,6 +24,10 @@ struct Contact {
 /// The searches of one mill in one scalar, and the next rung of the ladder.
 template <class Real>
 class DecisionLadder {
+  using Query = WallQuery<Real>;
+  using Answer = WallAnswer<Real>;
+  using Contact = dynamics::Contact<Real>;
+
  public:
   /// @param smallest_sum  least sum of two radii in the case [m]
   /// @param top_speed     no ball is faster [m/s]; `raise_top_speed` increases it
@@ -32,12 +36,12 @@ class DecisionLadder {
   DecisionLadder(DecisionLadder&&) noexcept;
 
   /// Certified answer to a wall query; `pose` is the vessel's at the begin of the window.
-  /// @throws UndecidedError, with the state, only for a defect: the widest scalar decides every query
-  WallAnswer<Real> wall(const model::AnyPose<Real>& pose, const WallQuery<Real>& query) {
+  /// @throws UndecidedError, with the state, only for a defect: the widest scalar decides everything
+  Answer wall(const model::AnyPose<Real>& pose, const Query& query) {
     const auto answer = walls_.search(pose, query);
     return is_settled(answer) ? answer : wall_above(query);
   }
-  WallAnswer<Real> wall(const WallQuery<Real>& query) {
+  Answer wall(const Query& query) {
     const auto answer = walls_(query);
     if constexpr (std::is_void_v<Wider<Real>>) passed_up_.wall += answer.by_rule;
     return is_settled(answer) ? answer : wall_above(query);
@@ -56,7 +60,7 @@ class DecisionLadder {
 
   /// Orders two contacts that share a ball: negative if `a` comes first, positive if `b` does, zero if they
   /// are simultaneous or no rung of the ladder separates them.
-  int order(const Contact<Real>& a, const Contact<Real>& b);
+  int order(const Contact& a, const Contact& b);
 
   /// Contacts closer in time than this [s] are ordered by `order`. Far above the rounding of most contact
   /// times; one whose error exceeds a quarter of it is recomputed by the next rung.
@@ -75,14 +79,13 @@ class DecisionLadder {
   void archive(Archive& a);
 
  private:
-  template <class Answer>
-  bool is_settled(const Answer& answer) const {
+  bool is_settled(const auto& answer) const {
     if (answer.verdict == Verdict::undecided) return false;
     // The top rung accepts any time error, since no wider scalar can reduce it.
     return std::is_void_v<Wider<Real>> || answer.verdict == Verdict::none ||
            4 * answer.time_error <= tie_window();
   }
-  WallAnswer<Real> wall_above(const WallQuery<Real>& query);
+  Answer wall_above(const Query& query);
   PairAnswer<Real> pair_above(const Flight<Real>& i, const Flight<Real>& j, const Instant<Real>& now,
                               const Real& radius_sum);
   /// Bound on the error of rounding a time from a wider scalar to this one [s].
@@ -91,8 +94,7 @@ class DecisionLadder {
     Instant<Real> time;
     Real time_error;  ///< [s]
   };
-  Timed time_of(const Contact<Real>& contact);
-  int order_by_exact_times(const Contact<Real>& a, const Contact<Real>& b);
+  Timed time_of(const Contact& contact);
 
   struct Above;  // the next rung
   Above& above();

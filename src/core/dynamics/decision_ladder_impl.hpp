@@ -70,7 +70,7 @@ void DecisionLadder<Real>::archive(Archive& a) {
 }
 
 template <class Real>
-WallAnswer<Real> DecisionLadder<Real>::wall_above(const WallQuery<Real>& query) {
+auto DecisionLadder<Real>::wall_above(const Query& query) -> Answer {
   if constexpr (std::is_void_v<Wider<Real>>) {
     throw UndecidedError("ball-wall contact undecided in the widest scalar: ball of radius " +
                          to_text(query.radius) + " m, " + detail::text(query.flight) +
@@ -128,7 +128,7 @@ PairAnswer<Real> DecisionLadder<Real>::pair_above(const Flight<Real>& i, const F
 }
 
 template <class Real>
-auto DecisionLadder<Real>::time_of(const Contact<Real>& contact) -> Timed {
+auto DecisionLadder<Real>::time_of(const Contact& contact) -> Timed {
   const auto& clock = pairs_.clock();
   if (!contact.with_wall) {
     const auto& now = contact.flight.start;
@@ -152,7 +152,7 @@ auto DecisionLadder<Real>::time_of(const Contact<Real>& contact) -> Timed {
 }
 
 template <class Real>
-int DecisionLadder<Real>::order(const Contact<Real>& a, const Contact<Real>& b) {
+int DecisionLadder<Real>::order(const Contact& a, const Contact& b) {
   const Timed first = time_of(a), second = time_of(b);
   const bool both_at_once = first.time_error == 0 && second.time_error == 0;
   if (both_at_once && first.time == second.time) return 0;
@@ -162,40 +162,35 @@ int DecisionLadder<Real>::order(const Contact<Real>& a, const Contact<Real>& b) 
   if (difference > error) return -1;
   if (difference < -error) return 1;
   if constexpr (std::is_void_v<Wider<Real>>) {
-    const int order = order_by_exact_times(a, b);
+    const Real& period = clock.period();
+    // By exact arithmetic; none if a gap is no polynomial.
+    const auto exact_time = [&](const Contact& c) -> std::optional<ExactTime> {
+      const auto& begin = c.flight.start;
+      std::optional<ExactGap> gap;
+      if (c.with_wall)
+        gap = exact_gap(mill_, Query{c.flight, c.radius, begin, period}, c.wall);
+      else
+        gap = exact_gap(c.flight, c.partner, begin, c.radius, mill_.gravity, period);
+      return gap ? exact_contact_time(*gap) : std::nullopt;
+    };
+    const auto one = exact_time(a), two = exact_time(b);
+    const Dyadic later = exact_elapsed(a.flight.start, b.flight.start, period);
+    const int order = one && two ? one->compare(*two, later) : 0;
     passed_up_.order += order == 0;
     return order;
   } else {
     using Wide = Wider<Real>;
     ++passed_up_.order;
-    const auto widened = [](const Contact<Real>& c) {
-      return Contact<Wide>{.with_wall = c.with_wall,
-                           .flight = flight_cast<Wide>(c.flight),
-                           .partner = flight_cast<Wide>(c.partner),
-                           .radius = Wide(c.radius),
-                           .time = instant_cast<Wide>(c.time),
-                           .wall = c.wall};
+    const auto widened = [](const Contact& c) {
+      return dynamics::Contact<Wide>{.with_wall = c.with_wall,
+                                     .flight = flight_cast<Wide>(c.flight),
+                                     .partner = flight_cast<Wide>(c.partner),
+                                     .radius = Wide(c.radius),
+                                     .time = instant_cast<Wide>(c.time),
+                                     .wall = c.wall};
     };
     return above().ladder.order(widened(a), widened(b));
   }
-}
-
-/// Orders contacts by exact arithmetic; zero, too, if a gap is no polynomial.
-template <class Real>
-int DecisionLadder<Real>::order_by_exact_times(const Contact<Real>& a, const Contact<Real>& b) {
-  const Real& period = pairs_.clock().period();
-  const auto time_of = [&](const Contact<Real>& c) -> std::optional<ExactTime> {
-    const auto& begin = c.flight.start;
-    std::optional<ExactGap> gap;
-    if (c.with_wall)
-      gap = exact_gap(mill_, WallQuery<Real>{c.flight, c.radius, begin, period}, c.wall);
-    else
-      gap = exact_gap(c.flight, c.partner, begin, c.radius, mill_.gravity, period);
-    return gap ? exact_contact_time(*gap) : std::nullopt;
-  };
-  const auto first = time_of(a), second = time_of(b);
-  if (!first || !second) return 0;
-  return first->compare(*second, exact_elapsed(a.flight.start, b.flight.start, period));
 }
 
 template <class Real>

@@ -133,7 +133,7 @@ Shape<Real> shape_of(const V& vessel, int id) {
   }
 }
 
-/// A vessel coordinate that equals an inertial one up to sign and a constant: balls accelerate evenly.
+/// A vessel coordinate that equals an inertial one up to sign and a constant.
 struct StillCoordinate {
   int axis, sign;
   Dyadic offset;  ///< coordinate in the vessel = sign * coordinate in the ground - offset [m]

@@ -1,5 +1,5 @@
 // Gaps of a ball in flight to moving walls, their rates, rounding errors, and bounds on derivatives,
-// which exclude contacts. (2.17'), (2.19'), (2.21'), (2.22') and section 3 of docs/theory.md
+// which exclude contacts. docs/theory.md, (2.17'), (2.19'), (2.21'), (2.22') and section 3
 #pragma once
 
 #include <array>
@@ -194,11 +194,12 @@ class GapFunctions {
     return errors(elapsed, speed, model::per_wall(mill_.vessel, true));
   }
 
-  /// Further errors from rounding a wider flight, radius and mill, but not the offset, to this scalar.
+  /// Further errors from rounding a wider flight, radius and mill, but no offset, to this scalar.
   Errors state_errors(const Real& elapsed, const Real& speed) const {
     const Real u = epsilon<Real>() / 2;
     const auto flight = bounds(elapsed, speed);
-    return spread(u, mill_.motion.state_errors(u, flight), flight, model::per_wall(mill_.vessel, true));
+    const auto all = model::per_wall(mill_.vessel, true);
+    return spread(u, mill_.motion.state_errors(u, flight), flight, all);
   }
 
  private:
@@ -221,7 +222,7 @@ class GapFunctions {
   }
 
   /// Converts bounds on a coordinate in the vessel frame to bounds for each wall. A sample is inside the
-  /// vessel, or outside as far as a flight goes in an eighth of a period: searches end there.
+  /// vessel, or outside as far as a flight goes in an eighth of a period at most.
   Errors spread(const Real& u, const model::ErrorBounds<Real>& coordinate,
                 const model::FlightBounds<Real>& flight, const Walls& walls) const {
     const auto none = model::per_wall(mill_.vessel, Real(0));
@@ -232,8 +233,9 @@ class GapFunctions {
       if (!mill_.vessel.is_flat(wall)) {
         const Real& speed = flight.vessel_speed;
         const Real eighth = mill_.clock.period() / 8;
-        const Real outside = speed * (flight.elapsed < eighth ? flight.elapsed : eighth);
-        bounds = mill_.vessel.curved_errors(wall, coordinate, u, speed, flight.vessel_acceleration, outside);
+        const Real &bend = flight.vessel_acceleration, &time = flight.elapsed;
+        const Real outside = speed * (time < eighth ? time : eighth);
+        bounds = mill_.vessel.curved_errors(wall, coordinate, u, speed, bend, outside);
       }
       errors.gap[wall] = bounds.value;
       errors.rate[wall] = bounds.rate;

@@ -30,7 +30,7 @@ struct ImpactOutcome {
     const Real &before = approach_speed, &after = separation_speed;
     return before > 0 ? Real(normal_impulse / (before + after) * (before * before) / 2) : Real(0);
   }
-  /// Effective e_n = separation over approach speed; above 1 with supplied energy, 1 without approach.
+  /// Effective e_n = separation over approach speed; above 1 with supplied energy; 1 by default.
   Real restitution_normal() const {
     return approach_speed > 0 ? Real(separation_speed / approach_speed) : Real(1);
   }

@@ -33,7 +33,7 @@ struct PairFilter {
 
 /// First contact of two balls in flight. Both have the same acceleration, so their relative motion is
 /// uniform: r = r_i - r_j, v = v_i - v_j, b = r.v < 0, c = r.r - R^2, dt = c / (-b + sqrt(b^2 - v.v c)).
-/// (3.1) Balls that overlap by rounding collide at once if they approach and never if they separate.
+/// (3.1) Balls that overlap by rounding collide at once if they approach, else never.
 template <class Real>
 class PairSearch {
  public:
@@ -99,9 +99,8 @@ class PairSearch {
   }
 
   /// The filter: false if the two balls provably never meet, as nearly all pairs. It has no branch.
-  bool may_meet(const State& i, const Flight<Real>& j, const Instant<Real>& now,
-                const Real& radius_sum) const {
-    const Relative s = relative(i, j, now, radius_sum);
+  bool may_meet(const State& i, const Flight<Real>& j, const Instant<Real>& now, const Real& sum) const {
+    const Relative s = relative(i, j, now, sum);
     return filter_.may_meet(s.b, s.c, s.v2, s.r2);
   }
   const PairFilter<Real>& filter() const { return filter_; }

@@ -57,7 +57,7 @@ class WallSearch {
   }
 
   /// For each wall, whether a ball at `position` in the vessel can reach it in a window of `length` [s] at
-  /// up to `speed` [m/s]. False is a proof, without rates or curvatures. theory.md, section 3
+  /// up to `speed` [m/s]. False is a proof, by theory.md, section 3.
   Walls within_reach(const Functions& functions, const Vec3<Real>& position, const Real& speed,
                      const Real& length) const;
 
@@ -111,7 +111,6 @@ class WallSearch {
     [[no_unique_address]] ContactPose<Real> pose{};
     bool at_once = false;  ///< see Bracket
   };
-  [[gnu::noinline]] Bracket isolate_exactly(const Curve& curve, const Query& query, const Real& end) const;
 
   /// If `rounded`, bounds include the rounding of the flight and the mill, and `rough` is filled.
   template <bool rounded>
@@ -120,7 +119,8 @@ class WallSearch {
   bool drop_clear(const auto& curve_of, Walls& reachable, Real& length,
                   const DerivativeBounds<V>& derivatives) const;
   void require_length(const Query& query) const;
-  Real clear_time(const Functions& functions, const Vec3<Real>& position, const Real& speed) const;
+  Real clear_time(const Functions& functions, const Vec3<Real>& position, const Real& speed,
+                  const Real& length) const;
   /// The query with its window shortened so that all active gap functions are smooth in it.
   decltype(auto) smooth(const Query& query, const Functions& functions, const Vec3<Real>& position,
                         const Real& speed) const;
@@ -268,7 +268,6 @@ class AnyWallSearch {
   }
 
   [[gnu::noinline]] Answer with_bodies(const Query& query, Answer first) const;
-  BodyGroups::Times clear_times(const Query& query) const;
   Answer first_with_body(std::size_t body, const Query& query, const Real& length, const Real& clear) const;
 
   Search search_;

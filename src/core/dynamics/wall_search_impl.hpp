@@ -53,17 +53,17 @@ auto WallSearch<M, V>::within_reach(const Functions& functions, const Vec3<Real>
   return near;
 }
 
-/// For how long a ball cannot reach a body, however it flies [s]: their distance changes by no more than both
-/// move, in whatever frame it is measured.
+/// For so long a ball certainly does not reach a body [s]: their distance changes by no more than both
+/// move. 0 if that is short, compared with the `length` of the search.
 template <Motion M, Vessel V>
-auto WallSearch<M, V>::clear_time(const Functions& functions, const Vec3<Real>& position,
-                                  const Real& speed) const -> Real {
+auto WallSearch<M, V>::clear_time(const Functions& functions, const Vec3<Real>& position, const Real& speed,
+                                  const Real& length) const -> Real {
   if constexpr (is_body) {
     const Real margin = rounding_margin<Real>(), clearance = functions.room().clearance(position);
-    return (clearance - mill_.reach * margin) / ((speed + own_speed_) * (1 + margin));
-  } else {
-    return Real(0);
+    const Real leap = (clearance - mill_.reach * margin) / ((speed + own_speed_) * (1 + margin));
+    if (16 * leap > length) return leap < length ? leap : length;
   }
+  return Real(0);
 }
 
 template <Motion M, Vessel V>
@@ -95,8 +95,8 @@ auto WallSearch<M, V>::search(const Pose& pose, const Query& query) const -> Ans
   functions.enter(ball.state.position);
   const Real speed = top_speed(ball.velocity, query.length);
   if constexpr (is_body)
-    if (const Real leap = clear_time(functions, ball.state.position, speed); 16 * leap > query.length)
-      return Answer::none(leap < query.length ? leap : query.length);
+    if (const Real clear = clear_time(functions, ball.state.position, speed, query.length); clear > 0)
+      return Answer::none(clear);
   const Walls reachable = within_reach(functions, ball.state.position, speed, query.length);
   if (!any_from(reachable, 0)) return Answer::none(query.length);
   return first_contact<false>(functions, functions.start(begin, pose, ball), reachable, speed,
@@ -114,7 +114,7 @@ bool WallSearch<M, V>::drop_clear(const auto& curve_of, Walls& reachable, Real& 
     if (!reachable[wall]) continue;
     const Curve curve = curve_of(wall, derivatives);
     const Point& start = curve.start;
-    reachable[wall] = !numerics::proven_clear(start, curve.curvature, whole, curve.bounds);
+    reachable[wall] = !proven_clear(start, curve.curvature, whole, curve.bounds);
     if (!reachable[wall]) continue;
     any = true;
     // The window can end a little after the first possible contact, but not so early that rounding hides the
@@ -122,7 +122,7 @@ bool WallSearch<M, V>::drop_clear(const auto& curve_of, Walls& reachable, Real& 
     Point hinted = start;
     const Real& error = curve.bounds.value_error;
     if (start.slope < 0 && start.value < 8 * error) hinted.value += 4 * error;
-    const auto hint = static_cast<Real>(numerics::first_root_hint(hinted, curve.curvature, whole) * 9 / 8);
+    const auto hint = static_cast<Real>(first_root_hint(hinted, curve.curvature, whole) * 9 / 8);
     if (hint < length && hint > 64 * resolution()) length = hint;
   }
   return any;
@@ -247,8 +247,8 @@ auto WallSearch<M, V>::isolate_from_start(const Curve& curve, const Point& right
   return isolate(curve, start, right);
 }
 
-/// A rising gap keeps rising while its second derivative is positive, so that one long step suffices at
-/// first, also from an overlap; where the third derivative is zero, for the whole window.
+/// A rising gap keeps rising while its second derivative is positive: one long step suffices at first,
+/// also from an overlap; where the third derivative is zero, for the whole window.
 template <Motion M, Vessel V>
 auto WallSearch<M, V>::isolate_rising(const Curve& curve, const Point& right) const -> Bracket {
   const Bounds& b = curve.bounds;
@@ -265,33 +265,31 @@ auto WallSearch<M, V>::isolate_hop(const Curve& curve, const Point& right) const
   const Real length = right.t - left.t;
   const bool bends = curve.curvature + b.curvature_error + b.third * length < 0;
   const bool ends_below = right.value < -b.value_error && right.slope < -b.slope_error;
-  if (!(bends & ends_below) || left.value < -b.value_error || !numerics::can_depart(left, b))
-    return std::nullopt;
-  const auto fraction = static_cast<Real>(numerics::last_root_hint(left, right, 1e-4));
+  if (!(bends & ends_below) || left.value < -b.value_error || !can_depart(left, b)) return std::nullopt;
+  const auto fraction = static_cast<Real>(last_root_hint(left, right, 1e-4));
   return Bracket{Verdict::contact, left, right, Real(0), left.t + fraction * length};
 }
 
 template <Motion M, Vessel V>
-auto WallSearch<M, V>::isolate(const Curve& curve, Point left, const Point& right) const -> Bracket {
+auto WallSearch<M, V>::isolate(const Curve& curve, Point left, const Point& last) const -> Bracket {
   const Bounds& b = curve.bounds;
   if (left.value > b.value_error) {
-    if (numerics::proven_positive(left, right, b)) return {Verdict::none};
-    return isolate_outside(curve, left, right, false);
+    if (proven_positive(left, last, b)) return {Verdict::none};
+    return isolate_outside(curve, left, last, false);
   }
   if (left.value < -b.value_error) {
     if (left.slope < -b.slope_error)
       return {.verdict = Verdict::contact, .left = left, .right = left, .at_once = true};
-    if (left.slope > b.slope_error) return follow_overlap(curve, left, right);
+    if (left.slope > b.slope_error) return follow_overlap(curve, left, last);
     return {Verdict::undecided};
   }
-  if (numerics::can_depart(left, b)) {
+  if (can_depart(left, b)) {
     // A window that another wall has shortened may end before the gap is provably open.
-    if (numerics::proven_departure(left, right, b) || numerics::proven_increasing(left, right, b))
-      return {Verdict::none};
-    return isolate_outside(curve, left, right, true);
+    if (proven_departure(left, last, b) || proven_increasing(left, last, b)) return {Verdict::none};
+    return isolate_outside(curve, left, last, true);
   }
-  if (left.slope < -2 * b.slope_error) return isolate_touching(curve, left, right);
-  return {numerics::proven_increasing(left, right, b) ? Verdict::none : Verdict::undecided};
+  if (left.slope < -2 * b.slope_error) return isolate_touching(curve, left, last);
+  return {proven_increasing(left, last, b) ? Verdict::none : Verdict::undecided};
 }
 
 /// Walks the window from the left over intervals that are proven free of contact, splitting where the proof
@@ -312,20 +310,20 @@ auto WallSearch<M, V>::isolate_outside(const Curve& curve, Point left, const Poi
       if (steps == 64 && has_exact_gap(mill_, curve.wall)) return {Verdict::undecided};
     }
     const Point& end = ends[count - 1];
-    if (departing ? numerics::proven_departure(left, end, b) : numerics::proven_positive(left, end, b)) {
+    if (departing ? proven_departure(left, end, b) : proven_positive(left, end, b)) {
       left = end;
       departing = false;
       --count;
       continue;
     }
-    if (!departing && end.value < -b.value_error && numerics::proven_decreasing(left, end, b))
+    if (!departing && end.value < -b.value_error && proven_decreasing(left, end, b))
       return {Verdict::contact, left, end};
 
     const Real s = end.t - left.t;
     if (count == deepest || s < 16 * resolution()) return {Verdict::undecided};
     double fraction = 0.5;
     if (end.value < 0 && end.slope < 0) {
-      const double root = numerics::last_root_hint(left, end);
+      const double root = last_root_hint(left, end);
       if (root > 0 && root < 1) {
         constexpr double margin = 1.0 / 32;
         if (4 * root < 1)
@@ -337,13 +335,15 @@ auto WallSearch<M, V>::isolate_outside(const Curve& curve, Point left, const Poi
       }
     }
     // A cut at which the gap is zero within rounding decides nothing: move it.
+    const auto vanishes = [&](const Point& p) {
+      return p.value <= b.value_error && p.value >= -b.value_error;
+    };
     Point cut = curve.at(left.t + static_cast<Real>(fraction) * s);
-    for (int tries = 0; tries < 4 && cut.value <= b.value_error && cut.value >= -b.value_error; ++tries) {
+    for (int tries = 0; tries < 4 && vanishes(cut); ++tries) {
       fraction = fraction * 3 / 4;
       cut = curve.at(left.t + static_cast<Real>(fraction) * s);
     }
-    const bool decides = cut.value > b.value_error || cut.value < -b.value_error;
-    if (!decides || !(cut.t > left.t && cut.t < end.t)) return {Verdict::undecided};
+    if (vanishes(cut) || !(cut.t > left.t && cut.t < end.t)) return {Verdict::undecided};
     ends[count++] = cut;
   }
   return {Verdict::none};
@@ -357,7 +357,7 @@ auto WallSearch<M, V>::isolate_touching(const Curve& curve, const Point& left, P
   // If another wall has shortened the window, extend it to where this gap is certainly negative.
   if (const Real s = 16 * resolution() - 8 * b.value_error / left.slope; right.t - left.t < s)
     right = curve.at(left.t + s);
-  while (!numerics::proven_decreasing(left, right, b)) {
+  while (!proven_decreasing(left, right, b)) {
     const Real s = (right.t - left.t) / 2;
     if (s < 16 * resolution()) return {Verdict::undecided};
     right = curve.at(left.t + s);
@@ -376,7 +376,7 @@ auto WallSearch<M, V>::isolate_resting(const Curve& curve, const Point& right) c
   using std::sqrt;
   const Bounds& b = curve.bounds;
   const Point& left = curve.start;
-  if (b.second == 0 && b.slope_error == 0) return {Verdict::none};  // at rest relative to the wall forever
+  if (b.second == 0 && b.slope_error == 0) return {Verdict::none};  // at rest for ever
   const Real bend = (magnitude(curve.curvature) - b.curvature_error) / 2;
   if (!(bend > 0)) return {Verdict::undecided};
   // From `until` on, bend s^2/2 exceeds the rounding of value and slope, while |f''| > bend.
@@ -390,8 +390,8 @@ auto WallSearch<M, V>::isolate_resting(const Curve& curve, const Point& right) c
   return isolate_rising(curve, right);
 }
 
-/// Follows a ball that certainly overlaps the wall at the start, by rounding, and moves away. Either the
-/// gap opens, and the search goes on from outside, or the ball turns back: the contact is there.
+/// Follows a ball that certainly overlaps the wall at the start, by rounding, and moves away: the gap
+/// opens, and the search goes on from outside, or the ball turns back: this is the contact.
 template <Motion M, Vessel V>
 auto WallSearch<M, V>::follow_overlap(const Curve& curve, const Point& start, const Point& right) const
     -> Bracket {
@@ -409,7 +409,7 @@ auto WallSearch<M, V>::follow_overlap(const Curve& curve, const Point& start, co
     const Real t = left.t + step;
     const bool last = !(t < right.t);
     const Point next = last ? right : curve.at(t);
-    if (numerics::proven_increasing(left, next, b)) {
+    if (proven_increasing(left, next, b)) {
       if (last) return {Verdict::none};
       if (!(next.value < -b.value_error)) return isolate(curve, next, right);
       if (!(next.t > left.t)) return {Verdict::undecided};
@@ -448,7 +448,7 @@ auto WallSearch<M, V>::polish(const Curve& curve, const Bracket& bracket) const 
   if (hop || (left.slope < 0 && right.slope < 0)) {
     const Real width = right.t - left.t;
     const Real& third = curve.bounds.third;
-    const Approach approach{hop ? bracket.guess : numerics::inverse_cubic_hint(left, right),
+    const Approach approach{hop ? bracket.guess : inverse_cubic_hint(left, right),
                             static_cast<double>((right.slope - left.slope) / width),
                             static_cast<double>(third * width), static_cast<double>(third)};
     if (const auto root =
@@ -568,11 +568,8 @@ RoughAnswer WallSearch<M, V>::rough(const Query& query) const {
     const Real speed = top_speed(ball.velocity, query.length);
     auto reachable = model::active_functions(functions.room(), ball.state.position);
     if constexpr (is_body) {
-      if (const Real leap = clear_time(functions, ball.state.position, speed); 16 * leap > query.length) {
-        rough.verdict = Verdict::none;
-        rough.until = (begin + (leap < query.length ? leap : query.length)) * (1 - epsilon<Real>());
-        return rough;
-      }
+      const Real clear = clear_time(functions, ball.state.position, speed, query.length);
+      if (clear > 0) return {.verdict = Verdict::none, .until = (begin + clear) * (1 - epsilon<Real>())};
       reachable = within_reach(functions, ball.state.position, speed, query.length);
     }
     const auto answer = first_contact<true>(functions, functions.start(begin, pose, ball), reachable, speed,
@@ -583,9 +580,9 @@ RoughAnswer WallSearch<M, V>::rough(const Query& query) const {
     if (answer.verdict == Verdict::none) rough.until = (begin + answer.searched) * (1 - epsilon<Real>());
     if (answer.verdict == Verdict::contact) {
       const auto derivatives = bounds_.at(speed, query.length);
+      const auto errors = functions.errors(functions.elapsed(begin + query.length), speed);
       rough.curvature = functions.start(rough.root).curvature[rough.wall];
-      rough.curvature_error =
-          functions.errors(functions.elapsed(begin + query.length), speed).curvature[rough.wall];
+      rough.curvature_error = errors.curvature[rough.wall];
       rough.third = derivatives[functions.room().kind_of(rough.wall)][1];
     }
     return rough;
@@ -627,28 +624,31 @@ auto WallSearch<M, V>::search_by_double(const Query& query) const -> Answer {
     if (!root) return {Verdict::undecided};
     if constexpr (model::HasRegions<V>)  // this scalar's regions are sharper
       if (!functions.room().is_valid(rough.wall, place(root->t))) return {Verdict::undecided};
-    return {.verdict = Verdict::contact,
-            .wall = rough.wall,
-            .time = mill_.clock.instant(query.begin.period, root->t),
-            .time_error = root->time_error,
-            .pose = root->pose};
+    const auto time = mill_.clock.instant(query.begin.period, root->t);
+    auto answer = Answer::contact(rough.wall, time, root->time_error);
+    answer.pose = root->pose;
+    return answer;
   }
 }
 
 // Decisions that bounds cannot make: by exact arithmetic or by a rule.
 
 /// Finds the first contact with one wall up to `end` where the bounds do not decide, or, in the widest
-/// scalar, the ball touches: exactly where possible, otherwise, in the widest scalar, by a rule.
-/// @param found  result by bounds
+/// scalar, the ball touches: exactly, where possible, or by a rule. @param found  by bounds
 template <Motion M, Vessel V>
 auto WallSearch<M, V>::isolate_further(const Curve& curve, const Point& right, const Query& query,
                                        const Real& end, const Bracket& found) const -> Bracket {
   const bool undecided = found.verdict == Verdict::undecided;
   // Exact arithmetic needs no rule for values that are zero within rounding.
-  if (undecided || curve.start.value <= curve.bounds.value_error) {
-    const auto exact = isolate_exactly(curve, query, end);
-    if (exact.verdict != Verdict::undecided) return exact;
-  }
+  if (undecided || curve.start.value <= curve.bounds.value_error)
+    if (const auto gap = exact_gap(mill_, query, curve.wall)) {
+      const auto time = exact_contact_time(*gap);
+      if (!time) return {Verdict::none};
+      const Point at{query.begin.offset + time->template rounded_down<Real>(), Real(0), Real(0)};
+      if (at.t > end) return {Verdict::none};
+      const bool at_once = time->compare({}) == 0;
+      return {Verdict::contact, at, at, resolution(), Real(0), at_once};
+    }
   if constexpr (is_widest)
     if (undecided) return isolate_by_rule(curve, right);
   return found;
@@ -706,32 +706,20 @@ auto WallSearch<M, V>::isolate_by_rule(const Curve& curve, const Point& right) c
   return {.verdict = Verdict::none, .by_rule = true};
 }
 
-/// Isolates the first contact up to `end` exactly. Undecided if the gap is not a polynomial.
-template <Motion M, Vessel V>
-auto WallSearch<M, V>::isolate_exactly(const Curve& curve, const Query& query, const Real& end) const
-    -> Bracket {
-  const auto gap = exact_gap(mill_, query, curve.wall);
-  if (!gap) return {Verdict::undecided};
-  const auto time = exact_contact_time(*gap);
-  if (!time) return {Verdict::none};
-  const Real delay = time->template rounded_down<Real>();
-  const Point at{query.begin.offset + delay, Real(0), Real(0)};
-  if (at.t > end) return {Verdict::none};
-  return {.verdict = Verdict::contact,
-          .left = at,
-          .right = at,
-          .time_error = resolution(),
-          .at_once = time->compare({}) == 0};
-}
-
 /// The first contact with the vessel or a body. Each body is searched window by window as far as the others
 /// have been. Where the times of two contacts are closer than their errors a wider scalar decides; in the
 /// widest, the lower id goes first by a rule.
 /// @param first  answer for the vessel
 template <class Real>
 auto AnyWallSearch<Real>::with_bodies(const Query& query, Answer first) const -> Answer {
-  const DriveClock<Real>& clock = bodies_.front().mill().clock;
-  const auto clear = clear_times(query);
+  const auto& mill = bodies_.front().mill();
+  const DriveClock<Real>& clock = mill.clock;
+  const Real dt = clock.elapsed(query.flight.start, query.begin);
+  const Real speed =
+      norm<Real>(velocity_after(query.flight, mill.gravity, dt)) + mill.gravity_size * query.length;
+  const auto clear = groups_.clear_times(instant_cast<double>(query.begin),
+                                         vector_cast<double>(position_after(query.flight, mill.gravity, dt)),
+                                         static_cast<double>(query.radius), static_cast<double>(speed));
   for (std::size_t k = 0; k < bodies_.size() && first.verdict != Verdict::undecided; ++k) {
     // Contacts up to a little past the first one matter.
     const bool none_yet = first.verdict == Verdict::none;
@@ -758,17 +746,6 @@ auto AnyWallSearch<Real>::with_bodies(const Query& query, Answer first) const ->
     first.by_rule = by_rule;
   }
   return first;
-}
-
-template <class Real>
-BodyGroups::Times AnyWallSearch<Real>::clear_times(const Query& query) const {
-  const auto& mill = bodies_.front().mill();
-  const Real dt = mill.clock.elapsed(query.flight.start, query.begin);
-  const Real speed =
-      norm<Real>(velocity_after(query.flight, mill.gravity, dt)) + mill.gravity_size * query.length;
-  return groups_.clear_times(instant_cast<double>(query.begin),
-                             vector_cast<double>(position_after(query.flight, mill.gravity, dt)),
-                             static_cast<double>(query.radius), static_cast<double>(speed));
 }
 
 /// The first contact with a body within `length` of the begin of a query. None, too, if it takes too many

@@ -29,7 +29,7 @@ struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Agenda {
   std::array<std::uint32_t, capacity> known;  ///< latest impact of any ball when the contact was predicted
   std::uint32_t last_impact = 0;              ///< number of the ball's latest
   std::int8_t pair_count = 0;
-  /// A wall id, plus `tied` if another wall is hit at that time; -1 if the time is the end of a search.
+  /// A wall id, plus `tied` if another wall is hit at that time; -1 if a search ends there.
   std::int8_t wall = -1;
   std::int8_t crossing_face = 0;  ///< twice the axis, and 1 more when upwards
   std::int8_t next = wall_entry;  ///< the entry that was queued

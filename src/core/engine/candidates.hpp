@@ -15,7 +15,7 @@ namespace edmill::engine {
 template <class Real>
 using Balls = std::vector<model::BallProperties<Real>>;
 
-/// Pairs are filtered, and cells crossed, in double: bounds and margins cover the flights' rounding.
+/// Pairs are filtered, and cells crossed, in double: bounds and margins cover the rounding.
 template <class Real>
 class Candidates {
  public:

@@ -40,8 +40,8 @@ struct FoundBalls {
 
 /// The balls of each cell. The cell of each ball is stored by the owner, next to its other data, where
 /// it costs no cache line of its own. Cells are thicker than the largest ball, by far more than the
-/// rounding of crossing times, so that no late crossing hides a contact: double suffices. The outermost
-/// ones are unbounded, and surrounded by a layer of empty cells, so that all balls have neighbours.
+/// rounding of crossing times: no late crossing hides a contact, and double suffices. The outermost ones
+/// are unbounded, and surrounded by a layer of empty cells: all have neighbours.
 class CellGrid {
  public:
   /// @param low, high  corners of the region that the balls' centres sweep [m]
@@ -223,7 +223,7 @@ class CellGrid {
   }
 
   /// A cell stores up to two balls; in a crowded cell, which is rare, they form a list from its first one.
-  /// The two highest bits of `second`, as a signed number, are the number of balls minus two.
+  /// The two highest bits of `second`, as a signed number, are the number of balls less two.
   struct Cell {
     static constexpr std::uint32_t single = 3u << 30, empty = 2u << 30, crowded = empty | 1u << 29;
     std::uint32_t first = 0, second = empty;
@@ -243,11 +243,11 @@ class CellGrid {
   /// Finds the balls in a block of cells, three in y and z, given by the parts of their index along each
   /// axis. Copies whole cells, for a branch for each of 27 mostly empty ones would cost more.
   template <int nx>
-  void collect(const int* x, const int* y, const int* z, FoundBalls& found) const {
+  void collect(const int* x, const int* y, const int* z, FoundBalls& near) const {
     constexpr int rows = 9, cells = nx * rows;
     constexpr std::size_t room = 2 * cells + 4;
-    if (found.balls.size() < room) found.balls.resize(room);
-    int* const out = found.balls.data();
+    if (near.balls.size() < room) near.balls.resize(room);
+    int* const out = near.balls.data();
     std::int64_t surplus = 0, seen = 0;
     std::array<std::ptrdiff_t, nx> along;
     for (int k = 0; k < nx; ++k) along[k] = x[k];
@@ -266,7 +266,7 @@ class CellGrid {
         seen |= cell;
       }
     }
-    found.count = 2 * cells + static_cast<int>(surplus);
+    near.count = 2 * cells + static_cast<int>(surplus);
     if (!(seen >> 32 & (Cell::crowded ^ Cell::empty))) [[likely]]
       return;
     std::array<int, cells> chains;
@@ -277,7 +277,7 @@ class CellGrid {
         chains[count] = static_cast<int>(cell.first);
         count += cell.second == Cell::crowded;
       }
-    for (int k = 0; k < count; ++k) append_chain(chains[k], found);
+    for (int k = 0; k < count; ++k) append_chain(chains[k], near);
   }
 
   void append_chain(int first, FoundBalls& found) const {

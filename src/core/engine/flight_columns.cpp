@@ -184,7 +184,8 @@ EDMILL_INTO_CLONES int filter_batch(const FlightBatch& batch, const PairFilterQu
     const FourIntegers meets = ~((moving & (apart | parting)) | (r2 == 0));
     store(approach + k, b);
     store(gap + k, c);
-    store(discriminants + k, (clear & (discriminant > error + grazing)) ? discriminant : Four{} - 1.0);
+    const FourIntegers certain = clear & (discriminant > error + grazing);
+    store(discriminants + k, certain ? discriminant : Four{} - 1.0);
     // Without branches: which lanes are candidates is unpredictable.
     const unsigned bits = bits_of(meets);
     FourPlaces places;

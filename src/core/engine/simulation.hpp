@@ -45,6 +45,7 @@ class Simulation {
   using Event = engine::Event<Real>;
   using Agenda = engine::Agenda<Real>;
   using Impact = engine::Impact<Real>;
+  using Pose = model::AnyPose<Real>;
   using DoubleState = typename Candidates<Real>::DoubleState;
   static constexpr bool is_double = std::is_same_v<Real, double>;
 
@@ -115,9 +116,7 @@ class Simulation {
 
   bool has_rivals(const Event& event) const;
   Event settle_ties(Event event);
-  void finish_wall_searches(const Event& event, const Instant& limit);
   void find_rivals(const Event& event, const Instant& limit);
-  void find_due(const Event& event, const Instant& limit);
   void add_near(int ball, std::vector<int>& balls);
   void add_rivals_of_full_agenda(int ball, const Event& event, const Instant& limit);
   dynamics::Contact<Real> contact_of(const Event& event) const;
@@ -132,7 +131,7 @@ class Simulation {
   void note_collapse(const Impact& impact, int ball, int partner);
 
   void predict(const Impact& impact);
-  void predict_all(int ball, int already_done, const model::AnyPose<Real>& pose, FoundBalls& near);
+  void predict_all(int ball, int already_done, const Pose& pose, FoundBalls& near);
   /// The balls of the adjacent cells, where cells are used.
   void find_neighbours(int ball, FoundBalls& near) {
     if (!candidates_.uses_cells()) return;
@@ -142,7 +141,7 @@ class Simulation {
   void predict_pairs(int ball, int already_done, const DoubleState& state, int found, const FoundBalls& near);
   void expect_pair(int ball, int other, const Real& delay);
   void predict_crossing(int ball, const DoubleState& state);
-  void predict_wall(int ball, const model::AnyPose<Real>& pose);
+  void predict_wall(int ball, const Pose& pose);
   Real search_length(int ball, const Instant& begin) const;
   void take_wall_answer(int ball, const dynamics::WallAnswer<Real>& answer, const Instant& begin);
 
@@ -172,10 +171,8 @@ class Simulation {
   Real fall_;               ///< the most that gravity adds to a ball's speed in one flight [m/s]
   // Scratch, valid during one event.
   FoundBalls near_, near_partner_;  ///< balls of the adjacent cells
-  model::AnyPose<Real> pose_;       ///< now
-  FoundBalls near_due_;
-  std::vector<int> due_;       ///< balls with an event at nearly the same time
-  std::vector<Event> rivals_;  ///< contacts that may be first
+  Pose pose_;                       ///< now
+  std::vector<Event> rivals_;       ///< contacts that may be first
 };
 
 // Instantiated in the source that is compiled with all optimisations.

@@ -62,7 +62,7 @@ Real top_speed_of(const States<Real>& states, const model::Mill<Real>& mill) {
   return 2 * (largest + wall) + largest_fall(mill);
 }
 
-/// Divides the region that the vessel sweeps into cells of about one ball, thicker than the largest.
+/// Divides the region that the vessel sweeps into cells of about one ball, thicker than any.
 template <class Real>
 CellGrid make_grid(const model::Mill<Real>& mill, const Balls<Real>& balls) {
   const auto region = mill.motion.swept(mill.vessel.half_sizes(), mill.vessel.reach());
@@ -71,8 +71,8 @@ CellGrid make_grid(const model::Mill<Real>& mill, const Balls<Real>& balls) {
   // The C library's cube root is not the same on every machine; nor is long double.
   using boost::math::policies::promote_double;
   constexpr boost::math::policies::policy<promote_double<false>> portable;
-  const auto volume = static_cast<double>(mill.vessel.volume()), count = static_cast<double>(balls.size());
-  const double spacing = 0.45 * boost::math::cbrt(volume / count, portable);
+  const auto volume = static_cast<double>(mill.vessel.volume());
+  const double spacing = 0.45 * boost::math::cbrt(volume / static_cast<double>(balls.size()), portable);
   Real edge = 2 * largest * (1 + Real(1) / 1024);
   if (balls.size() <= 32) edge = 2 * (region.high - region.low).maxCoeff();
   if (edge < spacing) edge = Real(spacing);
@@ -301,13 +301,20 @@ bool Simulation<Real>::has_rivals(const Event& event) const {
 }
 
 /// Finds the first of contacts that share a ball and are so close in time that rounding may have
-/// reversed them: wider scalars recompute the times. If none separates them a rule does, and marks them.
+/// reversed them: wider scalars recompute the times. A rule orders and marks the inseparable ones.
 template <class Real>
 auto Simulation<Real>::settle_ties(Event event) -> Event {
+  // Continues wall searches whose windows end before `limit`: a contact may follow immediately.
+  const auto finish = [&](int ball, const Instant& limit) {
+    const Agenda& a = agendas_[ball];
+    while (!a.hits_wall() && a.times[wall_entry] <= limit)
+      continue_wall_search(ball, Instant(a.times[wall_entry]));
+  };
   std::vector<Event> passed;  // contacts that come after another one
   for (;;) {
     const Instant limit = clock_.after(event.time, ladder_.tie_window());
-    finish_wall_searches(event, limit);
+    finish(event.ball, limit);
+    if (event.is_pair()) finish(event.partner, limit);
     find_rivals(event, limit);
     std::optional<Event> first;
     for (const Event& rival : rivals_) {
@@ -326,24 +333,17 @@ auto Simulation<Real>::settle_ties(Event event) -> Event {
   }
 }
 
-/// Continues wall searches whose windows end before `limit`: a contact may follow immediately.
-template <class Real>
-void Simulation<Real>::finish_wall_searches(const Event& event, const Instant& limit) {
-  const auto finish = [&](int ball) {
-    const Agenda& a = agendas_[ball];
-    while (!a.hits_wall() && a.times[wall_entry] <= limit)
-      continue_wall_search(ball, Instant(a.times[wall_entry]));
-  };
-  finish(event.ball);
-  if (event.is_pair()) finish(event.partner);
-}
-
 /// Fills `rivals_` with the contacts up to `limit` that share a ball with the event.
 template <class Real>
 void Simulation<Real>::find_rivals(const Event& event, const Instant& limit) {
   rivals_.clear();
-  find_due(event, limit);
-  for (const int ball : due_) {
+  std::vector<int> near;  // and no others, however many have events at the same time
+  add_near(event.ball, near);
+  if (event.is_pair()) add_near(event.partner, near);
+  std::sort(near.begin(), near.end());
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  for (const int ball : near) {
+    if (limit < queue_.time(ball)) continue;
     const Agenda& a = agendas_[ball];
     const auto add = [&](const Event& rival) {
       if (rival.shares_ball(event) && !rival.same_bodies(event)) rivals_.push_back(rival);
@@ -358,22 +358,12 @@ void Simulation<Real>::find_rivals(const Event& event, const Instant& limit) {
   }
 }
 
-/// Fills `due_` with the balls near those of `event` that have an event up to `limit`.
-template <class Real>
-void Simulation<Real>::find_due(const Event& event, const Instant& limit) {
-  due_.clear();  // only balls nearby, however many others have events at the same time
-  add_near(event.ball, due_);
-  if (event.is_pair()) add_near(event.partner, due_);
-  std::sort(due_.begin(), due_.end());
-  due_.erase(std::unique(due_.begin(), due_.end()), due_.end());
-  std::erase_if(due_, [&](int ball) { return limit < queue_.time(ball); });
-}
-
 /// Adds the balls of the adjacent cells and the ball itself.
 template <class Real>
 void Simulation<Real>::add_near(int ball, std::vector<int>& balls) {
-  candidates_.grid().neighbours(bodies_[ball].cell, near_due_);
-  balls.insert(balls.end(), near_due_.balls.begin(), near_due_.balls.begin() + near_due_.count);
+  FoundBalls found;
+  candidates_.grid().neighbours(bodies_[ball].cell, found);
+  balls.insert(balls.end(), found.balls.begin(), found.balls.begin() + found.count);
 }
 
 /// Adds the contacts that did not fit into the ball's agenda, by predicting them again.
@@ -545,7 +535,7 @@ void Simulation<Real>::raise_top_speed(int ball) {
   candidates_.raise_top_speed(top_speed_);
 }
 
-/// Tests whether the impact is one of infinitely many in finite time, or at one time; then notifies.
+/// Tests whether the impact is one of infinitely many in finite time, or at one time; notifies.
 template <class Real>
 void Simulation<Real>::notify(const Impact& impact) {
   if (may_collapse_) {
@@ -568,9 +558,8 @@ void Simulation<Real>::note_collapse(const Impact& impact, int ball, int partner
   if (law.least_separation > 0) return;
   const Real slow = std::max(slow_, Real(1000 * epsilon<Real>() * top_speed_));
   auto& recent = bodies_[ball].recent;
-  const auto& out = impact.outcome;
-  if (!collapse_watch_.note(recent, key, now_, out.approach_speed, slow, out.restitution_normal(), clock_))
-    return;
+  const Real &speed = impact.outcome.approach_speed, e = impact.outcome.restitution_normal();
+  if (!collapse_watch_.note(recent, key, now_, speed, slow, e, clock_)) return;
   const Real time = collapse_watch_.accumulation_time(recent, clock_);
   collapse_ = model::InelasticCollapse<Real>{ball, with_wall, partner, time};
   stop_ = EndReason::inelastic_collapse;
@@ -588,8 +577,7 @@ void Simulation<Real>::predict(const Impact& impact) {
 
 /// @pre find_neighbours(ball, near)
 template <class Real>
-void Simulation<Real>::predict_all(int ball, int already_done, const model::AnyPose<Real>& pose,
-                                   FoundBalls& near) {
+void Simulation<Real>::predict_all(int ball, int already_done, const Pose& pose, FoundBalls& near) {
   const auto state = candidates_.state(ball, now_);
   agendas_[ball].drop_pairs();
   const int found = candidates_.find(ball, state, now_, near);
@@ -645,7 +633,8 @@ void Simulation<Real>::predict_crossing(int ball, const DoubleState& state) {
   Agenda& a = agendas_[ball];
   const auto& gravity = candidates_.filter().gravity;
   const auto velocity = dynamics::velocity_after(candidates_.flights()[ball], gravity, state.age);
-  const auto crossing = candidates_.grid().crossing(bodies_[ball].cell, state.position, velocity, gravity);
+  const auto& cell = bodies_[ball].cell;
+  const auto crossing = candidates_.grid().crossing(cell, state.position, velocity, gravity);
   a.crossing_face = static_cast<std::int8_t>(2 * crossing.axis + (crossing.step > 0));
   const bool leaves = crossing.delay < Crossing::never;
   a.times[crossing_entry] = leaves ? clock_.after(now_, Real(crossing.delay)) : Instant::never();
@@ -663,7 +652,7 @@ Real Simulation<Real>::search_length(int ball, const Instant& begin) const {
 }
 
 template <class Real>
-void Simulation<Real>::predict_wall(int ball, const model::AnyPose<Real>& pose) {
+void Simulation<Real>::predict_wall(int ball, const Pose& pose) {
   ++counts_.wall_searches;
   const Real length = search_length(ball, now_);
   const dynamics::WallQuery<Real> query{flights_[ball], properties(ball).radius, now_, length};

@@ -25,8 +25,8 @@ struct RecentImpacts {
 /// Detects inelastic collapse, for laws without a least separation speed. A ball is in collapse if each
 /// of its last `enough` impacts came after a path shorter than `smallest_path`, a length well above
 /// rounding, and was so slow that acceleration alone brought the bodies together again, or mere
-/// rounding. Faster impacts after such paths are those of bodies that touch: they come to an end. The
-/// accumulation time is extrapolated from the first of them, where rounding matters least: intervals
+/// rounding. Faster impacts after such paths are those of bodies that touch: they come to an end.
+/// The accumulation time is extrapolated from the first of them, where rounding matters least: intervals
 /// with one partner shrink by the restitution e, so the remaining ones sum to dt e / (1 - e).
 template <class Real>
 class CollapseWatch {
@@ -34,7 +34,7 @@ class CollapseWatch {
   explicit CollapseWatch(const Real& smallest_path) : smallest_path_(smallest_path) {}
 
   /// Records an impact with the partner `key`. @return true if the ball is in collapse
-  /// @param slow  speed [m/s] below which acceleration over the smallest path, or rounding, explains it
+  /// @param slow  least speed that neither acceleration over the smallest path nor rounding gives [m/s]
   bool note(RecentImpacts<Real>& r, int key, const Instant<Real>& now, const Real& approach_speed,
             const Real& slow, const Real& restitution, const DriveClock<Real>& clock) const {
     const Real interval = clock.elapsed(r.last, now);
@@ -66,7 +66,7 @@ class CollapseWatch {
 };
 
 /// Detects stalled runs: so many impacts while the clock hardly advances that the bodies are jammed, for
-/// frictionless ones would have found any motion that separates them (theory.md, section 6).
+/// frictionless ones would have found any motion that separates them. theory.md, section 6
 template <class Real>
 class StallWatch {
  public:

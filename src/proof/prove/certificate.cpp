@@ -130,7 +130,7 @@ Json read_header(std::istream& in) {
   return header;
 }
 
-/// "2.560368941527883137e-03,1.2e-40": the midpoint to `digits` places, a radius that covers `value`.
+/// "2.560368941527883137e-03,1.2e-40": the midpoint to `digits` places, with a sufficient radius.
 std::string decimal_of(const Enclosure& value, int digits) {
   const TextOfFlint middle(arf_get_str(arb_midref(value.arb()), digits + 1), flint_free);
   Enclosure printed, difference;
@@ -185,8 +185,8 @@ void write_certificate(std::ostream& out, const Proof& proof) {
 void write_events(std::ostream& out, const Proof& proof, int digits) {
   fmt::print(out, "# edmill proven events 1\n# case {}, digest {}\n# {} events, proven in {} bits\n",
              proof.exact.name, proof.exact.digest, proof.events.size(), proof.bits);
-  out << "index,time,time_radius,ball,partner_kind,partner,approach_speed,approach_speed_radius,slip_speed,"
-         "slip_speed_radius\n";
+  out << "index,time,time_radius,ball,partner_kind,partner,approach_speed,approach_speed_radius,"
+         "slip_speed,slip_speed_radius\n";
   const Precision scope(proof.bits + 64);
   const Enclosure start = enclosure_of(proof.exact.start);
   for (std::size_t k = 0; k < proof.events.size(); ++k) {

@@ -122,7 +122,8 @@ QuantityVector exact_place(const Vec3<mpfr>& local, QuantityVector room, const s
     if (!(abs(steps - whole) < 1e-100))
       throw InputError(where +
                        ": found balls whose places are not known exactly, expected a position for each");
-    size = size * casefile::quantity_of({cpp_int(static_cast<std::int64_t>(whole)), cpp_int(1) << 52});
+    const cpp_int number(static_cast<std::int64_t>(whole));
+    size = size * casefile::quantity_of({number, cpp_int(1) << 52});
   }
   return room;
 }
@@ -154,7 +155,8 @@ void add_batches(const CaseSpec& spec, const std::optional<QuantityVector>& half
       for (auto& size : room) size = casefile::quantity_of(rational(size) - edge);
       ball.in_vessel = true;
       const auto& state = built.states[result.balls.size()];
-      ball.position = exact_place(motion.position_in_vessel(pose, state.position), room, batch.where);
+      const auto local = motion.position_in_vessel(pose, state.position);
+      ball.position = exact_place(local, room, batch.where);
       result.balls.push_back(ball);
       materials.push_back(batch.material);
     }

@@ -190,8 +190,8 @@ struct Excess {
 
 /// The squared distance of a point from the core of a solid. Its second derivative, which jumps where
 /// the nearest point of the core passes from a face to an edge, is enclosed with both of its values
-/// there: Taylor's formula is valid for such functions. @param square  of the distance at contact
-inline Gap gap_of_solid(bool round, const Vector& half, const Enclosure& square, const InFrame& ball) {
+/// there: Taylor's formula is valid for such functions. @param square  that of contact
+inline Gap solid_gap(bool round, const Vector& half, const Enclosure& square, const InFrame& ball) {
   const auto& [p, v, a] = ball;
   Gap half_gap{-square / 2, {}, {}};
   for (const int axis : round ? std::vector{1} : std::vector{1, 0, 2}) {
@@ -247,11 +247,12 @@ class Walls {
 
   Gap gap(std::size_t wall, const InFrame& ball) const {
     const Wall& w = walls_[wall];
-    if (w.is_solid()) return gap_of_solid(w.kind == ExactWall::solid_cylinder, w.half, w.offset, ball);
+    if (w.is_solid()) return solid_gap(w.kind == ExactWall::solid_cylinder, w.half, w.offset, ball);
+    const auto& [place, velocity, acceleration] = ball;
     if (w.kind == ExactWall::plane)
-      return {w.offset - dot<Enclosure>(w.outward, ball.place), -dot<Enclosure>(w.outward, ball.velocity),
-              -dot<Enclosure>(w.outward, ball.acceleration)};
-    const Vector p = w.across(ball.place), u = w.across(ball.velocity), a = w.across(ball.acceleration);
+      return {w.offset - dot<Enclosure>(w.outward, place), -dot<Enclosure>(w.outward, velocity),
+              -dot<Enclosure>(w.outward, acceleration)};
+    const Vector p = w.across(place), u = w.across(velocity), a = w.across(acceleration);
     return {w.offset - squared_norm<Enclosure>(p), -2 * dot<Enclosure>(p, u),
             -2 * (squared_norm<Enclosure>(u) + dot<Enclosure>(p, a))};
   }

@@ -323,12 +323,11 @@ class Prover {
     const Vector position[2] = {one.position_at(middle, g), two.position_at(middle, g)};
     const Vector velocity[2] = {one.velocity_at(middle, g), two.velocity_at(middle, g)};
     const Vector relative = velocity[0] - velocity[1];
-    const Tools::Ball &ball = fine_.balls[i], &partner = fine_.balls[j];
-    const auto &R_i = ball.radius, &R_j = partner.radius, &J_i = ball.inertia, &J_j = partner.inertia;
+    const auto& [walls_i, R_i, density_i, J_i] = fine_.balls[i];
+    const auto& [walls_j, R_j, density_j, J_j] = fine_.balls[j];
     const Vector normal = (position[0] - position[1] + relative * d) / Enclosure(R_i + R_j);
     // Masses without 4/3 pi: only their ratios count.
-    const Enclosure m_i = ball.density * (R_i * R_i * R_i);
-    const Enclosure m_j = partner.density * (R_j * R_j * R_j);
+    const Enclosure m_i = density_i * (R_i * R_i * R_i), m_j = density_j * (R_j * R_j * R_j);
     const Enclosure share_i = m_j / (m_i + m_j), share_j = m_i / (m_i + m_j);
     const Enclosure compliance = 1 + share_i / J_i + share_j / J_j;
     const Vector contact = relative - cross<Enclosure>(one.spin * R_i + two.spin * R_j, normal);

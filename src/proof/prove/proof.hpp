@@ -1,4 +1,4 @@
-// The first events of a case, proven: what meets when. docs/theory.md, section 7; docs/certificates.md
+// The first events of a case, proven. docs/theory.md, section 7; docs/certificates.md
 #pragma once
 
 #include <atomic>
