@@ -2,8 +2,6 @@
 // Equations: (2.23'), (2.28'), (2.30'), (2.34'), (2.35), (2.36'), (A.82) of docs/theory.md.
 #pragma once
 
-#include <variant>
-
 #include "base/vector.hpp"
 #include "model/ball.hpp"
 #include "model/contact_law.hpp"
@@ -30,7 +28,7 @@ struct ImpactOutcome {
     const Real &before = approach_speed, &after = separation_speed;
     return before > 0 ? Real(normal_impulse / (before + after) * (before * before) / 2) : Real(0);
   }
-  /// Effective e_n = separation over approach speed; above 1 with supplied energy; 1 by default.
+  /// Separation over approach speed: above 1 with supplied energy, 1 without approach.
   Real restitution_normal() const {
     return approach_speed > 0 ? Real(separation_speed / approach_speed) : Real(1);
   }
@@ -46,11 +44,10 @@ struct ImpulseParts {
 };
 
 /// @param compliance  1 + M/(m_i J_i) + M/(m_j J_j); the last term is zero for a wall
-/// @param law         one of the laws of model/laws
-template <class Real, class Law>
-ImpulseParts<Real> impulse_by(const Law& law, const Real& least_separation, const Vec3<Real>& normal,
-                              const Vec3<Real>& contact_velocity, const model::ContactBodies<Real>& bodies,
-                              const Real& compliance, bool in_stall) {
+template <class Real>
+ImpulseParts<Real> impulse_parts(const Vec3<Real>& normal, const Vec3<Real>& contact_velocity,
+                                 const model::ContactBodies<Real>& bodies, const Real& compliance,
+                                 const model::ContactLaw<Real>& law, bool in_stall) {
   const Real& mass = bodies.effective_mass;
   const Real normal_speed = dot<Real>(contact_velocity, normal);  // negative while approaching
   const Vec3<Real> slip = contact_velocity - normal * normal_speed;
@@ -59,8 +56,8 @@ ImpulseParts<Real> impulse_by(const Law& law, const Real& least_separation, cons
   out.approach_speed = -normal_speed;
   out.slip_speed = norm<Real>(slip);
   const Real approach = normal_speed < 0 ? Real(-normal_speed) : Real(0);
-  const Real by_restitution = model::restitution_of(law, approach, bodies) * approach;
-  const Real separation = by_restitution < least_separation ? least_separation : by_restitution;
+  const Real by_restitution = law.restitution(approach, bodies) * approach;
+  const Real separation = by_restitution < law.least_separation ? law.least_separation : by_restitution;
   out.least_separation = separation > by_restitution && separation > normal_speed;
   // Bodies that already separate faster, because of rounding, keep their velocities.
   out.separation_speed = separation > normal_speed ? separation : normal_speed;
@@ -81,17 +78,6 @@ ImpulseParts<Real> impulse_by(const Law& law, const Real& least_separation, cons
   const Real slip_squared = out.slip_speed * out.slip_speed;
   out.milling_dose = out.normal_dose + mass / 2 * ((1 - e_t * e_t) / compliance * slip_squared);
   return parts;
-}
-
-template <class Real>
-ImpulseParts<Real> impulse_parts(const Vec3<Real>& normal, const Vec3<Real>& contact_velocity,
-                                 const model::ContactBodies<Real>& bodies, const Real& compliance,
-                                 const model::ContactLaw<Real>& law, bool in_stall) {
-  const auto by = [&](const auto& one) {
-    return impulse_by<Real>(one, law.least_separation, normal, contact_velocity, bodies, compliance,
-                            in_stall);
-  };
-  return std::visit(by, law.law);
 }
 
 }  // namespace detail
