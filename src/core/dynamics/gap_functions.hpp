@@ -108,9 +108,7 @@ class GapFunctions {
         flight_(flight),
         room_(mill.vessel.inset(radius)),
         period_(period),
-        lag_(period == flight.start.period ? Real(0)
-                                           : Real(Real(period - flight.start.period) * mill.clock.period())) {
-  }
+        lag_(Real(period - flight.start.period) * mill.clock.period()) {}
 
   /// Chooses the functions that are valid around a position seen from a body. @return their number
   int enter(const Vec3<Real>& position) {

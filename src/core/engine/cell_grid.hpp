@@ -182,10 +182,8 @@ class CellGrid {
   }
 
  private:
+  using Faces = std::array<double, 2>;     ///< lower and upper of a cell along an axis [m]
   static constexpr double far_off = 1e30;  ///< of the outermost faces [m]; as a delay [s]: never
-
-  using Faces = std::array<double, 2>;  ///< lower and upper of a cell along an axis [m]
-
   static constexpr int none = -1;
 
   /// The two other axes.
@@ -223,7 +221,7 @@ class CellGrid {
   }
 
   /// A cell stores up to two balls; in a crowded cell, which is rare, they form a list from its first one.
-  /// The two highest bits of `second`, as a signed number, are the number of balls less two.
+  /// The two highest bits of `second` are a signed number, that of the balls less two.
   struct Cell {
     static constexpr std::uint32_t single = 3u << 30, empty = 2u << 30, crowded = empty | 1u << 29;
     std::uint32_t first = 0, second = empty;
@@ -269,15 +267,10 @@ class CellGrid {
     near.count = 2 * cells + static_cast<int>(surplus);
     if (!(seen >> 32 & (Cell::crowded ^ Cell::empty))) [[likely]]
       return;
-    std::array<int, cells> chains;
-    int count = 0;
     for (int row = 0; row < rows; ++row)
-      for (int k = 0; k < nx; ++k) {
-        const Cell& cell = content_[x[k] + y[row % 3] + z[row / 3]];
-        chains[count] = static_cast<int>(cell.first);
-        count += cell.second == Cell::crowded;
-      }
-    for (int k = 0; k < count; ++k) append_chain(chains[k], near);
+      for (int k = 0; k < nx; ++k)
+        if (const Cell& cell = content_[x[k] + y[row % 3] + z[row / 3]]; cell.second == Cell::crowded)
+          append_chain(static_cast<int>(cell.first), near);
   }
 
   void append_chain(int first, FoundBalls& found) const {

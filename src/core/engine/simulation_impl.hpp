@@ -550,15 +550,15 @@ void Simulation<Real>::notify(const Impact& impact) {
 }
 
 template <class Real>
-void Simulation<Real>::note_collapse(const Impact& impact, int ball, int partner) {
-  const bool with_wall = impact.with_wall;
+void Simulation<Real>::note_collapse(const Impact& hit, int ball, int partner) {
+  const bool with_wall = hit.with_wall;
   const int key = with_wall ? ball_count() + partner : partner;
   const auto& law = with_wall ? mill_.law_with_wall(properties(ball), partner)
                               : mill_.law_between(properties(ball), properties(partner));
   if (law.least_separation > 0) return;
   const Real slow = std::max(slow_, Real(1000 * epsilon<Real>() * top_speed_));
   auto& recent = bodies_[ball].recent;
-  const Real &speed = impact.outcome.approach_speed, e = impact.outcome.restitution_normal();
+  const Real &speed = hit.outcome.approach_speed, e = hit.outcome.restitution_normal();
   if (!collapse_watch_.note(recent, key, now_, speed, slow, e, clock_)) return;
   const Real time = collapse_watch_.accumulation_time(recent, clock_);
   collapse_ = model::InelasticCollapse<Real>{ball, with_wall, partner, time};

@@ -65,7 +65,7 @@ class CollapseWatch {
   Real smallest_path_;
 };
 
-/// Detects stalled runs: so many impacts while the clock hardly advances that the bodies are jammed, for
+/// Detects stalled runs: so many impacts while the clock hardly advances that bodies are jammed, for
 /// frictionless ones would have found any motion that separates them. theory.md, section 6
 template <class Real>
 class StallWatch {

@@ -294,12 +294,13 @@ struct Span {
 /// Proves that one flight meets no wall between its ends.
 class WallExclusion {
  public:
-  /// @param motion, walls  for the ball; the proof computes in the current precision
+  /// @param motion, walls  for the ball
   WallExclusion(const Motion& motion, const Walls& walls, const Vector& gravity, Span span)
       : motion_(motion), walls_(walls), gravity_(gravity), span_(std::move(span)) {}
 
   /// The windows of the proof as text: "r2p2p1". Empty if bisection to the end does not prove it.
-  std::string windows(std::size_t wall) {
+  std::string windows(std::size_t wall, slong bits) {
+    const Precision scope(bits);
     std::string text;
     return bisect(wall, 0, 0, text) ? text : "";
   }

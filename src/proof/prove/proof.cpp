@@ -198,19 +198,15 @@ class Prover {
   Gap gap_at(const Meeting& next, const Enclosure& time) const {
     const Flight& one = tracks_[next.ball].flight;
     const Tools::Ball& ball = fine_.balls[next.ball];
+    const int partner = next.partner;
     if (next.with_wall)
-      return ball.walls.gap(next.partner, one.seen(pose_of_wall(next.partner, time), time, fine_.gravity));
-    const Flight& two = tracks_[next.partner].flight;
+      return ball.walls.gap(partner, one.seen(pose_of_wall(partner, time), time, fine_.gravity));
+    const Flight& two = tracks_[partner].flight;
     // The relative motion is uniform: it is extrapolated from the middle of a bracket.
-    const Enclosure middle = time.middle(), reach = ball.radius + fine_.balls[next.partner].radius;
+    const Enclosure middle = time.middle(), reach = ball.radius + fine_.balls[partner].radius;
     PairGap pair(one, two, reach, fine_.gravity, middle);
     pair.between += pair.relative * Enclosure(time - middle);
     return {pair.value(), 2 * pair.half_rate(), 2 * squared_norm<Enclosure>(pair.relative)};
-  }
-
-  bool brackets(const Meeting& next, const Enclosure& time) const {
-    return gap_at(next, time.low()).value.is_positive() && gap_at(next, time.high()).value.is_negative() &&
-           gap_at(next, time).rate.is_negative();
   }
 
   /// Newton's method to the width of the flights, then an interval that provably has the contact.
@@ -237,7 +233,9 @@ class Prover {
       Enclosure found = rounded(time, std::max<slong>(kept, 8)).middle();
       arb_add_error(found.arb(), room.arb());
       found = rounded_out(found, fine_.bits);
-      if (brackets(next, found)) return found;
+      if (gap_at(next, found.low()).value.is_positive() && gap_at(next, found.high()).value.is_negative() &&
+          gap_at(next, found).rate.is_negative())
+        return found;
     }
     throw Undecided{"when " + name_of(next) + " meet"};
   }
@@ -251,13 +249,9 @@ class Prover {
     auto first = exclusion(coarse_, track.coarse), second = exclusion(fine_, track.flight);
     std::vector<std::string> texts;
     for (std::size_t wall = 0; wall < exact_.walls.size(); ++wall) {
-      {
-        const Precision scope(coarse_.bits);
-        texts.push_back(first.windows(wall));
-      }
-      if (texts.back().empty()) texts.back() = second.windows(wall);
-      if (texts.back().empty())
-        throw Undecided{fmt::format("whether ball {} meets wall {} before", ball, wall)};
+      auto& text = texts.emplace_back(first.windows(wall, coarse_.bits));
+      if (text.empty()) text = second.windows(wall, fine_.bits);
+      if (text.empty()) throw Undecided{fmt::format("whether ball {} meets wall {} before", ball, wall)};
     }
     return texts;
   }
