@@ -265,7 +265,8 @@ using DerivativeBounds = typename V::template PerKind<std::array<typename V::Sca
 template <class M, class V, class Real = typename M::Scalar>
 DerivativeBounds<V> derivative_bounds(const MovingVessel<M, V>& mill, const Real& speed, const Real& length) {
   Real reach = mill.vessel_reach;
-  if constexpr (requires { mill.vessel.reach_near(length); }) {  // a body is searched where the ball is near
+  // A body is searched where the ball is near.
+  if constexpr (requires { mill.vessel.reach_near(length); }) {
     const Real way = (speed + mill.wall_speed) * length * (1 + rounding_margin<Real>());
     if (const Real near = mill.vessel.reach_near(way); near < reach) reach = near;
   }
