@@ -98,7 +98,7 @@ Real fifth_root(const Real& x) {
   Real m = frexp(x, &exponent);
   const int whole = (exponent - (exponent % 5 + 5) % 5) / 5;
   m = ldexp(m, exponent - 5 * whole);  // in [1/2, 16)
-  // From the tangent of the root at 1, above the root, Newton's iterates fall until rounding ends it.
+  // From the tangent of the root at 1, which is above it, Newton's iterates fall until rounding.
   for (Real y = (m + 4) / 5;;) {
     const Real square = y * y, next = (4 * y + m / (square * square)) / 5;
     if (!(next < y)) return ldexp(y, whole);

@@ -134,7 +134,7 @@ Estimate estimate(const std::vector<double>& values) {
 namespace {
 
 /// Cosine transforms of a series at 1/2, 1, 3/2 ... cycles, each with the variance of a single value if
-/// these are independent. Twelve cover correlation over a twentieth of a series that is not short.
+/// these are independent. Twelve cover correlation over a twentieth of the series; few values get fewer.
 std::vector<double> cosines_of(const std::vector<double>& values) {
   const auto deviations = deviations_of(values);
   const double n = count_of(values);

@@ -36,7 +36,7 @@ class DecisionLadder {
   DecisionLadder(DecisionLadder&&) noexcept;
 
   /// Certified answer to a wall query; `pose` is the vessel's at the begin of the window.
-  /// @throws UndecidedError, with the state, only for a defect: the widest scalar decides everything
+  /// @throws UndecidedError, with the state, only for a defect: the widest scalar decides all
   Answer wall(const model::AnyPose<Real>& pose, const Query& query) {
     const auto answer = walls_.search(pose, query);
     return is_settled(answer) ? answer : wall_above(query);

@@ -1,5 +1,5 @@
 // Gaps of a ball in flight to moving walls, their rates, rounding errors, and bounds on derivatives,
-// which exclude contacts. docs/theory.md, (2.17'), (2.19'), (2.21'), (2.22') and section 3
+// which exclude contacts. docs/theory.md: (2.17'), (2.19'), (2.21'), (2.22'), section 3
 #pragma once
 
 #include <array>

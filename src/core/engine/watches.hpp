@@ -25,16 +25,16 @@ struct RecentImpacts {
 /// Detects inelastic collapse, for laws without a least separation speed. A ball is in collapse if each
 /// of its last `enough` impacts came after a path shorter than `smallest_path`, a length well above
 /// rounding, and was so slow that acceleration alone brought the bodies together again, or mere
-/// rounding. Faster impacts after such paths are those of bodies that touch: they come to an end.
-/// The accumulation time is extrapolated from the first of them, where rounding matters least: intervals
-/// with one partner shrink by the restitution e, so the remaining ones sum to dt e / (1 - e).
+/// rounding. Faster impacts after such paths are those of bodies that touch, and come to an end. The
+/// accumulation time is extrapolated from the first of them, where rounding matters least: intervals
+/// with one partner shrink by the restitution e, so the rest sum to dt e / (1 - e).
 template <class Real>
 class CollapseWatch {
  public:
   explicit CollapseWatch(const Real& smallest_path) : smallest_path_(smallest_path) {}
 
   /// Records an impact with the partner `key`. @return true if the ball is in collapse
-  /// @param slow  least speed that neither acceleration over the smallest path nor rounding gives [m/s]
+  /// @param slow  [m/s] any less is due to acceleration over the smallest path, or to rounding
   bool note(RecentImpacts<Real>& r, int key, const Instant<Real>& now, const Real& approach_speed,
             const Real& slow, const Real& restitution, const DriveClock<Real>& clock) const {
     const Real interval = clock.elapsed(r.last, now);
