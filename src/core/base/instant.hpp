@@ -9,7 +9,7 @@
 
 namespace edmill {
 
-/// An instant: `period` whole drive periods and `offset` [s], which is less than another one.
+/// An instant: `period` whole drive periods, and `offset` [s] from 0 to below a period's length.
 template <class Real>
 struct Instant {
   std::int64_t period = 0;

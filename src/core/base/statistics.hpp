@@ -58,7 +58,8 @@ struct OfSeeds : Estimate {
 };
 /// Mean of several runs with an interval from the pooled variance within and between the runs. If that
 /// between them is larger (F test, 1 %) and the runs form groups with separate intervals, these are the
-/// steady states. @param half_widths  of the 95 % intervals; if empty, the means suffice
+/// steady states.
+/// @param half_widths  of the runs' 95 % intervals; if empty, only the scatter of the means is used
 OfSeeds pooled(const std::vector<double>& means, const std::vector<double>& half_widths);
 
 /// Whether the means of series differ by more than their scatter allows (analysis of variance, with this

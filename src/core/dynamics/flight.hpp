@@ -85,7 +85,7 @@ struct WallAnswer {
   Verdict verdict = Verdict::none;
   int wall = -1;         ///< of a contact
   Instant<Real> time{};  ///< of a contact: the non-penetrating end of the bracket
-  /// No precision decides it: two walls at one time, of which the lower id goes first, or a zero.
+  /// No precision decides it: of two walls at one time the lower id was taken, or a gap is zero.
   bool by_rule = false;
   Real searched{0};    ///< if none: length of the proven window from begin [s]
   Real time_error{0};  ///< of a contact: bound on the rounding error of its time [s]

@@ -20,7 +20,7 @@ struct ImpactOutcome {
   Real tangential_impulse{};      ///< [N s]
   Real milling_dose{};            ///< [J], (2.30') or (2.36'); never negative
   Real normal_dose{};             ///< the part of the dose that the motion along the normal gives up [J]
-  Real supplied_energy{};         ///< that the least separation speed adds to the motion [J]; never negative
+  Real supplied_energy{};         ///< that the least separation speed adds to the motion [J]; >= 0
   Real wall_work{};               ///< [J], (A.82); zero between balls
 
   /// M/2 g_n^2, the kinetic energy of the approach along the normal [J]; 0 without approach.

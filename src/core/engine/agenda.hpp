@@ -24,9 +24,9 @@ struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Agenda {
   static constexpr int capacity = 3;                            ///< of pair contacts
   std::array<Instant<Real>, first_pair + capacity> times;       ///< by entry; never() where free
   [[no_unique_address]] dynamics::ContactPose<Real> wall_pose;  ///< at the wall's time
-  Instant<Real> forgotten_from;  ///< contacts from this time on found no room; never() if all are stored
+  Instant<Real> forgotten_from;  ///< later contacts found no room; never() if all are stored
   std::array<int, capacity> partners{};
-  std::array<std::uint32_t, capacity> known;  ///< latest impact of any ball when the contact was predicted
+  std::array<std::uint32_t, capacity> known;  ///< latest impact of all when predicted
   std::uint32_t last_impact = 0;              ///< number of the ball's latest
   std::int8_t pair_count = 0;
   /// A wall id, plus `tied` if another wall is hit at that time; -1 if a search ends there.

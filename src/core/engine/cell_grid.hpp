@@ -267,10 +267,15 @@ class CellGrid {
     near.count = 2 * cells + static_cast<int>(surplus);
     if (!(seen >> 32 & (Cell::crowded ^ Cell::empty))) [[likely]]
       return;
+    std::array<int, cells> chains;
+    int count = 0;
     for (int row = 0; row < rows; ++row)
-      for (int k = 0; k < nx; ++k)
-        if (const Cell& cell = content_[x[k] + y[row % 3] + z[row / 3]]; cell.second == Cell::crowded)
-          append_chain(static_cast<int>(cell.first), near);
+      for (int k = 0; k < nx; ++k) {
+        const Cell& cell = content_[x[k] + y[row % 3] + z[row / 3]];
+        chains[count] = static_cast<int>(cell.first);
+        count += cell.second == Cell::crowded;
+      }
+    for (int k = 0; k < count; ++k) append_chain(chains[k], near);
   }
 
   void append_chain(int first, FoundBalls& found) const {

@@ -20,9 +20,9 @@ struct Impact {
   bool with_wall;
   int partner;  ///< ball or wall id
   dynamics::ImpactOutcome<Real> outcome;
-  bool by_rule;  ///< another contact of its ball is at the same time in every scalar: a rule put it first
-  Real overlap;  ///< how deep the bodies overlap by rounding at the impact [m]; negative for a gap
-  Vec3<Real> normal;              ///< unit, from the partner to the ball
+  bool by_rule;       ///< another contact of its ball is at the same time: a rule put it first
+  Real overlap;       ///< how deep the bodies overlap by rounding at the impact [m]; negative for a gap
+  Vec3<Real> normal;  ///< unit, from the partner to the ball
   Vec3<Real> velocity_before[2];  ///< of the ball and, for balls, the partner [m/s]
   Vec3<Real> spin_before[2];      ///< [rad/s]
   Real flight_time[2];            ///< since the body's last impact, or the start of the run [s]

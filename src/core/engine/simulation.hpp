@@ -148,7 +148,7 @@ class Simulation {
   model::Mill<Real> mill_;
   DriveClock<Real> clock_;
   Balls<Real> balls_;
-  int stride_;  ///< 0 if all balls are identical: then the first entry, which stays in the cache, is used
+  int stride_;  ///< 0 if all balls are identical: then the first entry, in the cache, is used
   LargeVector<dynamics::Flight<Real>> flights_;
   LargeVector<Body<Real>> bodies_;
   Agendas<Real> agendas_;

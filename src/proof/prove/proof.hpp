@@ -50,8 +50,7 @@ struct Proof {
   std::vector<Attempt> attempts;
   double seconds = 0;  ///< duration of the proof
   bool interrupted = false;
-  std::string impossible;  ///< why there is no proof, if the model does not determine the next event or no
-                           ///< scalar finds it; otherwise empty
+  std::string impossible;  ///< why there is no proof, if no bits help; otherwise empty
 };
 
 /// Proves the first events with 128 bits, doubled until all are proven, then with as few as needed.
