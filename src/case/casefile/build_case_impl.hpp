@@ -1,6 +1,6 @@
-// Implementation of Quantity::to and build_case: from exact quantities to one scalar, and the balls of a case
-// at its start, by given states, at random places, and in crowds that are pushed apart. Included by the
-// instantiation files only.
+// Implementation of Quantity::to and build_case: from exact quantities to one scalar, and the balls
+// of a case at its start, by given states, at random places, and in crowds that are pushed apart.
+// Included by the instantiation files only.
 #pragma once
 
 #include <fmt/format.h>
@@ -35,7 +35,8 @@ Real nearest(const Rational& value) {
   const cpp_int above = abs(numerator(value)), below = denominator(value);
   if (above == 0) return Real(0);
   const auto digits = static_cast<unsigned>(binary_digits<Real>());
-  // The quotient has one or two bits more than the scalar; a last bit says whether there is a remainder.
+  // The quotient has one or two bits more than the scalar; a last bit says whether there is a
+  // remainder.
   int exponent = static_cast<int>(msb(above)) - static_cast<int>(msb(below)) - static_cast<int>(digits) - 1;
   cpp_int quotient, remainder;
   divide_qr(exponent < 0 ? cpp_int(above << -exponent) : above,
@@ -61,8 +62,8 @@ Real Quantity::to() const {
   return detail::nearest<Real>(value_of(*this, detail::bits_for<Real>()));
 }
 
-/// The instant at `time` on a clock of whole drive periods, reduced exactly: the offset is as sharp at 1e6 s
-/// as at the start.
+/// The instant at `time` on a clock of whole drive periods, reduced exactly: the offset is as sharp
+/// at 1e6 s as at the start.
 /// @param time    not negative
 /// @param period  of the drive
 template <class Real>
@@ -91,21 +92,20 @@ model::BallProperties<Real> to_ball(const BallSpec& spec, const Real& diameter) 
   return {radius, spec.density.to<Real>() * volume, spec.reduced_inertia.to<Real>(), spec.material};
 }
 
-/// Placed balls in a grid of cells, in the vessel frame. A cell is at least as wide as the largest distance
-/// of centres to be tested.
+/// Placed balls in a grid of cells, in the vessel frame. A cell is at least as wide as the largest
+/// distance of centres to be tested.
 template <class Real>
 class PlacedBalls {
  public:
   explicit PlacedBalls(double cell) : cell_(cell) {}
 
-  void add(int index, const Vec3<Real>& p) { cells_[key(p, 0, 0, 0)].push_back({index, p}); }
+  void add(int index, const Vec3<Real>& p) { cells_[key(p, 0, 0, 0)].emplace_back(index, p); }
 
   /// A ball closer to `p` than `least(index)`, or -1.
-  template <class Least>
-  int conflict(const Vec3<Real>& p, Least&& least) const {
-    for (int x = -1; x <= 1; ++x)
-      for (int y = -1; y <= 1; ++y)
-        for (int z = -1; z <= 1; ++z) {
+  int conflict(const Vec3<Real>& p, const auto& least) const {
+    for (const int x : {-1, 0, 1})
+      for (const int y : {-1, 0, 1})
+        for (const int z : {-1, 0, 1}) {
           const auto found = cells_.find(key(p, x, y, z));
           if (found == cells_.end()) continue;
           for (const auto& [index, position] : found->second) {
@@ -123,15 +123,11 @@ class PlacedBalls {
     const auto cell = [&](const Real& c) { return std::floor(static_cast<double>(c) / cell_); };
     return {cell(p[0]) + dx, cell(p[1]) + dy, cell(p[2]) + dz};
   }
-  struct Entry {
-    int index;
-    Vec3<Real> position;
-  };
   double cell_;
-  boost::unordered_flat_map<Key, std::vector<Entry>> cells_;
+  boost::unordered_flat_map<Key, std::vector<std::pair<int, Vec3<Real>>>> cells_;
 };
 
-/// A ball of a crowd. Positions are double in runs of every scalar, so that all start from the same ones.
+/// A ball of a crowd. Places are double in runs of every scalar, so that all start from the same.
 struct CrowdBall {
   double radius;                      ///< [m]
   double gap_ball = 0, gap_wall = 0;  ///< to balls before it and to walls [m]
@@ -145,29 +141,38 @@ struct CrowdBody {
   model::RoundedBody<double> shape;
 };
 
-/// The iteration of `push_apart`.
+/// Balls that are moved apart, from places inside the vessel where they may overlap, until none is
+/// closer to another or to a wall than `share` of its gaps. The moves are projections: each pair
+/// that is too close is parted along the line of its centres, each ball beyond a wall goes back
+/// along the normal.
 class Crowd {
   using Place = Vec3<double>;
 
  public:
+  /// @param moved  inward displacement of each wall, for pistons; empty if there are none [m]
   Crowd(const model::AnyVessel<double>& vessel, const std::vector<double>& moved,
         const std::vector<CrowdBody>& bodies, std::vector<CrowdBall>& balls, double share)
       : vessel_(vessel), moved_(moved), bodies_(bodies), balls_(balls), share_(share) {
-    std::map<double, std::size_t> known;  // rooms by the distance that centres keep from walls
     for (const auto& ball : balls_) {
-      const double distance = ball.radius * (1 + tolerated) + share * ball.gap_wall;
-      const auto [entry, is_new] = known.emplace(distance, rooms_.size());
-      if (is_new) rooms_.push_back({distance, vessel_.inset(distance)});
-      room_of_.push_back(entry->second);
+      const double distance = distance_from_walls(ball);
+      if (!rooms_.contains(distance)) rooms_.emplace(distance, vessel_.inset(distance));
       widest_ = std::max(widest_, 2 * ball.radius + share * ball.gap_ball);
       slimmest_ = std::min(slimmest_, ball.radius);
     }
   }
 
-  bool has_room() const {
-    return std::none_of(rooms_.begin(), rooms_.end(), [](const Room& r) { return r.vessel.is_empty(); });
+  /// @return false if they are still too close after a number of sweeps that depends only on the
+  /// number of balls
+  bool push_apart() {
+    for (const auto& [distance, room] : rooms_)
+      if (room.is_empty()) return false;
+    const auto most = std::clamp<std::size_t>(2000000 / balls_.size(), 200, 4000);
+    for (std::size_t k = 0; k < most; ++k)
+      if (sweep()) return true;
+    return false;
   }
 
+ private:
   /// Parts all pairs and brings all balls inside, once. @return true if nothing had to be moved
   bool sweep() {
     if (have_gone_far()) find_pairs();
@@ -177,14 +182,11 @@ class Crowd {
       if (!balls_[k].fixed) apart &= bring_inside(k);
     return apart;
   }
-
- private:
-  struct Room {
-    double distance;  ///< of a centre from the walls [m]
-    model::AnyVessel<double> vessel;
-  };
-
   double skin() const { return slimmest_ / 2; }
+  /// Of the centre [m].
+  double distance_from_walls(const CrowdBall& ball) const {
+    return ball.radius * (1 + tolerated) + share_ * ball.gap_wall;
+  }
   double least_distance(std::size_t one, std::size_t other) const {
     return (balls_[one].radius + balls_[other].radius) * (1 + tolerated) +
            share_ * balls_[std::max(one, other)].gap_ball;
@@ -207,30 +209,28 @@ class Crowd {
 
   /// @return whether the ball was inside
   bool bring_inside(std::size_t k) {
-    const Room& room = rooms_[room_of_[k]];
+    const auto& [distance, room] = *rooms_.find(distance_from_walls(balls_[k]));
     Place& p = balls_[k].place;
     bool clear = true;
     for (const auto& [frame, shape] : bodies_) {
-      const auto around = shape.inset(room.distance);
+      const auto around = shape.inset(distance);
       const double overlap = around.overlap(0, frame.inside(p));
       if (!(overlap > 0)) continue;
       clear = false;
       const Place away = frame.outside(around.normal(0, frame.inside(p))) - frame.origin;
       p += away * (overlap + farther * balls_[k].radius / 16);
     }
-    if (is_inside(room, p)) return clear;
+    if (room.contains(p) && is_clear_of_pistons(p, distance)) return clear;
     for (int wall = 0; wall < vessel_.wall_count(); ++wall) {
       const double moved = moved_.empty() ? 0 : moved_[static_cast<std::size_t>(wall)];
-      const double overlap = room.vessel.overlap(wall, p) + moved;
-      if (overlap > 0) p += room.vessel.normal(wall, p) * (overlap + farther * balls_[k].radius / 16);
+      const double overlap = room.overlap(wall, p) + moved;
+      if (overlap > 0) p += room.normal(wall, p) * (overlap + farther * balls_[k].radius / 16);
     }
     return false;
   }
-  bool is_inside(const Room& room, const Place& p) const {
-    if (!room.vessel.contains(p)) return false;
-    for (std::size_t wall = 0; wall < moved_.size(); ++wall)
-      if (moved_[wall] != 0 && vessel_.gap(static_cast<int>(wall), p) < room.distance + moved_[wall])
-        return false;
+  bool is_clear_of_pistons(const Place& p, double distance) const {
+    for (int wall = 0; const double moved : moved_)
+      if (const int own = wall++; moved != 0 && vessel_.gap(own, p) < distance + moved) return false;
     return true;
   }
 
@@ -242,7 +242,7 @@ class Crowd {
     return false;
   }
 
-  /// Finds the pairs that can come too close before a ball has moved by half the skin, with a grid of cells.
+  /// Finds the pairs that can come too close before a ball has moved by half the skin.
   void find_pairs() {
     begin_.clear();
     for (const auto& ball : balls_) begin_.push_back(ball.place);
@@ -252,30 +252,25 @@ class Crowd {
       low = low.cwiseMin(p);
       high = high.cwiseMax(p);
     }
-    std::array<int, 3> cells;
-    for (int axis = 0; axis < 3; ++axis)
-      cells[axis] = static_cast<int>(std::clamp((high[axis] - low[axis]) / (widest_ + skin()), 1.0, 64.0));
+    const Place extent = high - low;
     const auto cell_of = [&](const Place& p, int axis) {
-      const double extent = high[axis] - low[axis];
-      const double place = extent > 0 ? (p[axis] - low[axis]) / extent * cells[axis] : 0;
-      return std::min(static_cast<int>(place), cells[axis] - 1);
+      const int cells = static_cast<int>(std::clamp(extent[axis] / (widest_ + skin()), 1.0, 64.0));
+      const double place = extent[axis] > 0 ? (p[axis] - low[axis]) / extent[axis] * cells : 0;
+      return std::min(static_cast<int>(place), cells - 1);
     };
-    std::vector<std::vector<std::size_t>> content(static_cast<std::size_t>(cells[0] * cells[1] * cells[2]));
-    const auto at = [&](int x, int y, int z) -> auto& {
-      return content[static_cast<std::size_t>((x * cells[1] + y) * cells[2] + z)];
-    };
+    boost::unordered_flat_map<std::array<int, 3>, std::vector<std::size_t>> cells;
     for (std::size_t k = 0; k < begin_.size(); ++k) {
-      const int x = cell_of(begin_[k], 0), y = cell_of(begin_[k], 1), z = cell_of(begin_[k], 2);
-      for (int u = std::max(x - 1, 0); u <= std::min(x + 1, cells[0] - 1); ++u)
-        for (int v = std::max(y - 1, 0); v <= std::min(y + 1, cells[1] - 1); ++v)
-          for (int w = std::max(z - 1, 0); w <= std::min(z + 1, cells[2] - 1); ++w)
-            for (const auto other : at(u, v, w)) add_pair(other, k);
-      at(x, y, z).push_back(k);
+      const auto& p = begin_[k];
+      const int x = cell_of(p, 0), y = cell_of(p, 1), z = cell_of(p, 2);
+      for (const int u : {x - 1, x, x + 1})
+        for (const int v : {y - 1, y, y + 1})
+          for (const int w : {z - 1, z, z + 1})
+            for (const auto other : cells[{u, v, w}]) {
+              const double reach = least_distance(other, k) + skin();
+              if (squared_norm<double>(begin_[other] - p) < reach * reach) pairs_.emplace_back(other, k);
+            }
+      cells[{x, y, z}].push_back(k);
     }
-  }
-  void add_pair(std::size_t one, std::size_t other) {
-    const double reach = least_distance(one, other) + skin();
-    if (squared_norm<double>(begin_[one] - begin_[other]) < reach * reach) pairs_.emplace_back(one, other);
   }
 
   /// Balls are pushed a little farther than they have to be, so that the pushes come to an end.
@@ -286,29 +281,11 @@ class Crowd {
   const std::vector<CrowdBody>& bodies_;
   std::vector<CrowdBall>& balls_;
   double share_;
-  std::vector<Room> rooms_;
-  std::vector<std::size_t> room_of_;
+  std::map<double, model::AnyVessel<double>> rooms_;  ///< by the distance of centres from the walls
   double widest_ = 0, slimmest_ = 1e300;
   std::vector<std::pair<std::size_t, std::size_t>> pairs_;
   std::vector<Place> begin_;  ///< places when the pairs were found
 };
-
-/// Moves balls apart, from places inside the vessel where they may overlap, until none is closer to another
-/// or to a wall than `share` of its gaps. The moves are projections: each pair that is too close is parted
-/// along the line of its centres, each ball beyond a wall goes back along the normal.
-/// @param moved  inward displacement of each wall, for pistons; empty if there are none [m]
-/// @return false if they are still too close after a number of sweeps that depends only on the number of
-/// balls
-inline bool push_apart(const model::AnyVessel<double>& vessel, const std::vector<double>& moved,
-                       const std::vector<CrowdBody>& bodies, std::vector<CrowdBall>& balls, double share) {
-  Crowd crowd(vessel, moved, bodies, balls, share);
-  if (!crowd.has_room()) return false;
-  const std::int64_t most =
-      std::clamp<std::int64_t>(2000000 / static_cast<std::int64_t>(balls.size()), 200, 4000);
-  for (std::int64_t k = 0; k < most; ++k)
-    if (crowd.sweep()) return true;
-  return false;
-}
 
 template <class Real>
 class Filling {
@@ -318,9 +295,10 @@ class Filling {
         result_(result),
         mill_(result.the_case.mill),
         pose_(mill_.motion.pose(result.start)),
-        body_poses_(poses_of_bodies(mill_, result.start)),
         random_(spec.seed),
-        placed_(widest_distance(spec)) {}
+        placed_(widest_distance(spec)) {
+    for (const auto& body : mill_.bodies) body_poses_.push_back(body.motion.pose(result.start));
+  }
 
   void fill() {
     for (const auto& ball : spec_.balls)
@@ -334,21 +312,19 @@ class Filling {
   void add_checked(const BallSpec& spec, const model::BallState<Real>& state) {
     const auto ball = to_ball<Real>(spec, spec.diameter.to<Real>());
     const auto local = mill_.motion.to_vessel_frame(pose_, state.position, state.velocity).position;
-    const std::string own = std::to_string(result_.states.size());
-    const Real tolerance = ball.radius / 1000000000;
+    const auto report = [&](const std::string& what) {
+      problems_.push_back(fmt::format("{}: found ball {} {}", spec.where, result_.states.size(), what));
+    };
+    const Real tolerance = ball.radius / 1000000000, radius = ball.radius - tolerance;
     if (mill_.vessel.inset(ball.radius).is_empty())
-      problems_.push_back(spec.where + ": found ball " + own +
-                          " as large as the vessel, expected one that has room to move");
-    else if (!inside(local, ball.radius - tolerance))
-      problems_.push_back(spec.where + ": found ball " + own + " outside the vessel, expected it inside");
-    else if (const auto* body = body_at(local, ball.radius - tolerance))
-      problems_.push_back(spec.where + ": found ball " + own + " overlapping " + body->name.label +
-                          ", expected it outside of bodies");
+      report("as large as the vessel, expected one that has room to move");
+    else if (!mill_.vessel.inset(radius).contains(local) || !clears_pistons(local, radius))
+      report("outside the vessel, expected it inside");
+    else if (const auto* body = body_at(local, radius))
+      report("overlapping " + body->name.label + ", expected it outside of bodies");
     const int other = placed_.conflict(
         local, [&](int k) { return ball.radius + result_.the_case.balls[k].radius - tolerance; });
-    if (other >= 0)
-      problems_.push_back(spec.where + ": found ball " + own + " overlapping ball " + std::to_string(other) +
-                          ", expected balls that do not overlap");
+    if (other >= 0) report(fmt::format("overlapping ball {}, expected balls that do not overlap", other));
     add(ball, local, state);
   }
 
@@ -358,34 +334,30 @@ class Filling {
   }
 
  private:
-  /// Places the balls of the batches one by one at random; if a ball finds no room, places all of them
-  /// together.
+  /// Places the balls of the batches one by one at random; if a ball finds no room, places all of
+  /// them together.
   void add_batches() {
     if (!fit_alone() || !fit_by_volume() || !problems_.empty()) return;
     const std::size_t given = result_.states.size();
-    for (const auto& batch : spec_.batches) {
-      if (add_batch(batch)) continue;
-      result_.the_case.balls.resize(given);
-      result_.states.resize(given);
-      return add_together();
-    }
+    for (const auto& batch : spec_.batches)
+      for (int k = 0; k < batch.count; ++k) {
+        const auto ball = draw_ball(batch);
+        if (const auto local = place(batch, ball.radius)) {
+          add(ball, *local, draw_state(batch, *local));
+          continue;
+        }
+        result_.the_case.balls.resize(given);
+        result_.states.resize(given);
+        return add_together();
+      }
   }
 
-  static std::vector<model::ChainPose<Real>> poses_of_bodies(const model::Mill<Real>& mill,
-                                                             const Instant<Real>& start) {
-    std::vector<model::ChainPose<Real>> poses;
-    for (const auto& body : mill.bodies) poses.push_back(body.motion.pose(start));
-    return poses;
-  }
   static double widest_distance(const CaseSpec& spec) {
     double gap = 0;
     for (const auto& b : spec.batches) gap = std::max(gap, b.gap_ball.to<double>());
     return (spec.largest_diameter() + gap) * 1.001;
   }
 
-  bool inside(const Vec3<Real>& local, const Real& radius) const {
-    return mill_.vessel.inset(radius).contains(local) && clears_pistons(local, radius);
-  }
   /// The body that a ball at this place overlaps; null for none.
   const model::Body<Real>* body_at(const Vec3<Real>& local, const Real& radius) const {
     if (mill_.bodies.empty()) return nullptr;
@@ -402,17 +374,6 @@ class Filling {
     for (std::size_t k = 0; pistons && k < pistons->count(); ++k)
       if (mill_.vessel.gap(pistons->wall(k), local) < radius + pistons->at(k, result_.start).value)
         return false;
-    return true;
-  }
-
-  /// @return whether each has found room
-  bool add_batch(const BallBatch& batch) {
-    for (int k = 0; k < batch.count; ++k) {
-      const auto ball = draw_ball(batch);
-      const auto local = place(batch, ball.radius);
-      if (!local) return false;
-      add(ball, *local, draw_state(batch, *local));
-    }
     return true;
   }
 
@@ -434,19 +395,18 @@ class Filling {
     result_.states.push_back(state);
   }
 
-  /// A free place in the vessel frame, uniform over those that keep the gaps; nothing when it is not found.
+  /// A free place in the vessel, uniform over those that keep the gaps; nothing when it is not
+  /// found.
   std::optional<Vec3<Real>> place(const BallBatch& batch, const Real& radius) {
     const Real gap_ball = batch.gap_ball.to<Real>(), gap_wall = batch.gap_wall.to<Real>();
     const auto room = mill_.vessel.inset(radius).inset(gap_wall);
     if (room.is_empty()) return std::nullopt;
+    const auto least = [&](int other) { return radius + result_.the_case.balls[other].radius + gap_ball; };
     for (std::uint64_t tries = 0; tries <= batch.max_relocations; ++tries) {
-      const Real x = random_.symmetric<Real>(), z = random_.symmetric<Real>(), y = random_.symmetric<Real>();
-      const auto local = room.place({x, y, z});
-      if (!local || !clears_pistons(*local, radius + gap_wall) || body_at(*local, radius + gap_wall))
-        continue;
-      if (placed_.conflict(*local, [&](int other) {
-            return radius + result_.the_case.balls[other].radius + gap_ball;
-          }) < 0)
+      const Real x = random_.symmetric<Real>(), z = random_.symmetric<Real>();
+      const auto local = room.place({x, random_.symmetric<Real>(), z});
+      if (local && clears_pistons(*local, radius + gap_wall) && !body_at(*local, radius + gap_wall) &&
+          placed_.conflict(*local, least) < 0)
         return local;
     }
     return std::nullopt;
@@ -454,13 +414,11 @@ class Filling {
 
   bool fit_alone() {
     const std::size_t before = problems_.size();
-    for (const auto& batch : spec_.batches) {
-      const Real largest = (batch.diameter.to<Real>() + batch.diameter_spread.to<Real>()) / 2;
-      if (mill_.vessel.inset(largest).is_empty())
+    for (const auto& batch : spec_.batches)
+      if (mill_.vessel.inset((batch.diameter.to<Real>() + batch.diameter_spread.to<Real>()) / 2).is_empty())
         problems_.push_back(
             batch.where +
             ": found balls too large for the vessel, expected a diameter that leaves them room");
-    }
     return problems_.size() == before;
   }
 
@@ -480,8 +438,8 @@ class Filling {
                        {result_.start.period, static_cast<double>(result_.start.offset)});
   }
 
-  /// Reports a total volume that no packing reaches: from a dozen balls on, the densest is that of equal
-  /// balls, pi/sqrt(18).
+  /// Reports a total volume that no packing reaches: from a dozen balls on, the densest is that of
+  /// equal balls, pi/sqrt(18).
   bool fit_by_volume() {
     if (spec_.batches.empty()) return true;
     constexpr double densest = 0.7405, few = 12;
@@ -492,7 +450,8 @@ class Filling {
     const double d = batch.diameter.to<double>(), one = numerics::pi<double>() / 6 * d * d * d;
     const double fitting = std::floor(batch.count - (balls - most * vessel) / one);
     problems_.push_back(fmt::format(
-        "{}: found balls that fill {:.3g} of the vessel's {}volume, expected at most {:.3g} of it{}",
+        "{}: found balls that fill {:.3g} of the vessel's {}volume, expected at most "
+        "{:.3g} of it{}",
         batch.where, balls / vessel, mill_.bodies.empty() ? "" : "free ", most,
         fitting > 0
             ? fmt::format(", with at most {:.0f} balls in this batch in place of {}", fitting, batch.count)
@@ -500,8 +459,7 @@ class Filling {
     return false;
   }
 
-  /// A ball of a batch that is pushed apart from the others, beginning at a random place. Balls whose state
-  /// is given do not move.
+  /// A ball of a batch that is pushed apart from the others, from a random place.
   struct Drawn {
     const BallBatch* batch;
     model::BallProperties<Real> ball;
@@ -526,13 +484,16 @@ class Filling {
     if (fitting == 0 && !mill_.bodies.empty())
       return problems_.push_back(
           spec_.batches.front().where +
-          ": no room for a ball between the bodies in the vessel: use smaller balls, or fewer bodies");
+          ": no room for a ball between the bodies in the vessel: use smaller balls, or fewer "
+          "bodies");
     problems_.push_back(fmt::format(
         "{}: found {} balls at a packing fraction of {:.3g}, expected fewer: only the first {} fit",
         spec_.batches.front().where, drawn.size(), volume_of_balls() / room(), fitting));
   }
 
-  /// Pushes the first `count` of the drawn balls apart, from new random places. @return true if it succeeds
+  /// Pushes the first `count` of the drawn balls apart, from new random places; the given ones do
+  /// not move.
+  /// @return true if it succeeds
   bool part_crowd(const std::vector<Drawn>& drawn, std::size_t count, double share,
                   std::vector<CrowdBall>& crowd) {
     const auto vessel = mill_.vessel.template cast<double>();
@@ -549,13 +510,14 @@ class Filling {
       crowd.push_back({radius, batch.gap_ball.template to<double>(), batch.gap_wall.template to<double>(),
                        random_place(vessel.inset(radius)), false});
     }
-    return push_apart(vessel, moved_walls(), crowd_bodies(), crowd, share);
+    const auto moved = moved_walls();
+    const auto bodies = crowd_bodies();
+    return Crowd(vessel, moved, bodies, crowd, share).push_apart();
   }
   Vec3<double> random_place(const model::AnyVessel<double>& room) {
     for (int tries = 0; tries < 10000; ++tries) {
-      const double x = random_.symmetric<double>(), z = random_.symmetric<double>(),
-                   y = random_.symmetric<double>();
-      if (const auto place = room.place({x, y, z})) return *place;
+      const double x = random_.symmetric<double>(), z = random_.symmetric<double>();
+      if (const auto place = room.place({x, random_.symmetric<double>(), z})) return *place;
     }
     return {0, 0, 0};
   }
@@ -626,11 +588,10 @@ model::ChainMotion<Real> to_chain(const model::Joints<Quantity>& given, const Ca
 
 template <class Real>
 model::AnyMotion<Real> to_motion(const auto& part, const CaseSpec& spec) {
-  if constexpr (requires { part.joints(); }) {
+  if constexpr (requires { part.joints(); })
     return to_chain<Real>(part.joints(), spec);
-  } else {
+  else
     return to_part<Real>(part).motion();
-  }
 }
 
 /// @param mill  without its bodies
@@ -678,22 +639,23 @@ model::PairLaws<Real> to_pairs(const CaseSpec& spec, int walls) {
   return pairs;
 }
 
-/// Fills the case with balls whose properties are those of the case and whose states are from a
-/// final_state.csv.
+/// Fills the case with its balls in the states of a final_state.csv.
 template <class Real>
 void fill_from_file(const CaseSpec& spec, InitialCase<Real>& result) {
-  const auto saved = io::read_final_state<Real>(spec.initial_state);
+  const auto& file = spec.initial_state;
+  const auto saved = io::read_final_state<Real>(file);
   if (saved.states.size() != spec.ball_count())
-    throw InputError(spec.initial_state + ": found " + std::to_string(saved.states.size()) +
-                     " balls, expected the case's " + std::to_string(spec.ball_count()));
+    throw InputError(fmt::format("{}: found {} balls, expected the case's {}", file, saved.states.size(),
+                                 spec.ball_count()));
   const DriveClock<Real> clock(result.the_case.mill.motion.period());
   if (saved.time.offset >= clock.period())
-    throw InputError(spec.initial_state +
-                     ":2: found a drive_offset of a whole drive period or more, expected " +
-                     "one below the case's period of " + to_text<Real>(clock.period()) + " s");
+    throw InputError(
+        fmt::format("{}:2: found a drive_offset of a whole drive period or more, expected one "
+                    "below the case's period of {} s",
+                    file, to_text<Real>(clock.period())));
   if (spec.end_time && saved.time >= *result.the_case.stop.end_time)
-    throw InputError(spec.initial_state + ":2: found a state at " + to_text<Real>(clock.seconds(saved.time)) +
-                     " s, expected one before the case's end_time");
+    throw InputError(fmt::format("{}:2: found a state at {} s, expected one before the case's end_time", file,
+                                 to_text<Real>(clock.seconds(saved.time))));
   result.start = saved.time;
   Filling<Real> filling(spec, result);
   std::size_t k = 0;
@@ -706,8 +668,8 @@ void fill_from_file(const CaseSpec& spec, InitialCase<Real>& result) {
   filling.require_good();
 }
 
-/// Rejects sizes and speeds that the scalar cannot resolve: balls about as small as the rounding of a
-/// position, and a least separation speed whose hops are lower than that.
+/// Rejects sizes and speeds that the scalar cannot resolve: balls about as small as the rounding of
+/// a position, and a least separation speed whose hops are lower than that.
 template <class Real>
 void require_resolution(const CaseSpec& spec, const InitialCase<Real>& built) {
   using std::sqrt;
@@ -727,19 +689,20 @@ void require_resolution(const CaseSpec& spec, const InitialCase<Real>& built) {
   const auto number = [](const Real& x) { return fmt::format("{:.3g}", static_cast<double>(x)); };
   std::vector<std::string> problems;
   spec.for_each_ball([&](const BallSpec& ball) {
-    const Real diameter = ball.diameter.template to<Real>() - ball.diameter_spread.template to<Real>();
-    if (diameter / 2 < least_radius)
-      problems.push_back(ball.where + ": found a ball of radius " + number(diameter / 2) +
-                         " m, expected at least " + number(least_radius) + " m: in this mill " +
-                         scalar_name<Real>() + " resolves a position to " + number(rounding) +
-                         " m: use a wider precision");
+    const Real radius = (ball.diameter.template to<Real>() - ball.diameter_spread.template to<Real>()) / 2;
+    if (radius < least_radius)
+      problems.push_back(fmt::format(
+          "{}: found a ball of radius {} m, expected at least {} m: in this mill {} resolves a "
+          "position to {} m: use a wider precision",
+          ball.where, number(radius), number(least_radius), scalar_name<Real>(), number(rounding)));
   });
   const Real least_hop = 4 * sqrt(rounding * (acceleration + gravity));
   const auto check_least = [&](const Real& speed, const std::string& section) {
     if (speed > 0 && speed < least_hop)
-      problems.push_back(spec.file + ": key '" + section + ".least_separation': found " + number(speed) +
-                         " m/s, expected 0 or at least " + number(least_hop) +
-                         " m/s: hops of a slower ball are lost in the rounding of " + scalar_name<Real>());
+      problems.push_back(
+          fmt::format("{}: key '{}.least_separation': found {} m/s, expected 0 or at least {} m/s: "
+                      "hops of a slower ball are lost in the rounding of {}",
+                      spec.file, section, number(speed), number(least_hop), scalar_name<Real>()));
   };
   check_least(mill.ball_ball.least_separation, "contact.ball_ball");
   check_least(mill.ball_wall.least_separation, "contact.ball_wall");
@@ -772,12 +735,12 @@ InitialCase<Real> build_case_in(const model::Mill<Real>& mill, const CaseSpec& s
   InitialCase<Real> result;
   auto& c = result.the_case;
   c.mill = mill;
-  const auto instant = [&](const Quantity& time) { return instant_at<Real>(time, period_of(spec.mill)); };
-  c.initial_time = instant(spec.initial_time);
-  c.statistics_start = instant(spec.statistics_start);
-  if (spec.target.dose)
-    c.counted_dose = {spec.target.counted.normal_only, spec.target.counted.least.template to<Real>()};
-  if (spec.end_time) c.stop.end_time = instant(*spec.end_time);
+  const auto& period = period_of(spec.mill);
+  c.initial_time = instant_at<Real>(spec.initial_time, period);
+  c.statistics_start = instant_at<Real>(spec.statistics_start, period);
+  if (const auto& counted = spec.target.counted; spec.target.dose)
+    c.counted_dose = {counted.normal_only, counted.least.template to<Real>()};
+  if (spec.end_time) c.stop.end_time = instant_at<Real>(*spec.end_time, period);
   for (std::size_t place = 0; place < model::stop_rule_count; ++place)
     if (const auto& limit = spec.stop_limits[place]) c.stop.limits[place] = limit->template to<Real>();
   result.start = c.initial_time;
