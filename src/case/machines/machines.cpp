@@ -26,17 +26,20 @@ std::string text_of(const toml::table& table, std::string_view key) {
   return table[key].value_or(std::string());
 }
 
+/// Entries of an array; none without it.
+void each(const toml::table& table, std::string_view key, const auto& f) {
+  if (const auto* entries = table[key].as_array())
+    for (const auto& entry : *entries) f(entry);
+}
+
 std::vector<std::string> texts_of(const toml::table& table, std::string_view key) {
   std::vector<std::string> texts;
-  if (const auto* list = table[key].as_array())
-    for (const auto& text : *list) texts.push_back(text.value_or(std::string()));
+  each(table, key, [&](const auto& text) { texts.push_back(text.value_or(std::string())); });
   return texts;
 }
 
-/// Entries of an array of tables.
-void each(const toml::table& root, std::string_view key, const auto& f) {
-  if (const auto* entries = root[key].as_array())
-    for (const auto& entry : *entries) f(*entry.as_table());
+void each_table(const toml::table& root, std::string_view key, const auto& f) {
+  each(root, key, [&](const toml::node& entry) { f(*entry.as_table()); });
 }
 
 Catalogue read() {
@@ -45,35 +48,31 @@ Catalogue read() {
     return root["source"][text_of(table, "source")].value_or(std::string());
   };
   Catalogue all;
-  each(root, "machine", [&](const toml::table& m) {
+  each_table(root, "machine", [&](const toml::table& m) {
     const auto speeds = texts_of(m, "speeds");
     Machine machine{.key = text_of(m, "key"),
                     .name = text_of(m, "name"),
                     .also = texts_of(m, "also"),
                     .slowest = speeds[0],
                     .fastest = speeds[1],
-                    .usual = text_of(m, "usual"),
-                    .jars = {},
-                    .settings = {}};
-    if (const auto* jars = m["jars"].as_array())
-      for (const auto& jar : *jars) {
-        const auto& sizes = *jar.as_array();
-        const auto size = [&](std::size_t k) { return sizes[k].value_or(std::string()); };
-        machine.jars.push_back({size(0), size(1), size(2)});
-      }
-    each(m, "setting", [&](const toml::table& s) {
+                    .usual = text_of(m, "usual")};
+    each(m, "jars", [&](const toml::node& jar) {
+      const auto size = [&](std::size_t k) { return (*jar.as_array())[k].value_or(std::string()); };
+      machine.jars.push_back({size(0), size(1), size(2)});
+    });
+    each_table(m, "setting", [&](const toml::table& s) {
       machine.settings.push_back({text_of(s, "key"), text_of(s, "value"), source_of(s), text_of(s, "note")});
     });
     all.machines.push_back(std::move(machine));
   });
-  each(root, "material", [&](const toml::table& m) {
+  each_table(root, "material", [&](const toml::table& m) {
     all.materials.push_back(
         {text_of(m, "key"), text_of(m, "density"), source_of(m), text_of(m, "dry"), texts_of(m, "also")});
   });
-  each(root, "elsewhere", [&](const toml::table& e) {
+  each_table(root, "elsewhere", [&](const toml::table& e) {
     all.elsewhere.push_back({texts_of(e, "names"), text_of(e, "what")});
   });
-  each(root, "contact", [&](const toml::table& c) {
+  each_table(root, "contact", [&](const toml::table& c) {
     all.contacts.push_back({text_of(c, "key"), text_of(c, "what"), text_of(c, "model"),
                             text_of(c, "restitution"), source_of(c)});
   });
@@ -122,7 +121,7 @@ std::string keys_of(const auto& list) {
 }
 
 /// An option's quantity, in SI. @throws InputError
-double value_of(const std::string& option, const std::string& text, Dimension dimension) {
+double value_of(const std::string& option, const std::string& text, Dimension dimension = Dimension::length) {
   const auto read = casefile::parse_quantity(text, dimension);
   const auto* quantity = std::get_if<casefile::Quantity>(&read);
   if (quantity && quantity->positive()) return quantity->to<double>();
@@ -153,17 +152,18 @@ Batch batch_of(const std::string& text) {
     diameter.resize(colon);
   }
   const auto times = diameter.find_first_of("x*");
-  const auto count = casefile::parse_decimal(times == std::string::npos ? "1" : diameter.substr(0, times));
+  const bool counted = times != std::string::npos;
+  const auto count = casefile::parse_decimal(counted ? diameter.substr(0, times) : "1");
   if (!count || *count < 1 || *count > 1000000 || denominator(casefile::rational(*count)) != 1)
     throw fail(
         "a number of balls and their diameter, \"10x12.7mm\", and a material if not steel, "
         "\"10x12.7mm:zirconia\"");
-  if (times != std::string::npos) diameter.erase(0, times + 1);
+  if (counted) diameter.erase(0, times + 1);
   const auto& materials = catalogue().materials;
   const auto found = named(materials, material);
   if (found == materials.end()) throw fail("a material among " + keys_of(materials));
-  return {times == std::string::npos ? 0 : static_cast<std::uint64_t>(count->to<double>()), diameter,
-          value_of("--balls", diameter, Dimension::length), &*found};
+  return {counted ? static_cast<std::uint64_t>(count->to<double>()) : 0, diameter,
+          value_of("--balls", diameter), &*found};
 }
 
 /// The inside of a vessel.
@@ -182,9 +182,7 @@ Inside inside_of(const Machine& machine, const std::string& wanted) {
   const std::string jar(trimmed(wanted));
   Inside inside;
   for (const auto& s : machine.settings) {
-    const auto size = [&] {
-      return value_of(s.key, s.value.substr(1, s.value.size() - 2), Dimension::length);
-    };
+    const auto size = [&] { return value_of(s.key, s.value.substr(1, s.value.size() - 2)); };
     if (s.key == "vessel.type") inside.round_ends = s.value == "\"capsule\"";
     if (s.key == "vessel.diameter") inside.diameter = size();
     if (s.key == "vessel.height") inside.height = size();
@@ -196,8 +194,8 @@ Inside inside_of(const Machine& machine, const std::string& wanted) {
     const auto second = jar.substr(times + 1);
     const auto unit = std::min(second.find_first_not_of("0123456789. "), second.size());
     if (casefile::parse_decimal(trimmed(first))) first += second.substr(unit);
-    inside.diameter = value_of("--jar", first, Dimension::length);
-    inside.height = value_of("--jar", second, Dimension::length);
+    inside.diameter = value_of("--jar", first);
+    inside.height = value_of("--jar", second);
     return inside;
   }
   const auto end = jar.find_first_not_of("0123456789.");
@@ -212,8 +210,8 @@ Inside inside_of(const Machine& machine, const std::string& wanted) {
   const double volume = number->to<double>() * unit->second;
   for (const auto& sold : machine.jars)
     if (plain(sold.volume) == plain(jar)) {
-      inside.diameter = value_of("jar", sold.diameter, Dimension::length);
-      inside.height = value_of("jar", sold.height, Dimension::length);
+      inside.diameter = value_of("jar", sold.diameter);
+      inside.height = value_of("jar", sold.height);
       inside.note = "a jar of " + sold.volume + ", assumed: measure its inside";
       return inside;
     }
@@ -243,29 +241,30 @@ constexpr double packing = 0.6;  ///< packing fraction of a heap of balls
 /// The charge of a vessel: its balls and powder, and quantities that follow from them.
 struct Charge {
   std::vector<Batch> batches;
-  double mass = 0, volume = 0, smallest = 1e9, largest = 0;  ///< [kg], [m^3], [m], [m]
-  double powder = 0;                                         ///< [kg]
+  double mass = 0, powder = 0, volume = 0;  ///< [kg], [kg], [m^3]
+  double smallest = 1e9, largest = 0;       ///< [m]
 
   Charge(const Wanted& wanted, const Inside& inside) {
     if (!wanted.powder.empty()) powder = value_of("--powder", wanted.powder, Dimension::mass);
-    const auto colon = std::min(wanted.ratio.find(':'), wanted.ratio.size());
-    const double fill = wanted.fill.empty() ? 0
-                                            : number_of("--fill", wanted.fill, "a share of the jar, \"30%\""),
-                 ratio = wanted.ratio.empty() ? 0
-                                              : number_of("--bpr", wanted.ratio.substr(0, colon),
-                                                          "mass of the balls over that of the powder, 10");
+    double fill = 0, ratio = 0;
+    if (!wanted.fill.empty()) fill = number_of("--fill", wanted.fill, "a share of the jar, \"30%\"");
+    if (!wanted.ratio.empty())
+      ratio = number_of("--bpr", wanted.ratio.substr(0, wanted.ratio.find(':')),
+                        "mass of the balls over that of the powder, 10");
     if (fill > 1)
       throw InputError(fmt::format(
           "--fill: found {}, which is more than the jar, expected a share of it, \"30%\"", wanted.fill));
     const bool finds_number = fill > 0 || (ratio > 0 && powder > 0);
+    auto texts = wanted.balls;
+    if (texts.empty()) texts = {finds_number ? "10mm" : "10x10mm"};
+    for (const auto& text : texts) batches.push_back(batch_of(text));
     Batch* open = nullptr;
-    for (const auto& text :
-         wanted.balls.empty() ? std::vector<std::string>{finds_number ? "10mm" : "10x10mm"} : wanted.balls)
-      batches.push_back(batch_of(text));
     for (auto& b : batches) {
       if (b.count == 0 && (open || !finds_number))
-        throw InputError("--balls: found \"" + b.diameter + "\" without a number of balls, expected \"10x" +
-                         b.diameter + "\", or --fill, or --powder and --bpr, which determine their number");
+        throw InputError(
+            fmt::format("--balls: found \"{0}\" without a number of balls, expected \"10x{0}\", or "
+                        "--fill, or --powder and --bpr, which determine their number",
+                        b.diameter));
       if (b.count == 0) open = &b;
       add(b);
     }
@@ -297,29 +296,23 @@ struct Charge {
 };
 
 const Contact& contact_of(const Charge& charge) {
-  const auto by_key = [](std::string_view key) -> const Contact& {
-    const auto& all = catalogue().contacts;
-    return *std::find_if(all.begin(), all.end(), [&](const Contact& one) { return one.key == key; });
-  };
-  if (charge.powder <= 0) return by_key("bare");
-  const double ratio = charge.mass / charge.powder;
+  const double ratio = charge.powder > 0 ? charge.mass / charge.powder : 0;
   const bool measured =
       ratio >= 2.5 && ratio <= 10 && charge.smallest >= 2.36e-3 && charge.largest <= 9.52e-3;
-  return by_key(measured ? "coated" : "powder");
+  const std::string_view key = charge.powder <= 0 ? "bare" : measured ? "coated" : "powder";
+  const auto& all = catalogue().contacts;
+  return *std::find_if(all.begin(), all.end(), [&](const Contact& one) { return one.key == key; });
 }
 
-class Writer {
- public:
-  void section(const std::string& name) { text_ += "\n[" + name + "]\n"; }
+/// A case file as it grows.
+struct Writer {
+  std::string text;
+  void section(const std::string& name) { text += "\n[" + name + "]\n"; }
   void key(const std::string& name, const std::string& value, const std::string& comment) {
     const auto line = name + " = " + value;
-    text_ += comment.empty() ? line + "\n" : fmt::format("{:<28} # {}\n", line, comment);
+    text += comment.empty() ? line + "\n" : fmt::format("{:<28} # {}\n", line, comment);
   }
-  void comment(const std::string& text) { text_ += "# " + text + "\n"; }
-  std::string text() const { return text_; }
-
- private:
-  std::string text_;
+  void comment(const std::string& line) { text += "# " + line + "\n"; }
 };
 
 /// The first word or words of a source, "Barahona"; `edmill machines` prints the whole source.
@@ -330,9 +323,7 @@ std::string quoted(const std::string& text) { return "\"" + text + "\""; }
 void put_machine(Writer& out, const Machine& machine, const Wanted& wanted, const Inside& inside) {
   std::string section, source;
   const auto& speed = wanted.speed.empty() ? machine.usual : wanted.speed;
-  const auto rate = [](const std::string& text) {
-    return value_of("--speed", text, Dimension::angular_speed);
-  };
+  const auto rate = [](const auto& text) { return value_of("--speed", text, Dimension::angular_speed); };
   const bool outside =
       !wanted.speed.empty() && (rate(speed) < rate(machine.slowest) || rate(speed) > rate(machine.fastest));
   const std::string as_given =
@@ -346,11 +337,12 @@ void put_machine(Writer& out, const Machine& machine, const Wanted& wanted, cons
       source.clear();
     }
     auto value = s.value;
-    const bool is_jar = !inside.note.empty() && (s.key == "vessel.diameter" || s.key == "vessel.height"),
-               given = s.key == "mill.speed" && !wanted.speed.empty();
-    if (is_jar)
-      value = quoted(
-          fmt::format("{:.4g} mm", 1000 * (s.key == "vessel.diameter" ? inside.diameter : inside.height)));
+    const double jar = s.key == "vessel.diameter" ? inside.diameter
+                       : s.key == "vessel.height" ? inside.height
+                                                  : 0;
+    const bool is_jar = jar > 0 && !inside.note.empty();
+    const bool given = s.key == "mill.speed" && !wanted.speed.empty();
+    if (is_jar) value = quoted(fmt::format("{:.4g} mm", 1000 * jar));
     if (given) value = quoted(speed);
     const auto at = value.find("{speed}");
     if (at != std::string::npos) value.replace(at, 7, speed);
@@ -372,16 +364,17 @@ void put_contact(Writer& out, const Wanted& wanted, const Charge& charge) {
   out.section("contact");
   if (wanted.restitution.empty() || wanted.friction.empty())
     out.comment("Known to 0.1 at best; what that changes: edmill run --check");
-  if (!wanted.restitution.empty()) {
+  if (!wanted.restitution.empty())
     out.key("restitution", wanted.restitution, "as given");
-  } else if (!contact.model.empty()) {
+  else if (!contact.model.empty())
     out.key("model", quoted(contact.model), "restitution by charge ratio and diameter; " + source);
-  } else {
+  else
     out.key("restitution", contact.restitution, contact.what + "; " + source);
-  }
   const auto& all = catalogue();
-  out.key("friction", wanted.friction.empty() ? all.friction : wanted.friction,
-          wanted.friction.empty() ? brief(all.friction_source) : "as given");
+  if (wanted.friction.empty())
+    out.key("friction", all.friction, brief(all.friction_source));
+  else
+    out.key("friction", wanted.friction, "as given");
 }
 
 }  // namespace
@@ -408,9 +401,9 @@ std::string table() {
 std::string markdown() {
   const auto& all = catalogue();
   std::string out =
-      "# Machines\n\nWritten by `edmill machines --markdown`. Mills that [edmill new](usage.md) knows, with "
-      "the source of each number. Data sheets round, and a mill wears: measure your own machine where the "
-      "result matters.\n";
+      "# Machines\n\nWritten by `edmill machines --markdown`. Mills that [edmill new](usage.md) "
+      "knows, with the source of each number. Data sheets round, and a mill wears: measure your "
+      "own machine where the result matters.\n";
   for (const auto& m : all.machines) {
     out += fmt::format("\n## {}\n\n`--mill {}`, {} to {}.\n\n| key | value | source |\n|---|---|---|\n",
                        m.name, m.key, m.slowest, m.fastest);
@@ -422,16 +415,16 @@ std::string markdown() {
   for (const auto& other : all.elsewhere)
     out += fmt::format("| {} | {} |\n", fmt::join(other.names, ", "), other.what);
   out +=
-      "\n## Balls\n\n`--balls 10x12.7mm:zirconia`; steel unless a material is given.\n\n| material | density "
-      "| source | contacts without powder in the literature |\n|---|---|---|---|\n";
+      "\n## Balls\n\n`--balls 10x12.7mm:zirconia`; steel unless a material is given.\n\n| material "
+      "| density | source | contacts without powder in the literature |\n|---|---|---|---|\n";
   for (const auto& m : all.materials)
     out += fmt::format("| {} | {} | {} | {} |\n", code(m.key), m.density, m.source,
                        m.dry.empty() ? "not known" : m.dry);
   out +=
-      "\n## Contacts\n\nWhat a case has unless `--restitution` and `--friction` say otherwise. The powder "
-      "decides the restitution more than the balls do, and only that of steel with powder has a source; the "
-      "[tutorial](tutorial.md) shows what a change of "
-      "either does to the result.\n\n| charge | restitution | source |\n|---|---|---|\n";
+      "\n## Contacts\n\nWhat a case has unless `--restitution` and `--friction` say otherwise. The "
+      "powder decides the restitution more than the balls do, and only that of steel with powder "
+      "has a source; the [tutorial](tutorial.md) shows what a change of either does to the "
+      "result.\n\n| charge | restitution | source |\n|---|---|---|\n";
   for (const auto& c : all.contacts)
     out += fmt::format("| {} | {} | {} |\n", c.what,
                        c.model.empty() ? c.restitution : "model " + code(c.model), c.source);
@@ -449,8 +442,7 @@ std::string new_case(const Wanted& wanted) {
     std::vector<std::string> keys;
     for (const auto& one : all.machines) keys.push_back(one.key);
     throw InputError(
-        fmt::format("--mill: found \"{}\", expected {}; other mills are described by joints, "
-                    "[[mill.joint]]",
+        fmt::format("--mill: found \"{}\", expected {}; other mills are described by joints, [[mill.joint]]",
                     wanted.machine, casefile::nearest_of(wanted.machine, keys)));
   }
   const auto inside = inside_of(*machine, wanted.jar);
@@ -478,7 +470,8 @@ std::string new_case(const Wanted& wanted) {
                           percent(charge.volume / packing / inside.volume())));
   if (charge.volume / packing > inside.volume() / 2)
     out.comment(
-        "Above half, balls rest on each other for long: see docs/limits.md before you trust the result.");
+        "Above half, balls rest on each other for long: see docs/limits.md before you trust the "
+        "result.");
   if (charge.powder > 0) {
     out.comment(fmt::format("For grains up to {:.2g} mm: makers advise balls of three times the largest.",
                             1000 * charge.smallest / 3));
@@ -496,7 +489,7 @@ std::string new_case(const Wanted& wanted) {
     out.key("diameter", quoted(b.diameter), "");
     out.key("density", quoted(b.material->density), b.material->key + "; " + brief(b.material->source));
   }
-  return out.text();
+  return out.text;
 }
 
 }  // namespace edmill::machines

@@ -22,8 +22,8 @@ struct Machine {
   std::string key, name;
   std::vector<std::string> also;        ///< other names
   std::string slowest, fastest, usual;  ///< speeds of its drive
-  std::vector<Jar> jars;
-  std::vector<Setting> settings;
+  std::vector<Jar> jars{};
+  std::vector<Setting> settings{};
 };
 
 /// A material of balls.
