@@ -89,7 +89,8 @@ struct BallBatch : BallSpec {
     row(inertia_key, b.reduced_inertia);
     row(velocity_of("initial velocity of each ball of the batch"), b.velocity);
     row({"random_speed", Dimension::speed,
-         "each ball gets a random direction and a random speed up to this one, in place of `velocity`",
+         "each ball gets a random direction and a random speed up to this one, in place of "
+         "`velocity`",
          Range::not_negative},
         b.random_speed);
     row({"gap_ball", Dimension::length, "smallest initial distance to other balls", Range::not_negative,
@@ -157,11 +158,9 @@ struct Solid {
 struct ColumnName : std::pair<std::string, std::string> {
   using pair::pair;
   static constexpr const char* what = "Names of columns.";
-  static constexpr Parameter entry =
-      Parameter{"*",
-                "edmill's name = the log's name, with a unit in brackets: `approach_speed = \"vn [mm/s]\"`"}
-          .as("text")
-          .usually("the same name");
+  static constexpr Parameter entry = described_key(
+      "*", "text", "the same name",
+      "edmill's name = the log's name, with a unit in brackets: `approach_speed = \"vn [mm/s]\"`");
   static std::optional<ColumnName> read(Section& section, const std::string& ours);
 };
 
@@ -196,7 +195,8 @@ struct TargetSpec {
 
   static void keys(auto& t, auto&& row) {
     row({"target_dose", Dimension::specific_energy,
-         "target milling dose per mass of powder, \"10 kJ/g\", from which the milling time follows",
+         "target milling dose per mass of powder, \"10 kJ/g\", from which the milling time "
+         "follows",
          Range::positive, nullptr, "none"},
         t.dose);
     row({"counts_above", Dimension::energy,
@@ -249,8 +249,8 @@ struct CaseSpec {
   static void keys(auto& c, auto&& row) {
     row({"seed", "seed of the random placement of balls", Range::any, "1"}, c.seed);
     row({"digits",
-         "number of correct digits in every number of the logs, with all events in their true order; edmill "
-         "chooses the precision",
+         "number of correct digits in every number of the logs, with all events in their true "
+         "order; edmill chooses the precision",
          {1, 100000},
          nullptr,
          nullptr,
@@ -261,12 +261,12 @@ struct CaseSpec {
     row({"start_time", Dimension::time, "start of the statistics", Range::any, nullptr, "`initial_time`"},
         c.statistics_start);
     row({"end_time", Dimension::time,
-         "end of the run; this or another stop rule, such as `max_collisions`, is required, and the first "
-         "one met ends the run"},
+         "end of the run; this or another stop rule, such as `max_collisions`, is required, and "
+         "the first one met ends the run"},
         c.end_time);
     row({"initial_state",
-         "`final_state.csv` to start from, relative to the case file; the properties of the balls are those "
-         "of the case",
+         "`final_state.csv` to start from, relative to the case file; the properties of the "
+         "balls are those of the case",
          Range::any, nullptr, "none", Parameter::Digest::none},
         c.initial_state);
     model::for_each_stop_rule([&](auto rule, std::size_t place) { row(rule.key, c.stop_limits[place]); });
@@ -314,7 +314,8 @@ std::string describe_gravity(const CaseSpec& spec);
 model::Partners partners_of(const CaseSpec& spec);
 
 /// Reads and checks a case file.
-/// @param overrides  "section.key=value", applied over the file; a value that is not TOML is taken as text
+/// @param overrides  "section.key=value", applied over the file; a value that is not TOML is taken
+/// as text
 /// @throws InputError with every problem of the file: file, line, key, found, expected
 CaseSpec read_case(const std::string& path, const std::vector<std::string>& overrides = {});
 
@@ -342,15 +343,16 @@ std::optional<std::string> text_of_key(const CaseSpec& spec, const std::string& 
 CaseSpec with_value(const CaseSpec& spec, const std::string& key, const std::string& value,
                     SizeLimit sizes = SizeLimit::physical);
 
-/// Problems for which a file with the numbers of this case would be refused, if the case has been changed
-/// since it was read.
+/// Problems for which a file with the numbers of this case would be refused, if the case has been
+/// changed since it was read.
 std::vector<std::string> problems_of(const CaseSpec& spec);
 
 /// The text of a case file, followed by the settings over it as comments, for readers.
 std::string text_with_settings(const CaseSpec& spec);
 
-/// The case that a run left in its folder, a file with `text_with_settings`. If the run began from the final
-/// state of another one, that file is not read, and the digest, which depends on it, is empty.
+/// The case that a run left in its folder, a file with `text_with_settings`. If the run began from
+/// the final state of another one, that file is not read, and the digest, which depends on it, is
+/// empty.
 /// @param settings  of the run, which override the file
 /// @throws InputError also when the case has another digest
 CaseSpec read_case_of_run(const std::string& path, const std::vector<std::string>& settings,

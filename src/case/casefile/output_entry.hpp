@@ -1,5 +1,5 @@
-// Reads entries [[output]]: the keys that several types of output have. Keys of a single type are defined
-// with that output, output/registry.hpp
+// Reads entries [[output]]: the keys that several types of output have. Keys of a single type are
+// defined with that output, output/registry.hpp
 #pragma once
 
 #include <span>
@@ -24,15 +24,13 @@ struct ColumnTable : ColumnSpec {
   static constexpr const char* what = "A list of tables, one for each column.";
   static void keys(auto& c, auto&& row) {
     const bool single = c.rules.of_numbers.empty();
-    row(Parameter{"variable", "a variable; for `trends_balls` a quantity of a ball"}.as("name").usually(
-            "required"),
+    row(described_key("variable", "name", "required", "a variable; for `trends_balls` a quantity of a ball"),
         c.name);
     if (!single)
-      row(Parameter{"statistics",
-                    "`sum`, `average`, `minimum`, `maximum`, `rate` (per second), `percentage` (of the "
-                    "total's sum); for flags only `sum`, `rate` and `percentage`; not for `trends_instant`"}
-              .as("list of names")
-              .usually("required"),
+      row(described_key("statistics", "list of names", "required",
+                        "`sum`, `average`, `minimum`, `maximum`, `rate` (per second), `percentage` (of the "
+                        "total's sum); for flags only `sum`, `rate` and `percentage`; not for "
+                        "`trends_instant`"),
           c.wanted);
     row(Parameter{"label", "name of the column in the header"}.usually("the variable's name"), c.label);
     if (single && (c.name.empty() || is_flag(c.name))) {
@@ -72,8 +70,8 @@ constexpr Parameter max_rows_key(const char* fallback = nullptr) {
 inline constexpr Parameter contact_point_key{"contact_point", Dimension::none,
                                              "mark the point where the bodies touch by a sphere"};
 
-/// Index in impact_variables of the variable that a key names; nothing for a name that is unknown or that the
-/// rules exclude, which is reported.
+/// Index in impact_variables of the variable that a key names; nothing for a name that is unknown
+/// or that the rules exclude, which is reported.
 std::optional<int> variable_of(Section& s, const std::string& name, const ColumnRules& rules);
 
 /// Range of the size of a table.
@@ -98,8 +96,8 @@ struct OutputType {
   OutputKeys keys;
 };
 
-/// The keys that `Keys::keys(output, row)` lists. `Keys::check`, if it exists, checks conditions between
-/// them.
+/// The keys that `Keys::keys(output, row)` lists. `Keys::check`, if it exists, checks conditions
+/// between them.
 template <class Keys>
 inline constexpr OutputKeys output_keys{[](Section& entry, const CaseSpec& spec, OutputSpec& output) {
                                           Keys::keys(output, KeyReader(entry));
@@ -119,7 +117,8 @@ struct NoKeys {
   static void keys(auto&, auto&&) {}
 };
 
-/// Every type of output. The registry of the outputs defines it, and makes outputs from the same rows.
+/// Every type of output. The registry of the outputs defines it, and makes outputs from the same
+/// rows.
 std::span<const OutputType> output_types();
 
 /// Reads one entry and adds it to the case.

@@ -17,6 +17,12 @@ namespace edmill::casefile {
 using model::Parameter;
 using model::Range;
 
+/// A key without a dimension whose values and default are described to readers.
+constexpr Parameter described_key(const char* key, const char* kind, const char* otherwise,
+                                  const char* meaning) {
+  return Parameter{key, meaning}.as(kind).usually(otherwise);
+}
+
 /// A colour in pictures: red, green and blue from 0 to 1. (thesis D.3.3)
 using Colour = std::array<double, 3>;
 
@@ -40,7 +46,8 @@ struct TimerSpec {
          "none"},
         t.start_collision);
     row({"end_time", time,
-         "the record ends at this time, after `duration` or after `collisions`, whichever is earliest",
+         "the record ends at this time, after `duration` or after `collisions`, whichever is "
+         "earliest",
          Range::not_negative, nullptr, "the end of the run"},
         t.end_time);
     row({"duration", time, "duration of the record", Range::positive}, t.duration);
@@ -52,8 +59,8 @@ struct TimerSpec {
 
 class Section;
 
-/// A table whose keys are chosen by the user. Each is read by `T::read(section, name)`; `T::what` and
-/// `T::entry` describe them for readers.
+/// A table whose keys are chosen by the user. Each is read by `T::read(section, name)`; `T::what`
+/// and `T::entry` describe them for readers.
 template <class T>
 struct Named : std::vector<T> {
   static constexpr const char* what = T::what;
@@ -148,19 +155,20 @@ struct OutputSpec {
   static constexpr const char* what = "Tables and pictures that the run writes.";
   /// The keys of every type.
   static void keys(auto& o, auto&& row) {
-    row(Parameter{"type", "type of table or picture: see the types of outputs above"}.as("name").usually(
-            "required"),
+    row(described_key("type", "name", "required", "type of table or picture: see the types of outputs above"),
         o.type);
     TimerSpec::keys(o.timer, row);
     row(Parameter{"file",
-                  "name of the file, without folders; a table whose name ends in `.h5` is written as HDF5"}
+                  "name of the file, without folders; a table whose name ends in `.h5` is written as "
+                  "HDF5"}
             .usually("type and extension"),
         o.file);
     row(Parameter{"folder", "folder inside the run's folder; created if absent"}.usually("the run's folder"),
         o.folder);
     if (o.table)
       row({"append",
-           "for CSV: keep the contents of the file and add to them; outputs that all append can share a file",
+           "for CSV: keep the contents of the file and add to them; outputs that all append can "
+           "share a file",
            Range::any, "false"},
           o.append);
     row(Parameter{"only", "only impacts with these values of flags and counts"}.usually("all impacts"),

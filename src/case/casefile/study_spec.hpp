@@ -20,11 +20,12 @@ inline constexpr int most_runs = 1000000;
 struct Setting : std::pair<std::string, std::string> {
   using pair::pair;
   static constexpr const char* what = "A table.";
-  static constexpr Parameter entry = Parameter{"*", "value of a key of the case"}.as("value").usually("");
+  static constexpr Parameter entry = described_key("*", "value", "", "value of a key of the case");
   static std::optional<Setting> read(Section& section, const std::string& key);
 };
 
-/// A key of studies only, not of the case: it sets balls.0.count from the masses of powder and ball.
+/// A key of studies only, not of the case: it sets balls.0.count from the masses of powder and
+/// ball.
 inline constexpr const char* charge_ratio_key = "charge_ratio";
 
 /// Keys that sweeps and optimisations have in common.
@@ -43,7 +44,7 @@ struct StudySpec {
   /// @param relative  "case file, relative to the sweep file"
   static void shared_keys(auto& s, auto&& row, const char* relative) {
     row(Parameter{"case", relative}.as("file").usually("required"), s.case_file);
-    row(Parameter{"precision", "scalar of all runs"}.as("name of a scalar").usually("that of the case"),
+    row(described_key("precision", "name of a scalar", "that of the case", "scalar of all runs"),
         s.precision);
     row({"max_cpu_time", Dimension::time, "processor time after which a run ends without a result",
          Range::positive},
@@ -56,10 +57,8 @@ struct GridAxis {
   std::string key;
   std::vector<std::string> values;
   static constexpr const char* what = "Values of keys.";
-  static constexpr Parameter entry =
-      Parameter{"*", "values of a key of the case, named as in `--set`, or of `charge_ratio`"}
-          .as("list of values")
-          .usually("");
+  static constexpr Parameter entry = described_key(
+      "*", "list of values", "", "values of a key of the case, named as in `--set`, or of `charge_ratio`");
   static std::optional<GridAxis> read(Section& grid, const std::string& key);
 };
 
@@ -73,12 +72,11 @@ struct SweepPoint {
   static void keys(auto& p, auto&& row) {
     row(Parameter{"name", "name of the point in the tables"}.usually("none"), p.name);
     row(Parameter{"set", "keys of the case with their values"}.usually("this or a list"), p.set);
-    row(Parameter{"balls", "the whole list of batches, entries `[[sweep.point.balls]]`"}.as("tables").usually(
-            "those of the case"),
+    row(described_key("balls", "tables", "those of the case",
+                      "the whole list of batches, entries `[[sweep.point.balls]]`"),
         p.balls);
-    row(Parameter{"ball", "the whole list of single balls, entries `[[sweep.point.ball]]`"}
-            .as("tables")
-            .usually("those of the case"),
+    row(described_key("ball", "tables", "those of the case",
+                      "the whole list of single balls, entries `[[sweep.point.ball]]`"),
         p.ball);
   }
   static void check(Section& entry, std::vector<SweepPoint>& points);
@@ -115,8 +113,7 @@ struct OptimizeVariable {
     row(Parameter{"low", "lower bound"}.as("value").usually("required without `values`"), v.least);
     row(Parameter{"high", "upper bound"}.as("value").usually("required without `values`"), v.most);
     row({"integer", "whole numbers only", Range::any, "false"}, v.integer);
-    row(Parameter{"values", "the only values, in place of bounds"}.as("list of values").usually("none"),
-        v.values);
+    row(described_key("values", "list of values", "none", "the only values, in place of bounds"), v.values);
   }
   static void check(Section& entry, std::vector<OptimizeVariable>& variables);
 };
@@ -142,11 +139,11 @@ struct OptimizeSpec : StudySpec {
     row({"points", "number of points of the first grid along each variable", {2, 100}, "5"}, o.points);
     row({"refinements", "number of finer grids around the best point", {0, 20}, "2"}, o.refinements);
     shared_keys(o, row, "case file, relative to the optimisation file");
-    row(Parameter{"objective", "quantity to maximise: this or `milling_dose_rate`"}.as("name").usually(
-            "`\"specific_milling_dose_rate\"`"),
+    row(described_key("objective", "name", "`\"specific_milling_dose_rate\"`",
+                      "quantity to maximise: this or `milling_dose_rate`"),
         o.wanted);
-    row(Parameter{"variable", "variables of the search, one to three entries `[[optimize.variable]]`"}
-            .usually("required"),
+    row({"variable", "variables of the search, one to three entries `[[optimize.variable]]`", Range::any,
+         nullptr, "required"},
         o.variables);
   }
 };

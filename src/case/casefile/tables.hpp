@@ -43,24 +43,20 @@ struct JointTable {
     using enum Dimension;
     const bool rotates = j.rotates.value_or(true), translates = !j.rotates.value_or(false);
     if (rotates)
-      row(Parameter{"rotate",
-                    "axis of rotation in the frame of the previous joint: `\"x\"`, `\"y\"`, `\"z\"` or three "
-                    "numbers"}
-              .as("axis")
-              .usually("this or `translate`"),
+      row(described_key("rotate", "axis", "this or `translate`",
+                        "axis of rotation in the frame of the previous joint: `\"x\"`, `\"y\"`, `\"z\"` or "
+                        "three numbers"),
           j.axis);
     if (translates)
-      row(Parameter{"translate",
-                    "axis of translation: `\"x\"`, `\"y\"`, `\"z\"`, or three numbers with `speed` or "
-                    "`swing`; without them, three lengths are a constant shift"}
-              .as("axis or three lengths")
-              .usually("this or `rotate`"),
+      row(described_key("translate", "axis or three lengths", "this or `rotate`",
+                        "axis of translation: `\"x\"`, `\"y\"`, `\"z\"`, or three numbers with `speed` or "
+                        "`swing`; without them, three lengths are a constant shift"),
           j.axis);
     if (rotates)
       row({"angle", Dimension::angle, "constant part of a rotation", Range::any, "0 deg"}, j.angle);
     row(Parameter{"speed", translates ? Dimension::speed : angular_speed,
-                  "constant part of the speed of rotation or translation; rotations need no common period, a "
-                  "translation needs `run.end_time`",
+                  "constant part of the speed of rotation or translation; rotations need no common "
+                  "period, a translation needs `run.end_time`",
                   Range::any, translates ? "0 m/s" : "0 rad/s"}
             .as("angular speed or speed")
             .usually("`0`"),
@@ -91,18 +87,17 @@ struct BodyTable {
   Colour colour{0.5, 0.5, 0.5};
 
   static constexpr const char* what =
-      "Convex bodies inside the vessel: stirrers, pins, discs, lifters, baffles. They may overlap walls and "
-      "each other.";
+      "Convex bodies inside the vessel: stirrers, pins, discs, lifters, baffles. They may overlap "
+      "walls and each other.";
   static void keys(auto& b, auto&& row) {
     using enum Dimension;
     row(Parameter{"name", "name of the body in tables", Range::any, nullptr, "`body 0`, `body 1`, ..."},
         b.name);
-    row(Parameter{"type", "shape of the body; the axis of a cylinder is y"}
-            .as("`\"box\"` or `\"cylinder\"`")
-            .usually("`\"box\"`"),
+    row(described_key("type", "`\"box\"` or `\"cylinder\"`", "`\"box\"`",
+                      "shape of the body; the axis of a cylinder is y"),
         b.type);
-    row(Parameter{"size", length, "sizes of a box along x, y, z, including roundings; up to two may be zero"}
-            .usually("required for a box"),
+    row({"size", length, "sizes of a box along x, y, z, including roundings; up to two may be zero",
+         Range::any, nullptr, "required for a box"},
         b.size);
     row(Parameter{"diameter", length, "diameter of a cylinder", Range::positive}.usually(
             "required for a cylinder"),
@@ -115,9 +110,8 @@ struct BodyTable {
     row({"rounding", length, "radius of all edges; a box whose sizes are all twice the radius is a sphere",
          Range::not_negative, "0 m"},
         b.rounding);
-    row(Parameter{"on", "frame in which its joints begin"}
-            .as("`\"vessel\"` or `\"ground\"`")
-            .usually("`\"vessel\"`"),
+    row(described_key("on", "`\"vessel\"` or `\"ground\"`", "`\"vessel\"`",
+                      "frame in which its joints begin"),
         b.on);
     row(Parameter{"joint", "joints from there to the body, as in `[[mill.joint]]`"}.usually("none"),
         b.joints);
@@ -136,8 +130,8 @@ struct ChainTable {
   Entries<JointTable> joints;
 
   static void keys(auto& c, auto&& row) {
-    row(Parameter{"joint", "joints from the ground to the vessel, any number of entries `[[mill.joint]]`"}
-            .usually("required"),
+    row({"joint", "joints from the ground to the vessel, any number of entries `[[mill.joint]]`", Range::any,
+         nullptr, "required"},
         c.joints);
   }
 };
@@ -194,9 +188,8 @@ inline PolyhedronTable table_of(const model::Polyhedron<Quantity>&) { return {};
 struct WallName : std::string {
   static constexpr const char* what = "Materials of single walls.";
   static constexpr Parameter entry =
-      Parameter{"*", "material of the wall that the key names, by label or number: `\"cap +y\"`, `wall_1`"}
-          .as("name")
-          .usually("`vessel.material`");
+      described_key("*", "name", "`vessel.material`",
+                    "material of the wall that the key names, by label or number: `\"cap +y\"`, `wall_1`");
   static std::optional<WallName> read(Section&, const std::string& name) { return WallName{name}; }
 };
 
@@ -208,8 +201,7 @@ struct PistonTable {
   static constexpr const char* what =
       "A wall that is displaced inward from its nominal position by distance + speed t + swings.";
   static void keys(auto& p, auto&& row) {
-    row(Parameter{"wall", "flat wall, by label or number: `\"cap -y\"`, `wall_0`"}.as("name").usually(
-            "required"),
+    row(described_key("wall", "name", "required", "flat wall, by label or number: `\"cap -y\"`, `wall_0`"),
         p.wall);
     row({"distance", Dimension::length, "distance inward from the wall's nominal position at time 0",
          Range::any, "0 m"},
@@ -228,8 +220,8 @@ struct VesselTable {
 
   static constexpr const char* what = "Shape of the inside of the vessel, its walls and their materials.";
   static void keys(auto& v, auto&& row) {
-    row(Parameter{"type", "shape of the inside; its y axis is the axis of round vessels"}.as("name").usually(
-            "`\"cylinder\"`"),
+    row(described_key("type", "name", "`\"cylinder\"`",
+                      "shape of the inside; its y axis is the axis of round vessels"),
         v.shape);
     row({"colour", "colour in pictures: a name, three integers up to 255 or three decimals up to 1",
          Range::any, nullptr, "yellow"},
@@ -253,20 +245,17 @@ struct PairTable {
 
   static constexpr const char* what = "A law for two materials.";
   static void keys(auto& p, auto&& row) {
-    row(
-        Parameter{
-            "materials",
-            "names of the two materials; the entry also takes all keys of `[contact]` that describe a law"}
-            .as("two names")
-            .usually("required"),
+    row(described_key("materials", "two names", "required",
+                      "names of the two materials; the entry also takes all keys of `[contact]` that "
+                      "describe a law"),
         p.materials);
   }
 };
 
 using Laws = model::NamedLaws<Quantity>;
 
-/// The keys of a contact law in a section. Parameters of other laws may be given too, so that a sweep over
-/// laws needs only one section.
+/// The keys of a contact law in a section. Parameters of other laws may be given too, so that a
+/// sweep over laws needs only one section.
 struct LawTable {
   /// The law's name. An inherited name has precedence over the default.
   struct Name {
@@ -304,8 +293,8 @@ struct LawTable {
             PointsOf<Law>{given.points});
     });
     row({"least_separation", speed,
-         "lowest speed at which bodies separate after an impact; `\"0 m/s\"` is the exact model, in which "
-         "infinitely many impacts in a finite time end the run",
+         "lowest speed at which bodies separate after an impact; `\"0 m/s\"` is the exact "
+         "model, in which infinitely many impacts in a finite time end the run",
          Range::not_negative, "1 cm/s"},
         given.least_separation);
   }
@@ -317,14 +306,16 @@ struct ContactTable {
   Entries<PairTable> pairs;
 
   static constexpr const char* what =
-      "The contact law. `[contact.ball_ball]`, `[contact.ball_wall]` and `[[contact.pair]]` take the same "
-      "keys except the last three.";
+      "The contact law. `[contact.ball_ball]`, `[contact.ball_wall]` and `[[contact.pair]]` take "
+      "the same keys except the last three.";
   static void keys(auto& c, auto&& row) {
     LawTable::keys(c.shared, row);
     row(Parameter{"ball_ball", "keys that override those of `[contact]` between balls"}.as("table"),
         c.ball_ball);
     row(Parameter{"ball_wall", "keys that override those of `[contact]` at walls"}.as("table"), c.ball_wall);
-    row({"pair", "keys that override those of `[contact]` between two materials, entries `[[contact.pair]]`"},
+    row({"pair",
+         "keys that override those of `[contact]` between two materials, entries "
+         "`[[contact.pair]]`"},
         c.pairs);
   }
 };
@@ -343,10 +334,9 @@ struct PowderTable {
     row({"mass", Dimension::mass, "mass of the powder, for the charge ratio and the specific dose",
          Range::positive},
         p.mass);
-    row(Parameter{"counts",
-                  "which part of the dose counts toward the target: all of it, or the part along the normal"}
-            .as("`\"all\"` or `\"normal\"`")
-            .usually("`\"all\"`"),
+    row(described_key("counts", "`\"all\"` or `\"normal\"`", "`\"all\"`",
+                      "which part of the dose counts toward the target: all of it, or the part along the "
+                      "normal"),
         p.counts);
   }
 };
@@ -380,7 +370,8 @@ struct CaseFile {
   }
 };
 
-/// Number of the material that a key names; 0 without a name, and for an unknown name, which is reported.
+/// Number of the material that a key names; 0 without a name, and for an unknown name, which is
+/// reported.
 int material_of(Section& section, const std::string& key, const std::string& name, const CaseSpec& spec);
 /// The vessel in double; nothing if it is invalid, which has been reported.
 std::optional<model::AnyVessel<double>> known_vessel(const CaseSpec& spec);
@@ -399,7 +390,8 @@ void require_bodies_inside(Entries<BodyTable>& entries, const CaseSpec& spec);
 /// [contact], [contact.ball_ball], [contact.ball_wall] and [[contact.pair]].
 /// @pre materials, vessel, powder and balls have been read, to which laws may refer
 void read_contact(Section& contact, CaseSpec& spec);
-/// Checks a part or a law whose values are not from a file: reports values that a file may not contain.
+/// Checks a part or a law whose values are not from a file: reports values that a file may not
+/// contain.
 void check(Section mill, const MotionSpec& motion);
 void check(Section vessel, const VesselSpec& shape);
 void check(Section contact, const ContactSpec& law, const CaseSpec& spec);
