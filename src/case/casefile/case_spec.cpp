@@ -451,12 +451,6 @@ void add_outputs(const std::string& text, const std::string& name, CaseSpec& spe
   if (!document.problems.empty()) throw InputError(document.problems_by_line());
 }
 
-std::string describe_gravity(const CaseSpec& spec) {
-  const auto& g = spec.gravity;
-  if (std::all_of(g.begin(), g.end(), [](const Quantity& q) { return q.zero(); })) return "none";
-  return fmt::format("({:g}, {:g}, {:g}) m/s^2", g[0].to<double>(), g[1].to<double>(), g[2].to<double>());
-}
-
 model::Partners partners_of(const CaseSpec& spec) { return model::partners_of(build_mill<double>(spec)); }
 
 CaseSpec read_case(const std::string& path, const std::vector<std::string>& overrides) {

@@ -26,8 +26,8 @@ using model::Swing;
 using model::TurnFraction;
 using PistonSpec = model::Piston<Quantity>;
 
-/// Splits `turns` into whole turns and a fraction. The fraction is truncated to the bits of a TurnFraction,
-/// or to those of the thread's `mpfr` if it needs more.
+/// Splits `turns` into whole turns and a fraction. The fraction is truncated to the bits of a
+/// TurnFraction, or to those of the thread's `mpfr` if it needs more.
 TurnFraction fraction_of(const Quantity& turns) {
   TurnFraction fraction;
 #if !defined(EDMILL_WITHOUT_MPFR)
@@ -46,8 +46,8 @@ TurnFraction fraction_of(const Quantity& turns) {
   return fraction;
 }
 
-/// A constant angle or phase without its whole turns, so that a scalar represents it to its last digit. An
-/// angle of less than a turn is returned as given.
+/// A constant angle or phase without its whole turns, so that a scalar represents it to its last
+/// digit. An angle of less than a turn is returned as given.
 Quantity without_whole_turns(const Quantity& turns) {
   const auto fraction = fraction_of(turns);
   if (fraction.whole == 0 || fraction.whole == -1) return turns;
@@ -88,9 +88,9 @@ Joint<Quantity> joint_of(Section& section, JointTable& table, bool copied) {
   joint.rotates = *table.rotates;
   joint.speed = joint.rotates ? in_turns(table.speed) : table.speed;
   joint.swings = read_swings(table.swings);
+  joint.axis = table.axis.direction;
   const bool moves = !joint.speed.zero() || !joint.swings.empty();
   if (joint.rotates) {
-    joint.axis = table.axis.direction;
     joint.angle = in_turns(table.angle);
     if (joint.angle.zero() && !moves && !copied)
       section.problem(first_of(section, {"speed", "angle", "rotate"}), "a joint that does not turn",
@@ -105,11 +105,7 @@ Joint<Quantity> joint_of(Section& section, JointTable& table, bool copied) {
         shift ? "a distance in addition to three lengths" : "a distance along an axis of three numbers",
         shift ? "translate = \"x\", \"y\" or \"z\", or no distance"
               : "a separate joint for it, translate = [..] with three lengths");
-  if (shift) {
-    joint.shift = *shift;
-    return joint;
-  }
-  joint.axis = table.axis.direction;
+  if (shift) joint.shift = *shift;
   if (!named) return joint;
   for (std::size_t k = 0; k < 3; ++k) joint.shift[k] = joint.axis[k] * table.distance;
   if (table.distance.zero() && !moves)
@@ -133,10 +129,14 @@ Quantity period_of_fastest(const std::vector<Joint<Quantity>>& joints) {
   return Quantity{1} / fastest;
 }
 
-std::string axis_name(const std::array<Quantity, 3>& axis) {
+std::string text_of(const QuantityVector& v) {
+  return fmt::format("({:g}, {:g}, {:g})", v[0].to<double>(), v[1].to<double>(), v[2].to<double>());
+}
+
+std::string axis_name(const QuantityVector& axis) {
   for (std::size_t k = 0; k < 3; ++k)
     if (axis[k] == 1 && axis[(k + 1) % 3].zero() && axis[(k + 2) % 3].zero()) return axes[k];
-  return fmt::format("({:g}, {:g}, {:g})", axis[0].to<double>(), axis[1].to<double>(), axis[2].to<double>());
+  return text_of(axis);
 }
 
 /// A term of a sum with its sign, " + 5".
@@ -145,9 +145,8 @@ std::string term(double value) { return fmt::format(" {} {:g}", value < 0 ? '-' 
 /// The sum of terms with signs as text, without a leading plus.
 std::string as_sum(const std::string& terms) {
   if (terms.empty()) return "0 deg";
-  return terms.starts_with(" + ")   ? terms.substr(3)
-         : terms.starts_with(" - ") ? "-" + terms.substr(3)
-                                    : terms;
+  if (terms.starts_with(" + ")) return terms.substr(3);
+  return terms.starts_with(" - ") ? "-" + terms.substr(3) : terms;
 }
 
 std::string text_of_joint(const Joint<Quantity>& joint) {
@@ -158,8 +157,7 @@ std::string text_of_joint(const Joint<Quantity>& joint) {
     return "turn about " + axis_name(joint.axis) + " by " +
            as_sum(angle + equation_of(joint.swings, joint.rotates));
   }
-  std::string text = fmt::format("shift by ({:g}, {:g}, {:g}) m", joint.shift[0].to<double>(),
-                                 joint.shift[1].to<double>(), joint.shift[2].to<double>());
+  std::string text = "shift by " + text_of(joint.shift) + " m";
   if (!joint.speed.zero()) text += term(joint.speed.to<double>()) + " m/s t";
   text += equation_of(joint.swings, joint.rotates);
   if (!joint.speed.zero() || !joint.swings.empty()) text += " along " + axis_name(joint.axis);
@@ -213,49 +211,32 @@ QuantityVector quantities(const Point& p) {
   return {quantity_of(p[0]), quantity_of(p[1]), quantity_of(p[2])};
 }
 
-/// The convex hull of vertices in exact numbers: the planes through three or more of them that have all
-/// others on one side.
-class Hull {
- public:
-  explicit Hull(std::vector<Point> vertices) : vertices_(std::move(vertices)) {
-    const std::size_t n = vertices_.size();
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t j = i + 1; j < n; ++j)
-        for (std::size_t k = j + 1; k < n; ++k) add(i, j, k);
-  }
-
-  const std::vector<Face<Quantity>>& faces() const { return faces_; }
-  /// A vertex that is no corner of the hull.
-  std::optional<std::size_t> inner_vertex() const {
-    for (std::size_t v = 0; v < vertices_.size(); ++v) {
-      std::size_t count = 0;
-      for (const auto& of_face : corners_) count += of_face.count(v);
-      if (count < 3) return v;
-    }
-    return std::nullopt;
-  }
-
- private:
-  void add(std::size_t i, std::size_t j, std::size_t k) {
-    Point normal = cross<Rational>(vertices_[j] - vertices_[i], vertices_[k] - vertices_[i]);
+/// The faces of a convex hull in exact numbers: planes through three or more of the vertices that
+/// have all others on one side.
+/// @param corners  the vertices on each face are added
+std::vector<Face<Quantity>> hull_of(const std::vector<Point>& vertices,
+                                    std::set<std::set<std::size_t>>& corners) {
+  std::vector<Face<Quantity>> faces;
+  const auto add = [&](const Point& a, const Point& b, const Point& c) {
+    Point normal = cross<Rational>(b - a, c - a);
     if (dot<Rational>(normal, normal) == 0) return;
     std::set<std::size_t> on;
     bool below = false, above = false;
-    for (std::size_t v = 0; v < vertices_.size(); ++v) {
-      const Rational side = dot<Rational>(normal, vertices_[v] - vertices_[i]);
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+      const Rational side = dot<Rational>(normal, vertices[v] - a);
       below = below || side < 0;
       above = above || side > 0;
       if (side == 0) on.insert(v);
     }
-    if (below == above || !corners_.insert(on).second) return;
+    if (below == above || !corners.insert(on).second) return;
     if (above) normal = -normal;
-    faces_.push_back({quantities(normal), quantities(vertices_[i]), Quantity{0}});
-  }
-
-  std::vector<Point> vertices_;
-  std::set<std::set<std::size_t>> corners_;
-  std::vector<Face<Quantity>> faces_;
-};
+    faces.push_back({quantities(normal), quantities(a), Quantity{0}});
+  };
+  for (auto a = vertices.begin(); a != vertices.end(); ++a)
+    for (auto b = a + 1; b != vertices.end(); ++b)
+      for (auto c = b + 1; c != vertices.end(); ++c) add(*a, *b, *c);
+  return faces;
+}
 
 std::vector<Face<Quantity>> read_planes(Entries<PlaneTable>& planes) {
   std::vector<Face<Quantity>> faces;
@@ -274,14 +255,16 @@ std::vector<Face<Quantity>> read_vertices(Section& vessel, Entries<VertexTable>&
     vessel.problem("vertex", std::to_string(vertices.size()) + " vertices", "4 to 60");
     return {};
   }
-  const Hull hull(vertices);
-  if (const auto inner = hull.inner_vertex()) {
-    vessel.problem("vertex",
-                   "a vertex " + std::to_string(*inner) + " that is not a corner of the convex hull",
+  std::set<std::set<std::size_t>> corners;
+  const auto faces = hull_of(vertices, corners);
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    const auto has_it = [v](const auto& face) { return face.contains(v); };
+    if (std::count_if(corners.begin(), corners.end(), has_it) >= 3) continue;
+    vessel.problem("vertex", fmt::format("a vertex {} that is not a corner of the convex hull", v),
                    "the corners of a convex vessel");
     return {};
   }
-  return hull.faces();
+  return faces;
 }
 
 model::Polyhedron<Quantity> read_polyhedron(Section& vessel) {
@@ -360,8 +343,8 @@ using PolyhedronVessel = model::PolyhedronVessel<double>;
 
 /// Whether the wall can move along its normal and leave its neighbours as they are.
 bool can_move(const model::AnyVessel<double>& vessel, int wall) {
-  if (vessel.get_if<PolyhedronVessel>()) return true;
-  return vessel.is_flat(wall) && vessel.function_count() == vessel.wall_count();
+  return vessel.get_if<PolyhedronVessel>() ||
+         (vessel.is_flat(wall) && vessel.function_count() == vessel.wall_count());
 }
 
 /// Distance from a flat wall to the opposite side of the vessel [m].
@@ -370,8 +353,8 @@ double depth_of(const model::AnyVessel<double>& vessel, int wall) {
   return vessel.gap(wall, origin) + dot<double>(normal.cwiseAbs(), vessel.half_sizes());
 }
 
-/// Reports pistons that leave too little room for the largest ball at the origin when all of them are as far
-/// inward as they go.
+/// Reports pistons that leave too little room for the largest ball at the origin when all of them
+/// are as far inward as they go.
 void require_room(Section& entry, const PolyhedronVessel& polyhedron, const std::vector<PistonSpec>& pistons,
                   double from, double to, double diameter) {
   auto planes = polyhedron.planes();
@@ -388,20 +371,18 @@ void require_room(Section& entry, const PolyhedronVessel& polyhedron, const std:
 
 void Axis::read_from(Section& joint, const char* key) {
   if (!joint.has(key)) return;
-  const bool numbers = joint.is_array(key);
-  if (numbers && key == std::string("translate") && !joint.has("swing") && !joint.has("speed")) {
-    shift = joint.vector(key, Dimension::length).value_or(QuantityVector{Quantity{1}});
+  if (!joint.is_array(key)) {
+    const auto axis = std::find(axes.begin(), axes.end(), joint.text(key).value_or("x"));
+    joint.require(axis != axes.end(), key, "\"x\", \"y\", \"z\" or an array of three numbers");
+    direction = {};
+    if (axis != axes.end()) direction[static_cast<std::size_t>(axis - axes.begin())] = Quantity{1};
     return;
   }
-  if (numbers) {
-    direction = joint.vector(key, Dimension::none).value_or(QuantityVector{Quantity{1}});
-    joint.require(!is_zero(direction), key, "an axis other than zero");
-    return;
-  }
-  const auto axis = std::find(axes.begin(), axes.end(), joint.text(key).value_or("x"));
-  joint.require(axis != axes.end(), key, "\"x\", \"y\", \"z\" or an array of three numbers");
-  direction = {};
-  if (axis != axes.end()) direction[static_cast<std::size_t>(axis - axes.begin())] = Quantity{1};
+  const bool shifts = key == std::string("translate") && !joint.has("swing") && !joint.has("speed");
+  direction =
+      joint.vector(key, shifts ? Dimension::length : Dimension::none).value_or(QuantityVector{Quantity{1}});
+  joint.require(shifts || !is_zero(direction), key, "an axis other than zero");
+  if (shifts) shift = std::exchange(direction, {});
 }
 
 std::string equation_of(const std::vector<Swing<Quantity>>& swings, bool rotate) {
@@ -445,14 +426,13 @@ std::string equation_of(const Joints<Quantity>& joints) {
 }
 
 std::vector<model::Joint<Quantity>> joints_of(const MotionSpec& motion) {
-  return std::visit(
-      [](const auto& m) {
-        if constexpr (requires { m.joints(); })
-          return m.joints().list;
-        else
-          return model::spex_joints(m.arm, in_turns(m.theta_max), in_turns(m.gamma_max), m.period).list;
-      },
-      motion);
+  const auto list_of = [](const auto& m) {
+    if constexpr (requires { m.joints(); })
+      return m.joints().list;
+    else
+      return model::spex_joints(m.arm, in_turns(m.theta_max), in_turns(m.gamma_max), m.period).list;
+  };
+  return std::visit(list_of, motion);
 }
 
 std::string describe(const MotionSpec& motion, const Written& written) {
@@ -474,12 +454,11 @@ void check(Section mill, const MotionSpec& motion) {
         require_speed(mill, quantity_of(2 * rational(swing.frequency), 1 + swing.frequency.pi_power));
 }
 void check(Section vessel, const VesselSpec& shape) {
-  std::visit(
-      [&](const auto& v) {
-        v.parameters(v, KeyChecker{vessel});
-        require_shape(vessel, v);
-      },
-      shape);
+  const auto check_shape = [&](const auto& v) {
+    v.parameters(v, KeyChecker{vessel});
+    require_shape(vessel, v);
+  };
+  std::visit(check_shape, shape);
 }
 
 MotionSpec read_motion(Section& mill, const char* key) { return read_part<MotionSpec>(mill, key); }
@@ -511,34 +490,34 @@ void read_pistons(Section& vessel, Entries<PistonTable>& entries, CaseSpec& spec
 void require_travel(std::vector<Section>& entries, const CaseSpec& spec) {
   if (entries.empty()) return;
   const auto vessel = build_mill<double>(spec).vessel;
-  const double from = spec.initial_time.to<double>();
+  const double from = spec.initial_time.to<double>(), to = spec.end_time ? spec.end_time->to<double>() : from;
   const double diameter = spec.largest_diameter();
+  const auto normal = [&](int wall) { return vessel.normal(wall, Vec3<double>::Zero()); };
   for (std::size_t k = 0; k < spec.pistons.size(); ++k) {
     const auto& piston = spec.pistons[k];
+    auto& entry = entries[k];
     if (!piston.speed.zero() && !spec.end_time) {
-      entries[k].problem("speed", "a piston that moves without end", "a run.end_time");
+      entry.problem("speed", "a piston that moves without end", "a run.end_time");
       continue;
     }
-    const double to = spec.end_time ? spec.end_time->to<double>() : from;
     const auto own = travel_of(piston, from, to);
     const double depth = depth_of(vessel, piston.wall);
     if (own.least < -1e-14 * depth)  // beyond rounding
-      entries[k].problem("wall", fmt::format("a piston that leaves the vessel by {:g} m", -own.least),
-                         "a distance, speed and swings that keep it inside");
+      entry.problem("wall", fmt::format("a piston that leaves the vessel by {:g} m", -own.least),
+                    "a distance, speed and swings that keep it inside");
     if (const auto* polyhedron = vessel.get_if<PolyhedronVessel>()) {
-      if (k == 0) require_room(entries[k], *polyhedron, spec.pistons, from, to, diameter);
+      if (k == 0) require_room(entry, *polyhedron, spec.pistons, from, to, diameter);
       continue;
     }
     double room = depth - own.most;
-    const auto normal = [&](int wall) { return vessel.normal(wall, Vec3<double>::Zero()); };
-    for (std::size_t other = 0; other < spec.pistons.size(); ++other)
-      if (dot<double>(normal(piston.wall), normal(spec.pistons[other].wall)) < -0.5)
-        room -= travel_of(spec.pistons[other], from, to).most;
+    for (const auto& other : spec.pistons)
+      if (dot<double>(normal(piston.wall), normal(other.wall)) < -0.5)
+        room -= travel_of(other, from, to).most;
     if (room < diameter)
-      entries[k].problem("wall",
-                         fmt::format("a piston that comes too close to the other end: it leaves {:g} m",
-                                     std::max(room, 0.0)),
-                         fmt::format("room for a ball of {:g} m at all times", diameter));
+      entry.problem("wall",
+                    fmt::format("a piston that comes too close to the other end: it leaves {:g} m",
+                                std::max(room, 0.0)),
+                    fmt::format("room for a ball of {:g} m at all times", diameter));
   }
 }
 
@@ -590,11 +569,11 @@ std::optional<Solid> read_shape(Section& entry, const BodyTable& table) {
 void set_clock(CaseSpec& spec) {
   const auto moves = [](const auto& joint) { return !joint.speed.zero() || !joint.swings.empty(); };
   const auto own = joints_of(spec.mill);
-  if (std::any_of(own.begin(), own.end(), moves) && !std::get_if<model::StillMill<Quantity>>(&spec.mill))
-    return;
+  auto* still = std::get_if<model::StillMill<Quantity>>(&spec.mill);
+  if (!still && std::any_of(own.begin(), own.end(), moves)) return;
   std::vector<Joint<Quantity>> all;
   for (const auto& body : spec.bodies) all.insert(all.end(), body.joints.begin(), body.joints.end());
-  if (auto* still = std::get_if<model::StillMill<Quantity>>(&spec.mill))
+  if (still)
     still->period = period_of_fastest(all);
   else if (auto* chain = std::get_if<model::Chain<Quantity>>(&spec.mill))
     chain->given.period = period_of_fastest(all);
@@ -606,24 +585,22 @@ void read_bodies(Entries<BodyTable>& entries, CaseSpec& spec) {
   constexpr std::size_t most = 48;  // walls and bodies together
   const auto vessel = known_vessel(spec);
   read_entries(entries, [&](Section& entry, BodyTable& table) {
-    const auto shape = read_shape(entry, table);
-    if (!shape) return;
-    auto body = *shape;
+    auto body = read_shape(entry, table);
+    if (!body) return;
     const bool copied = table.repeat > 1;
-    body.joints = read_joints(table.joints, copied);
+    auto& joints = body->joints;
+    joints = read_joints(table.joints, copied);
     if (!spec.end_time) require_end(entry);
     const auto turning =
-        std::find_if(body.joints.begin(), body.joints.end(), [](const auto& joint) { return joint.rotates; });
-    if (copied && turning == body.joints.end()) {
-      entry.problem("repeat", "copies without a rotating joint",
-                    "a joint with 'rotate', about whose axis they are placed");
-      return;
-    }
+        std::find_if(joints.begin(), joints.end(), [](const auto& joint) { return joint.rotates; });
+    if (copied && turning == joints.end())
+      return entry.problem("repeat", "copies without a rotating joint",
+                           "a joint with 'rotate', about whose axis they are placed");
     const int material = material_of(entry, "material", table.material, spec);
     const std::string name = table.name.empty() ? fmt::format("body {}", spec.bodies.size()) : table.name;
-    const auto place = turning - body.joints.begin();
+    const auto place = turning - joints.begin();
     for (int k = 0; k < table.repeat; ++k) {
-      auto copy = body;
+      auto copy = *body;
       copy.name = copied ? fmt::format("{} {}", name, k) : name;
       for (const auto& other : spec.bodies)
         entry.require(other.name != copy.name, "name", "a name that no other body has");
@@ -632,7 +609,7 @@ void read_bodies(Entries<BodyTable>& entries, CaseSpec& spec) {
           entry.require(wall.label != copy.name, "name", "a name that no wall has");
       if (k > 0) {
         Joint<Quantity> turn;
-        turn.axis = body.joints[static_cast<std::size_t>(place)].axis;
+        turn.axis = turning->axis;
         turn.angle = quantity_of(Rational(k) / table.repeat);
         copy.joints.insert(copy.joints.begin() + place, turn);
       }
@@ -693,6 +670,10 @@ std::string describe(const Solid& body) {
     text += fmt::format(", rounded by {:g} mm", 1000 * body.rounding.to<double>());
   text += body.on_vessel ? ", on the vessel" : ", on the ground";
   return body.joints.empty() ? text : text + ": " + equation_of(Joints<Quantity>{body.joints});
+}
+
+std::string describe_gravity(const CaseSpec& spec) {
+  return is_zero(spec.gravity) ? "none" : text_of(spec.gravity) + " m/s^2";
 }
 
 std::string describe(const PistonSpec& piston) {

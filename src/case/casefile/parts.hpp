@@ -39,14 +39,13 @@ std::string name_of(const std::variant<Part...>& part) {
 
 /// Period of the drive, or the clock unit of a still vessel [s].
 inline const Quantity& period_of(const MotionSpec& motion) {
-  return std::visit(
-      [](const auto& m) -> const Quantity& {
-        if constexpr (requires { m.period; })
-          return m.period;
-        else
-          return m.given.period;
-      },
-      motion);
+  const auto own = [](const auto& m) -> const Quantity& {
+    if constexpr (requires { m.period; })
+      return m.period;
+    else
+      return m.given.period;
+  };
+  return std::visit(own, motion);
 }
 
 /// Type and parameters, exact: "cylinder 19/500 57/1000".
