@@ -35,8 +35,7 @@ Real nearest(const Rational& value) {
   const cpp_int above = abs(numerator(value)), below = denominator(value);
   if (above == 0) return Real(0);
   const auto digits = static_cast<unsigned>(binary_digits<Real>());
-  // The quotient has one or two bits more than the scalar; a last bit says whether there is a
-  // remainder.
+  // The quotient has one or two spare bits; a last bit says whether there is a remainder.
   int exponent = static_cast<int>(msb(above)) - static_cast<int>(msb(below)) - static_cast<int>(digits) - 1;
   cpp_int quotient, remainder;
   divide_qr(exponent < 0 ? cpp_int(above << -exponent) : above,
@@ -62,8 +61,7 @@ Real Quantity::to() const {
   return detail::nearest<Real>(value_of(*this, detail::bits_for<Real>()));
 }
 
-/// The instant at `time` on a clock of whole drive periods, reduced exactly: the offset is as sharp
-/// at 1e6 s as at the start.
+/// The instant at `time`, reduced exactly: the offset is as sharp at 1e6 s as at the start.
 /// @param time    not negative
 /// @param period  of the drive
 template <class Real>
@@ -92,8 +90,7 @@ model::BallProperties<Real> to_ball(const BallSpec& spec, const Real& diameter) 
   return {radius, spec.density.to<Real>() * volume, spec.reduced_inertia.to<Real>(), spec.material};
 }
 
-/// Placed balls in a grid of cells, in the vessel frame. A cell is at least as wide as the largest
-/// distance of centres to be tested.
+/// Placed balls in the vessel frame, in cells as wide as the largest distance to be tested.
 template <class Real>
 class PlacedBalls {
  public:
@@ -141,10 +138,9 @@ struct CrowdBody {
   model::RoundedBody<double> shape;
 };
 
-/// Balls that are moved apart, from places inside the vessel where they may overlap, until none is
-/// closer to another or to a wall than `share` of its gaps. The moves are projections: each pair
-/// that is too close is parted along the line of its centres, each ball beyond a wall goes back
-/// along the normal.
+/// Balls that may overlap are moved apart until none is closer to another or to a wall than `share`
+/// of its gaps. The moves are projections: each pair that is too close is parted along the line of
+/// its centres, each ball beyond a wall goes back along the normal.
 class Crowd {
   using Place = Vec3<double>;
 
@@ -161,8 +157,7 @@ class Crowd {
     }
   }
 
-  /// @return false if they are still too close after a number of sweeps that depends only on the
-  /// number of balls
+  /// @return false if they are too close after as many sweeps as their number allows
   bool push_apart() {
     for (const auto& [distance, room] : rooms_)
       if (room.is_empty()) return false;
@@ -334,8 +329,7 @@ class Filling {
   }
 
  private:
-  /// Places the balls of the batches one by one at random; if a ball finds no room, places all of
-  /// them together.
+  /// Places the balls of the batches one by one at random; all together if one finds no room.
   void add_batches() {
     if (!fit_alone() || !fit_by_volume() || !problems_.empty()) return;
     const std::size_t given = result_.states.size();
@@ -395,8 +389,7 @@ class Filling {
     result_.states.push_back(state);
   }
 
-  /// A free place in the vessel, uniform over those that keep the gaps; nothing when it is not
-  /// found.
+  /// A free place in the vessel, uniform over those that keep the gaps; nothing if none is found.
   std::optional<Vec3<Real>> place(const BallBatch& batch, const Real& radius) {
     const Real gap_ball = batch.gap_ball.to<Real>(), gap_wall = batch.gap_wall.to<Real>();
     const auto room = mill_.vessel.inset(radius).inset(gap_wall);
@@ -438,8 +431,7 @@ class Filling {
                        {result_.start.period, static_cast<double>(result_.start.offset)});
   }
 
-  /// Reports a total volume that no packing reaches: from a dozen balls on, the densest is that of
-  /// equal balls, pi/sqrt(18).
+  /// Reports a volume that no packing reaches: for a dozen balls or more, pi/sqrt(18) of the room.
   bool fit_by_volume() {
     if (spec_.batches.empty()) return true;
     constexpr double densest = 0.7405, few = 12;
@@ -491,9 +483,8 @@ class Filling {
         spec_.batches.front().where, drawn.size(), volume_of_balls() / room(), fitting));
   }
 
-  /// Pushes the first `count` of the drawn balls apart, from new random places; the given ones do
-  /// not move.
-  /// @return true if it succeeds
+  /// Pushes the first `count` of the drawn balls apart, from new random places, and from those
+  /// whose state is given, which do not move. @return true if it succeeds
   bool part_crowd(const std::vector<Drawn>& drawn, std::size_t count, double share,
                   std::vector<CrowdBall>& crowd) {
     const auto vessel = mill_.vessel.template cast<double>();

@@ -87,7 +87,7 @@ void read_materials(Entries<MaterialSpec>& entries, CaseSpec& spec) {
   read_entries(entries, [&](Section& entry, MaterialSpec& material) {
     entry.require(material.name.empty() || spec.material_named(material.name) == 0, "name",
                   "a name that no other material has");
-    // An invalid density is reported here, and must not be reported again at each ball of the material.
+    // An invalid density is reported here, but not again at each ball of the material.
     if (entry.has("density") && !(material.density && material.density->positive()))
       material.density = BallSpec{}.density;
     spec.materials.push_back(std::move(material));
@@ -153,8 +153,8 @@ void check_times(Section run, const CaseSpec& spec) {
   run.require(!spec.end_time || within(*spec.end_time), "end_time", expected);
 }
 
-/// The lines of [run] in the canonical text. The keys of version 1.0 come first, in this order, even without
-/// a value; later keys follow only if they are given.
+/// The lines of [run] in the canonical text. The keys of version 1.0 come first, in this order,
+/// even without a value; later keys follow only if they are given.
 std::string text_of_run(const CaseSpec& c) {
   constexpr std::array<std::string_view, 8> of_1_0{"precision",      "seed",          "initial_time",
                                                    "start_time",     "end_time",      "max_milling_dose",
@@ -227,7 +227,7 @@ std::string canonical_text(const CaseSpec& c) {
   return out.str();
 }
 
-/// @param finished  the case is that of a finished run: the file of its initial state need not exist
+/// @param finished  the run is over: the file of its initial state need not exist
 CaseSpec parse(const std::string& text, const std::string& name, const std::vector<std::string>& overrides,
                bool finished, SizeLimit sizes = SizeLimit::physical) {
   Document document(name);

@@ -314,8 +314,7 @@ std::string describe_gravity(const CaseSpec& spec);
 model::Partners partners_of(const CaseSpec& spec);
 
 /// Reads and checks a case file.
-/// @param overrides  "section.key=value", applied over the file; a value that is not TOML is taken
-/// as text
+/// @param overrides  "section.key=value", over the file; a value that is not TOML is a text
 /// @throws InputError with every problem of the file: file, line, key, found, expected
 CaseSpec read_case(const std::string& path, const std::vector<std::string>& overrides = {});
 
@@ -343,16 +342,14 @@ std::optional<std::string> text_of_key(const CaseSpec& spec, const std::string& 
 CaseSpec with_value(const CaseSpec& spec, const std::string& key, const std::string& value,
                     SizeLimit sizes = SizeLimit::physical);
 
-/// Problems for which a file with the numbers of this case would be refused, if the case has been
-/// changed since it was read.
+/// Problems for which a file with the numbers of this case, changed since it was read, is refused.
 std::vector<std::string> problems_of(const CaseSpec& spec);
 
 /// The text of a case file, followed by the settings over it as comments, for readers.
 std::string text_with_settings(const CaseSpec& spec);
 
 /// The case that a run left in its folder, a file with `text_with_settings`. If the run began from
-/// the final state of another one, that file is not read, and the digest, which depends on it, is
-/// empty.
+/// a final state, that file is not read, and the digest, which depends on it, is empty.
 /// @param settings  of the run, which override the file
 /// @throws InputError also when the case has another digest
 CaseSpec read_case_of_run(const std::string& path, const std::vector<std::string>& settings,

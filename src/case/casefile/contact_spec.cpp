@@ -43,7 +43,7 @@ void require_diameters(Section& s, const CaseSpec& spec) {
   });
 }
 
-/// @param missing  called for each missing parameter of the law, with its key and the expected value
+/// @param missing  called for each missing parameter, with its key and the expected value
 ContactSpec to_spec(Section& contact, const LawTable& given, const CaseSpec& spec, const auto& missing) {
   ContactSpec result;
   result.least_separation = given.least_separation;

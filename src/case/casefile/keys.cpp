@@ -20,13 +20,13 @@ namespace {
 
 std::uint64_t count_of(const Quantity& q) { return static_cast<std::uint64_t>(numerator(rational(q))); }
 
-/// The number that is stored for a value: the period for the speed of a drive, otherwise the value itself.
+/// The number that is stored for a value: the period for the speed of a drive, or the value.
 Quantity kept(const Quantity& q, const Range& range) {
   if (range.kind != Range::drive) return q;
   return q.positive() ? quantity_of(2 / rational(q), 1 - q.pi_power) : Quantity{1};
 }
 
-/// All sections. The first one has the top-level keys of the files, which are the names of sections.
+/// All sections. The first one has the top-level keys of files, the names of sections.
 const std::vector<KeySection>& all_sections() {
   static const auto sections = [] {
     std::vector<KeySection> list{{"", "", "", {}}};

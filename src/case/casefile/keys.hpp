@@ -1,5 +1,5 @@
-// Structs that list their keys, by `keys(self, row)` with row(parameter, member) for each: how they are read,
-// checked, described, written to the digest and listed for the reference (`edmill reference`).
+// Structs that list their keys, by `keys(self, row)` with row(parameter, member) for each: how they
+// are read, checked, described, digested and listed for `edmill reference`.
 #pragma once
 
 #include <algorithm>
@@ -26,13 +26,13 @@ std::string expected(const Parameter& p);
 /// @pre the parameter has a fallback of its dimension
 Quantity fallback_of(const Parameter& p);
 
-/// A struct that lists its keys. A member may be such a struct itself: a table inside the table. That table
-/// may be absent, so all of its keys need defaults.
+/// A struct that lists its keys. A member may be such a struct itself: a table inside the table.
+/// That table may be absent, so all of its keys need defaults.
 template <class T>
 concept Keyed = requires(T& t) {
   T::keys(t, [](const Parameter&, const auto&) {});
 };
-/// A value with a form of its own in a file: `read_from(section, key)` reads it where the key is present.
+/// A value with a form of its own in a file: `read_from(section, key)`.
 template <class T>
 concept Formed = requires(T& t, Section& section, const char* key) {
   t.read_from(section, key);
@@ -46,7 +46,7 @@ concept NamedEntry = requires(Section& section, const std::string& name) {
 template <class T>
 concept Choice = std::is_enum_v<T>;
 
-/// A table with the keys of a T that is not read at once, because its reader needs other parts of the file.
+/// A table with the keys of a T whose reader needs other parts of the file first.
 template <Keyed T>
 struct Inner {
   std::optional<Section> section;
@@ -65,9 +65,9 @@ T entry_of(const std::vector<T>&) {
   return {};
 }
 
-/// Reads members from a section and reports problems. The member of an absent key gets the fallback of its
-/// row. Without a fallback it keeps its value if it is optional or if the row describes a default in
-/// `otherwise`; if not, the missing key is reported.
+/// Reads members from a section and reports problems. The member of an absent key gets the fallback
+/// of its row. Without a fallback it keeps its value if it is optional or if the row describes a
+/// default in `otherwise`; if not, the missing key is reported.
 class KeyReader {
  public:
   enum class Absent { fallback, kept };
@@ -118,8 +118,7 @@ class KeyReader {
     Section own = section_.section(p.key);
     read_all_keys(own, value);
   }
-  /// Entries [[key]]. `T::check(entry, list)`, if T has it, checks each entry when it is the last of the
-  /// list.
+  /// Entries [[key]]. `T::check(entry, list)`, if T has it, checks the last of the list so far.
   template <Keyed T>
   void operator()(const Parameter& p, std::vector<T>& list) {
     for (Section& entry : section_.sections(p.key)) {
@@ -183,7 +182,7 @@ struct KeyChecker {
   void operator()(const Parameter&, const auto&) const {}
 };
 
-/// The kind of values that a member accepts, for readers: "count", "three lengths", "true or false".
+/// The kind of values that a member accepts, for readers: "count", "three lengths".
 template <class Value>
 std::string kind_of(const Parameter& p) {
   if (p.kind) return p.kind;
@@ -259,8 +258,8 @@ struct KeySection {
   std::vector<Key> keys;
 };
 
-/// Every key that a case, a sweep or an optimisation file can contain, in the order of the reference. Looking
-/// up any other key is a programming error.
+/// Every key that a case, a sweep or an optimisation file can contain, in the order of the
+/// reference. Looking up any other key is a programming error.
 std::span<const KeySection> key_sections();
 /// @param path  of a section as messages name it, "output.0.columns.1"
 bool is_key(const std::string& path, const std::string& name);
@@ -269,7 +268,7 @@ bool is_key(const std::string& path, const std::string& name);
 class KeyLister {
  public:
   explicit KeyLister(std::vector<KeySection>& sections) : sections_(sections) {}
-  /// A lister for the keys of a table inside this one. @param list  true for an array of tables, [[key]]
+  /// A lister for the keys of a table inside this one. @param list  for an array, [[key]]
   KeyLister inside(const std::string& key, bool list, const char* what) const;
   /// A lister for keys of a single type.
   KeyLister only_of(const std::string& type) const {

@@ -48,7 +48,7 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
   std::size_t fewest = 0;
   for (const auto& candidate : candidates) {
     const std::string known = plain(candidate);
-    // No more than a third of the letters may be wrong: otherwise short words would match any others.
+    // A third of the letters may be wrong: otherwise short words would match any others.
     const std::size_t edits = edit_distance(given, known),
                       most = (std::max(given.size(), known.size()) + 1) / 3;
     const bool near = edits <= most || begins(known, given) || begins(given, known);

@@ -30,17 +30,16 @@ void check_common(Section& s, const CaseSpec& spec, const OutputSpec& output) {
   };
   for (const auto* taken : {"summary.json", "final_state.csv", "case.toml", "report.html", "checkpoint",
                             "ro-crate-metadata.json"})
-    s.require(
-        place(output) != std::filesystem::path("run") / taken, "file",
-        "a plain file name other than the run's own summary.json, final_state.csv, case.toml, report.html, "
-        "checkpoint and ro-crate-metadata.json");
+    s.require(place(output) != std::filesystem::path("run") / taken, "file",
+              "a plain file name other than the run's own summary.json, final_state.csv, case.toml, "
+              "report.html, checkpoint and ro-crate-metadata.json");
   s.require(!output.append || !output.hdf5(), "append", "false for HDF5");
   for (const auto& other : spec.outputs)
     s.require(place(other) != place(output) || (other.append && output.append), "file",
               "a file name that no other output has, or append = true for both");
 }
 
-/// Index in ball_variables of the variable that a key names; nothing for an unknown name, which is reported.
+/// Index in ball_variables of a name; nothing for an unknown one, which is reported.
 std::optional<int> ball_variable_of(Section& s, const std::string& name) {
   std::vector<std::string> names;
   for (const auto& v : model::ball_variables) names.emplace_back(v.name);

@@ -96,8 +96,8 @@ struct OutputType {
   OutputKeys keys;
 };
 
-/// The keys that `Keys::keys(output, row)` lists. `Keys::check`, if it exists, checks conditions
-/// between them.
+/// The keys that `Keys::keys(output, row)` lists, and conditions that `Keys::check`, if any,
+/// checks.
 template <class Keys>
 inline constexpr OutputKeys output_keys{[](Section& entry, const CaseSpec& spec, OutputSpec& output) {
                                           Keys::keys(output, KeyReader(entry));
@@ -117,8 +117,7 @@ struct NoKeys {
   static void keys(auto&, auto&&) {}
 };
 
-/// Every type of output. The registry of the outputs defines it, and makes outputs from the same
-/// rows.
+/// Every type of output, defined by the registry, which makes outputs from the same rows.
 std::span<const OutputType> output_types();
 
 /// Reads one entry and adds it to the case.

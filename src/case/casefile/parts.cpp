@@ -211,8 +211,7 @@ QuantityVector quantities(const Point& p) {
   return {quantity_of(p[0]), quantity_of(p[1]), quantity_of(p[2])};
 }
 
-/// The faces of a convex hull in exact numbers: planes through three or more of the vertices that
-/// have all others on one side.
+/// The convex hull in exact numbers: planes through three or more vertices with no others outside.
 /// @param corners  the vertices on each face are added
 std::vector<Face<Quantity>> hull_of(const std::vector<Point>& vertices,
                                     std::set<std::set<std::size_t>>& corners) {
@@ -353,8 +352,7 @@ double depth_of(const model::AnyVessel<double>& vessel, int wall) {
   return vessel.gap(wall, origin) + dot<double>(normal.cwiseAbs(), vessel.half_sizes());
 }
 
-/// Reports pistons that leave too little room for the largest ball at the origin when all of them
-/// are as far inward as they go.
+/// Reports pistons that, all as far inward as they go, leave too little room at the origin.
 void require_room(Section& entry, const PolyhedronVessel& polyhedron, const std::vector<PistonSpec>& pistons,
                   double from, double to, double diameter) {
   auto planes = polyhedron.planes();

@@ -77,12 +77,12 @@ std::string equation_of(const std::vector<model::Swing<Quantity>>& swings, bool 
 
 /// Returns the number of a key as written in the file, "38 mm"; nothing if there is none.
 using Written = std::function<std::optional<std::string>(const std::string& key)>;
-/// For readers: "cylinder: diameter 38 mm, height 57 mm". @param written  without it values are in SI
+/// "cylinder: diameter 38 mm, height 57 mm", for readers. @param written  otherwise in SI
 std::string describe(const MotionSpec& motion, const Written& written = {});
 std::string describe(const VesselSpec& vessel, const Written& written = {});
 
 class Section;
-/// Reads type and parameters of [mill] or [vessel] and reports problems. @param key  the one of the type
+/// Reads type and parameters of [mill] or [vessel]. @param key  the one of the type
 MotionSpec read_motion(Section& mill, const char* key);
 VesselSpec read_vessel(Section& vessel, const char* key);
 

@@ -8,7 +8,7 @@ namespace edmill::casefile {
 
 class Section;
 
-/// The scalars with a fixed number of digits, the narrowest first: "double", "float128", "mpfr50"...
+/// The scalars of a fixed number of digits, the narrowest first: "double", "float128"...
 const std::vector<std::string>& precisions();
 
 /// True if the name is one of these, or "mpfr:DIGITS".

@@ -135,7 +135,7 @@ cpp_int pi_in_bits(int bits) {
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
-/// Length of the decimal number that `text` begins with; an exponent needs digits ("1e3 m", but not "1 eV").
+/// Length of the decimal number that `text` begins with; an exponent has digits, unlike "1 eV".
 std::size_t number_length(std::string_view text) {
   const auto is_one_of = [&](std::string_view any, std::size_t at) {
     return at < text.size() && any.find(text[at]) != any.npos;

@@ -76,8 +76,7 @@ struct QuantityProblem {
 
 using QuantityResult = std::variant<Quantity, QuantityProblem>;
 
-/// Whether magnitudes outside of 1e-30 to 1e30 in SI units are refused: their squares and cubes may overflow
-/// or underflow in double.
+/// Whether SI values outside of 1e-30 to 1e30, whose cubes may leave double, are refused.
 enum class SizeLimit { physical, none };
 
 /// Treatment of numbers without a unit in dimensions that have one.
@@ -87,7 +86,7 @@ enum class Plain { refused, is_si };
 QuantityResult parse_quantity(std::string_view text, Dimension dimension,
                               SizeLimit limit = SizeLimit::physical, Plain plain = Plain::refused);
 
-/// Whether a text begins with a number that has a comma between its digits, where a point is expected.
+/// Whether a text begins with a number that has a comma between its digits.
 bool has_comma(std::string_view text);
 
 /// Exact value of a decimal number; nothing for anything else, nan and inf included.
@@ -96,8 +95,8 @@ std::optional<Quantity> parse_decimal(std::string_view text);
 /// "4.76 mm" is 4.76 and " mm"; nothing for a text that does not begin with a number.
 std::optional<std::pair<double, std::string>> split_number(const std::string& text);
 
-/// A number with a unit in SI, and the SI unit: "200 rpm" is 20.94... and "rad/s". Nothing for other texts,
-/// and for units of two dimensions, "m".
+/// A number with a unit in SI, and the SI unit: "200 rpm" is 20.94... and "rad/s". Nothing for
+/// other texts, and for units of two dimensions, "m".
 std::optional<std::pair<double, std::string>> in_si(std::string_view text);
 
 }  // namespace edmill::casefile

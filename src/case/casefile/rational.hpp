@@ -1,4 +1,4 @@
-// The rational number in a Quantity. A heavy header, for sources that need more arithmetic than Quantity has.
+// The rational number in a Quantity: a heavy header, for more arithmetic than Quantity has.
 #pragma once
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -19,8 +19,7 @@ inline Quantity quantity_of(Rational value, int pi_power = 0) {
   return Quantity(std::make_shared<const Quantity::Exact>(Quantity::Exact{std::move(value)}), pi_power);
 }
 
-/// The number of a quantity in SI units: exact if it has no power of pi, otherwise correct to more than
-/// `bits`.
+/// The number in SI units: exact without a power of pi, otherwise correct to more than `bits`.
 Rational value_of(const Quantity& quantity, int bits);
 
 }  // namespace edmill::casefile

@@ -45,7 +45,7 @@ double distance(const Body& one, const Body& other, const Instant<double>& when)
   return norm<double>(Place(a - b)) - one.shape.rounding() - other.shape.rounding();
 }
 
-/// Points whose hull is the core of a body, or, if it is round, is larger by less than 0.2 % of its radius.
+/// Points whose hull is the core of a body; of a round one, to 0.2 % of its radius outside.
 std::vector<Place> corners_of(const model::RoundedBody<double>& shape) {
   std::vector<Place> corners;
   const auto& half = shape.half();
@@ -61,7 +61,7 @@ std::vector<Place> corners_of(const model::RoundedBody<double>& shape) {
   return corners;
 }
 
-/// Distance of a place in the vessel from a wall [m]; of a vessel with rounded edges from all of its surface.
+/// Distance of a place from a wall [m]; from all of the surface of a vessel with rounded edges.
 double depth(const model::AnyVessel<double>& vessel, int wall, const Place& place) {
   const double overlap = vessel.overlap(wall, place);
   const auto* rounded = vessel.get_if<model::RoundedVessel<double>>();
@@ -74,7 +74,7 @@ double depth(const model::AnyVessel<double>& vessel, int wall, const Place& plac
   return fits;
 }
 
-/// Distance of a body from a wall of the vessel [m]. It is least at a corner, since the vessel is convex.
+/// Distance of a body from a wall of the convex vessel [m]: least at a corner.
 double distance(const Body& body, const std::vector<Place>& corners, const model::Mill<double>& mill,
                 int wall, const Instant<double>& when) {
   const auto pose = body.motion.pose(when);

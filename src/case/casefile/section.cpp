@@ -1,4 +1,4 @@
-// Reads TOML files, applies settings "section.key=value" to them, and looks up typed values of their keys.
+// Reads TOML files, applies settings "section.key=value", and looks up typed values.
 #include "casefile/section.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// A table of the case file while it is read: typed look-ups that collect problems instead of throwing.
+// A table of the case file while it is read: typed look-ups that collect problems.
 #pragma once
 
 #include <cstdint>
@@ -35,19 +35,19 @@ struct Document {
   std::string raw(const toml::node& node, const std::string& path) const;
   /// The problems in the order of the lines of the file, after those that have no line.
   std::vector<std::string> problems_by_line() const;
-  /// Adds a problem. Each key gets at most one, and errors inside of an invalid table are suppressed.
+  /// Adds a problem. Each key gets at most one; inside of an invalid table there are none.
   void report(const toml::node* node, const std::string& path, const std::string& found,
               const std::string& expected);
 
  private:
   using Override = std::pair<const std::string, std::string>;
-  /// The command line's setting of a key or of a table that contains it; null for a key of the file.
+  /// The command line's setting of a key or of a table that contains it; null for others.
   const Override* override_of(std::string path) const;
   std::string line(const std::string& path, std::size_t number) const;
 };
 
 /// Parses the text of the file `document.name` and keeps its lines.
-/// @param settings  "section.key=value", applied over the text; their errors become problems of the document
+/// @param settings  "section.key=value", over the text; errors become problems of the document
 /// @throws InputError when the text is not valid TOML
 toml::table parse_toml(const std::string& text, const std::string& kind, Document& document,
                        const std::vector<std::string>& settings = {});
@@ -138,8 +138,8 @@ class Section {
   bool of_unknown_kind_ = false;
 };
 
-/// The key at which to report a problem of several keys: the first one present, or else the last. The report
-/// is dropped if a problem with that key's own value has been reported before.
+/// The key at which to report a problem of several keys: the first one present, or else the last.
+/// The report is dropped if a problem with that key's own value has been reported before.
 inline const char* first_of(const Section& section, std::initializer_list<const char*> keys) {
   for (const char* key : keys)
     if (section.has(key)) return key;

@@ -24,8 +24,7 @@ struct Setting : std::pair<std::string, std::string> {
   static std::optional<Setting> read(Section& section, const std::string& key);
 };
 
-/// A key of studies only, not of the case: it sets balls.0.count from the masses of powder and
-/// ball.
+/// A key of studies only: it sets balls.0.count from the masses of powder and ball.
 inline constexpr const char* charge_ratio_key = "charge_ratio";
 
 /// Keys that sweeps and optimisations have in common.

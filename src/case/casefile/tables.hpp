@@ -370,8 +370,7 @@ struct CaseFile {
   }
 };
 
-/// Number of the material that a key names; 0 without a name, and for an unknown name, which is
-/// reported.
+/// Number of the material that a key names; 0 without a name, and for an unknown, reported one.
 int material_of(Section& section, const std::string& key, const std::string& name, const CaseSpec& spec);
 /// The vessel in double; nothing if it is invalid, which has been reported.
 std::optional<model::AnyVessel<double>> known_vessel(const CaseSpec& spec);
@@ -390,8 +389,7 @@ void require_bodies_inside(Entries<BodyTable>& entries, const CaseSpec& spec);
 /// [contact], [contact.ball_ball], [contact.ball_wall] and [[contact.pair]].
 /// @pre materials, vessel, powder and balls have been read, to which laws may refer
 void read_contact(Section& contact, CaseSpec& spec);
-/// Checks a part or a law whose values are not from a file: reports values that a file may not
-/// contain.
+/// Reports values of a part or a law, not from a file, that a file may not contain.
 void check(Section mill, const MotionSpec& motion);
 void check(Section vessel, const VesselSpec& shape);
 void check(Section contact, const ContactSpec& law, const CaseSpec& spec);
