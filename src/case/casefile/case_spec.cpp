@@ -59,17 +59,16 @@ namespace {
 /// A ball's own density, or that of its material.
 void read_density(Section& s, BallSpec& ball, const CaseSpec& spec) {
   ball.material = material_of(s, "material", ball.material_name, spec);
-  if (ball.material > 0) {
-    const auto& material = spec.materials[static_cast<std::size_t>(ball.material) - 1];
-    if (material.density)
-      ball.density = *material.density;
-    else if (!s.has("density"))
-      s.problem("density", "nothing",
-                describe(Dimension::density) + ": material \"" + material.name + "\" has none");
-    if (material.density && s.has("density"))
-      s.problem("density", "a density in addition to that of material \"" + material.name + "\"",
-                "one of them");
-  }
+  if (ball.material == 0) return;
+  const auto& material = spec.materials[static_cast<std::size_t>(ball.material) - 1];
+  if (!material.density && !s.has("density"))
+    s.problem("density", "nothing",
+              describe(Dimension::density) + ": material \"" + material.name + "\" has none");
+  if (!material.density) return;
+  ball.density = *material.density;
+  if (s.has("density"))
+    s.problem("density", "a density in addition to that of material \"" + material.name + "\"",
+              "one of them");
 }
 
 /// The number of balls whose mass is nearest to that of the batch.
@@ -182,28 +181,32 @@ std::string canonical_text(const CaseSpec& c) {
   std::ostringstream out;
   out << "edmill case 2" << text_of_run(c) << "\nmill " << text_of(c.mill) << "\nvessel " << text_of(c.vessel)
       << "\n";
+  const auto put = [&](const auto&... numbers) { (out << ... << (" " + numbers.text())); };
+  const auto put_swings = [&](const auto& swings) {
+    for (const auto& swing : swings) put(swing.amplitude, swing.frequency, swing.phase);
+  };
   for (const auto& piston : c.pistons) {
-    out << "piston " << piston.wall << " " << piston.distance.text() << " " << piston.speed.text();
-    for (const auto& swing : piston.swings)
-      out << " " << swing.amplitude.text() << " " << swing.frequency.text() << " " << swing.phase.text();
+    out << "piston " << piston.wall;
+    put(piston.distance, piston.speed);
+    put_swings(piston.swings);
     out << "\n";
   }
   for (const auto& body : c.bodies) {
-    out << "body " << body.is_round << " " << body.on_vessel << " " << body.rounding.text();
-    for (const auto& size : body.size) out << " " << size.text();
+    out << "body " << body.is_round << " " << body.on_vessel;
+    put(body.rounding, body.size[0], body.size[1], body.size[2]);
     for (const auto& joint : body.joints) {
-      out << " joint " << joint.rotates << " " << joint.angle.text() << " " << joint.speed.text();
-      for (const auto* vector : {&joint.axis, &joint.shift})
-        for (const auto& number : *vector) out << " " << number.text();
-      for (const auto& swing : joint.swings)
-        out << " " << swing.amplitude.text() << " " << swing.frequency.text() << " " << swing.phase.text();
+      out << " joint " << joint.rotates;
+      put(joint.angle, joint.speed);
+      for (const auto& [x, y, z] : {joint.axis, joint.shift}) put(x, y, z);
+      put_swings(joint.swings);
     }
     out << "\n";
   }
   const auto write_law = [&](const ContactSpec& law) {
     out << "contact " << law.name();
-    law.parameters([&](const Parameter&, const Quantity& value) { out << " " << value.text(); });
-    out << " " << law.least_separation.text() << "\n";
+    law.parameters([&](const Parameter&, const Quantity& value) { put(value); });
+    put(law.least_separation);
+    out << "\n";
   };
   write_law(c.ball_ball);
   write_law(c.ball_wall);
@@ -221,9 +224,8 @@ std::string canonical_text(const CaseSpec& c) {
   for (const auto& b : c.batches) out << "balls" << values_of(b) << "\n";
   if (c.target.dose && (c.target.counted.normal_only || c.target.counted.least.positive()))
     out << "counts " << c.target.counted.normal_only << " " << c.target.counted.least.text() << "\n";
-  if (!c.initial_state.empty()) {
+  if (!c.initial_state.empty())
     out << "initial_state " << sha256(io::read_whole(c.initial_state, "a final_state.csv")) << "\n";
-  }
   return out.str();
 }
 

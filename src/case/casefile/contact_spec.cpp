@@ -50,8 +50,7 @@ ContactSpec to_spec(Section& contact, const LawTable& given, const CaseSpec& spe
   for_each_kind<Laws>([&](auto law) {
     if (given.name.text != law.name) return;
     law.parameters(law, [&](const Parameter& p, Quantity& value) {
-      const auto found = given.parameters.find(p.key);
-      if (found != given.parameters.end() && found->second) {
+      if (const auto found = given.parameters.find(p.key); found != given.parameters.end() && found->second) {
         value = *found->second;
       } else if (p.fallback) {
         value = fallback_of(p);
@@ -98,11 +97,8 @@ void read_pairs(ContactTable& contact, CaseSpec& spec) {
     read_keys(entry, table);
     const auto& names = table.materials.names;
     PairSpec pair;
-    bool known = names.size() == 2;
-    for (std::size_t k = 0; known && k < 2; ++k) {
-      pair.materials[k] = spec.material_named(names[k]);
-      known = pair.materials[k] > 0;
-    }
+    if (names.size() == 2) pair.materials = {spec.material_named(names[0]), spec.material_named(names[1])};
+    const bool known = pair.materials[0] > 0 && pair.materials[1] > 0;
     if (!known)
       entry.problem("materials",
                     names.empty() ? "nothing" : fmt::format("\"{}\"", fmt::join(names, "\", \"")),
@@ -121,7 +117,6 @@ void read_pairs(ContactTable& contact, CaseSpec& spec) {
 
 /// For a case with laws for pairs of materials only: reports possible contacts that have none.
 void require_all_pairs(Section& contact, const CaseSpec& spec) {
-  const auto& walls = spec.wall_materials;
   std::vector<int> of_balls;
   spec.for_each_ball([&](const BallSpec& ball) { of_balls.push_back(ball.material); });
   const auto name = [&](int material) {
@@ -130,13 +125,13 @@ void require_all_pairs(Section& contact, const CaseSpec& spec) {
   const auto require = [&](int one, int other) {
     for (const auto& pair : spec.pairs)
       if (pair.is_of(one, other)) return;
-    contact.problem(
-        "pair", "nothing",
-        "an entry [[contact.pair]] for " + name(one) + " and " + name(other) + ", or a law in [contact]");
+    const auto partners = name(one) + " and " + name(other);
+    contact.problem("pair", "nothing",
+                    "an entry [[contact.pair]] for " + partners + ", or a law in [contact]");
   };
   for (const int ball : of_balls) {
     for (const int other : of_balls) require(ball, other);
-    for (const int wall : walls) require(ball, wall);
+    for (const int wall : spec.wall_materials) require(ball, wall);
   }
 }
 

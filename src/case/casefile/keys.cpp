@@ -180,13 +180,10 @@ std::string default_of(const Parameter& p, bool optional) {
   return p.dimension == Dimension::none ? p.fallback : fmt::format("`\"{}\"`", p.fallback);
 }
 
-std::string digest_of(const Quantity& value) { return value.text(); }
 std::string digest_of(const std::array<Quantity, 3>& v) {
   return v[0].text() + "," + v[1].text() + "," + v[2].text();
 }
 std::string digest_of(const Colour& v) { return fmt::format("{},{},{}", v[0], v[1], v[2]); }
-std::string digest_of(const std::string& value) { return value; }
-std::string digest_of(std::uint64_t value) { return std::to_string(value); }
 
 void KeyLister::add(const Parameter& p, const std::string& kind, const std::string& fallback) const {
   auto& keys = std::find_if(sections_.begin(), sections_.end(), [&](const auto& s) {

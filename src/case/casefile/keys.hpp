@@ -211,11 +211,11 @@ std::string kind_of(const Parameter& p) {
 std::string default_of(const Parameter& p, bool optional);
 
 /// "119/25000", "0,1/10,0", "-" for nothing, in the digest.
-std::string digest_of(const Quantity& value);
+inline std::string digest_of(const Quantity& value) { return value.text(); }
+inline std::string digest_of(const std::string& value) { return value; }
+inline std::string digest_of(std::uint64_t value) { return std::to_string(value); }
 std::string digest_of(const std::array<Quantity, 3>& value);
 std::string digest_of(const Colour& value);
-std::string digest_of(const std::string& value);
-std::string digest_of(std::uint64_t value);
 template <class Value>
 std::string digest_of(const std::optional<Value>& value) {
   return value ? digest_of(*value) : "-";

@@ -21,14 +21,12 @@ class OutOfMemory : public std::bad_alloc {
 };
 
 /// Calls work() and returns its result. @throws OutOfMemory when there is too little memory
-auto with_memory_for(const CaseSpec& spec, const auto& work) {
-  try {
-    return work();
-  } catch (const std::bad_alloc&) {
-    throw OutOfMemory(spec);
-  } catch (const std::length_error&) {
-    throw OutOfMemory(spec);
-  }
+auto with_memory_for(const CaseSpec& spec, const auto& work) try {
+  return work();
+} catch (const std::bad_alloc&) {
+  throw OutOfMemory(spec);
+} catch (const std::length_error&) {
+  throw OutOfMemory(spec);
 }
 
 }  // namespace edmill::casefile

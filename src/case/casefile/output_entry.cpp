@@ -92,9 +92,9 @@ std::optional<int> variable_of(Section& s, const std::string& name, const Column
   if (name.empty()) return std::nullopt;
   const auto found = model::find_variable(name);
   const auto kind = found ? impact_variables[*found].kind : VariableKind::number;
-  const bool allowed = found && ((kind == VariableKind::flag && rules.flags) ||
-                                 (kind == VariableKind::count && rules.counts) ||
-                                 (kind == VariableKind::number && rules.numbers));
+  const bool allowed = found && (kind == VariableKind::flag    ? rules.flags
+                                 : kind == VariableKind::count ? rules.counts
+                                                               : rules.numbers);
   std::vector<std::string> names;
   for (const auto& variable : impact_variables) names.emplace_back(variable.name);
   const auto near = found ? "" : nearest(name, names);

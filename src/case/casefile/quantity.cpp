@@ -31,30 +31,31 @@ Quantity pi_by(int divisor) { return quantity_of({1, divisor}, 1); }
 
 const std::vector<Unit>& units() {
   using D = Dimension;
+  static const Quantity inch(254, 10000), foot(3048, 10000), pound(45359237, 100000000);
   static const std::vector<Unit> table = {
       {D::length, {"m", "meter", "meters", "metre", "metres"}, 1},
-      {D::length, {"dm", "decimeter", "decimeters", "decimetre", "decimetres"}, Quantity(1, 10)},
-      {D::length, {"cm", "centimeter", "centimeters", "centimetre", "centimetres"}, Quantity(1, 100)},
-      {D::length, {"mm", "millimeter", "millimeters", "millimetre", "millimetres"}, Quantity(1, 1000)},
-      {D::length, {"um", "micrometer", "micrometers", "micrometre", "micrometres"}, Quantity(1, 1000000)},
-      {D::length, {"in", "inch", "inches"}, Quantity(254, 10000)},
-      {D::length, {"ft", "foot", "feet"}, Quantity(3048, 10000)},
+      {D::length, {"dm", "decimeter", "decimeters", "decimetre", "decimetres"}, {1, 10}},
+      {D::length, {"cm", "centimeter", "centimeters", "centimetre", "centimetres"}, {1, 100}},
+      {D::length, {"mm", "millimeter", "millimeters", "millimetre", "millimetres"}, {1, 1000}},
+      {D::length, {"um", "micrometer", "micrometers", "micrometre", "micrometres"}, {1, 1000000}},
+      {D::length, {"in", "inch", "inches"}, inch},
+      {D::length, {"ft", "foot", "feet"}, foot},
       {D::mass, {"kg", "kilogram", "kilograms"}, 1},
-      {D::mass, {"g", "gram", "grams"}, Quantity(1, 1000)},
-      {D::mass, {"mg", "milligram", "milligrams"}, Quantity(1, 1000000)},
-      {D::mass, {"lb", "lbs", "pound", "pounds"}, Quantity(45359237, 100000000)},
+      {D::mass, {"g", "gram", "grams"}, {1, 1000}},
+      {D::mass, {"mg", "milligram", "milligrams"}, {1, 1000000}},
+      {D::mass, {"lb", "lbs", "pound", "pounds"}, pound},
       {D::time, {"s", "sec", "second", "seconds"}, 1},
-      {D::time, {"ms", "millisecond", "milliseconds"}, Quantity(1, 1000)},
-      {D::time, {"us", "microsecond", "microseconds"}, Quantity(1, 1000000)},
-      {D::time, {"ns", "nanosecond", "nanoseconds"}, Quantity(1, 1000000000)},
+      {D::time, {"ms", "millisecond", "milliseconds"}, {1, 1000}},
+      {D::time, {"us", "microsecond", "microseconds"}, {1, 1000000}},
+      {D::time, {"ns", "nanosecond", "nanoseconds"}, {1, 1000000000}},
       {D::time, {"min", "m", "minute", "minutes"}, 60},  // "m" is the thesis's own
       {D::time, {"h", "hr", "hour", "hours"}, 3600},
       {D::angle, {"rad", "radian", "radians"}, 1},
       {D::angle, {"deg", "degree", "degrees"}, pi_by(180)},
       {D::angle, {"grad", "gradient", "gradients", "gon"}, pi_by(200)},
       {D::energy, {"J", "joule", "joules"}, 1},
-      {D::energy, {"mJ", "millijoule", "millijoules"}, Quantity(1, 1000)},
-      {D::energy, {"uJ", "microjoule", "microjoules"}, Quantity(1, 1000000)},
+      {D::energy, {"mJ", "millijoule", "millijoules"}, {1, 1000}},
+      {D::energy, {"uJ", "microjoule", "microjoules"}, {1, 1000000}},
       {D::energy, {"kJ", "kilojoule", "kilojoules"}, 1000},
       {D::specific_energy, {"J/kg"}, 1},
       {D::specific_energy, {"kJ/kg", "J/g"}, 1000},
@@ -62,36 +63,33 @@ const std::vector<Unit>& units() {
       {D::specific_energy, {"MJ/kg"}, 1000000},
       {D::specific_energy, {"kWh/t", "Wh/kg"}, 3600},
       {D::speed, {"m/s"}, 1},
-      {D::speed, {"cm/s"}, Quantity(1, 100)},
-      {D::speed, {"mm/s"}, Quantity(1, 1000)},
-      {D::speed, {"in/s"}, Quantity(254, 10000)},
-      {D::speed, {"ft/s"}, Quantity(3048, 10000)},
+      {D::speed, {"cm/s"}, {1, 100}},
+      {D::speed, {"mm/s"}, {1, 1000}},
+      {D::speed, {"in/s"}, inch},
+      {D::speed, {"ft/s"}, foot},
       {D::angular_speed, {"rad/s"}, 1},
       {D::angular_speed, {"deg/s"}, pi_by(180)},
       {D::angular_speed, {"Hz", "hertz"}, Quantity(2) * pi_by(1)},
       {D::angular_speed, {"rpm", "cpm", "r/min", "rev/min", "cycles/min", "1/min", "min-1"}, pi_by(30)},
       {D::acceleration, {"m/s2", "m/s/s"}, 1},
-      {D::acceleration, {"cm/s2", "cm/s/s"}, Quantity(1, 100)},
-      {D::acceleration, {"in/s2", "in/s/s"}, Quantity(254, 10000)},
-      {D::acceleration, {"ft/s2", "ft/s/s"}, Quantity(3048, 10000)},
+      {D::acceleration, {"cm/s2", "cm/s/s"}, {1, 100}},
+      {D::acceleration, {"in/s2", "in/s/s"}, inch},
+      {D::acceleration, {"ft/s2", "ft/s/s"}, foot},
       {D::pressure, {"Pa", "pascal"}, 1},
       {D::pressure, {"kPa"}, 1000},
       {D::pressure, {"MPa"}, 1000000},
       {D::pressure, {"GPa"}, 1000000000},
       {D::density, {"kg/m3"}, 1},
       {D::density, {"g/cm3", "g/cc"}, 1000},
-      {D::density,
-       {"lb/ft3"},
-       Quantity(45359237, 100000000) /
-           (Quantity(3048, 10000) * Quantity(3048, 10000) * Quantity(3048, 10000))},
+      {D::density, {"lb/ft3"}, pound / (foot * foot * foot)},
   };
   return table;
 }
 
 /// "g/cm³", "g / cm^3" and "g/cm3" are one spelling; "µ" is u, "°" is deg.
 std::string plain_unit(std::string_view text) {
-  static const std::array<std::pair<std::string_view, std::string_view>, 8> replacements = {
-      {{"²", "2"}, {"³", "3"}, {"**", ""}, {"^", ""}, {"µ", "u"}, {"μ", "u"}, {"°", "deg"}, {" ", ""}}};
+  constexpr std::pair<std::string_view, std::string_view> replacements[]{
+      {"²", "2"}, {"³", "3"}, {"**", ""}, {"^", ""}, {"µ", "u"}, {"μ", "u"}, {"°", "deg"}, {" ", ""}};
   std::string unit(text);
   for (const auto& [from, to] : replacements)
     for (auto at = unit.find(from); at != std::string::npos; at = unit.find(from, at + to.size()))
@@ -113,8 +111,8 @@ static_assert(dimension_names.size() == static_cast<std::size_t>(Dimension::pres
 
 std::string name(Dimension dimension) { return dimension_names[static_cast<std::size_t>(dimension)]; }
 
-/// The arc tangent of 1/x times 2^bits, with an error of a few hundred at most.
-cpp_int arc_tangent_of_inverse(int x, int bits) {
+/// The arc cotangent of x times 2^bits, with an error of a few hundred at most.
+cpp_int arc_cotangent(int x, int bits) {
   cpp_int power = (cpp_int(1) << bits) / x, sum = power;
   for (int k = 3; power != 0; k += 2) {
     power /= -x * x;
@@ -127,13 +125,16 @@ cpp_int arc_tangent_of_inverse(int x, int bits) {
 cpp_int pi_in_bits(int bits) {
   constexpr int spare = 64, most = 4096;
   const auto computed = [](int to) {
-    return cpp_int(16 * arc_tangent_of_inverse(5, to + spare) - 4 * arc_tangent_of_inverse(239, to + spare));
+    return cpp_int(16 * arc_cotangent(5, to + spare) - 4 * arc_cotangent(239, to + spare));
   };
   static const cpp_int common = computed(most);
   return bits <= most ? cpp_int(common >> (most + spare - bits)) : cpp_int(computed(bits) >> spare);
 }
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+bool is_same_letter(char a, char b) {
+  return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+}
 
 /// Length of the decimal number that `text` begins with; an exponent has digits, unlike "1 eV".
 std::size_t number_length(std::string_view text) {
@@ -224,9 +225,9 @@ std::strong_ordering operator<=>(const Quantity& a, const Quantity& b) {
 }
 
 std::string Quantity::text() const {
-  return rational(*this).str() + (pi_power == 0   ? ""
-                                  : pi_power == 1 ? "*pi"
-                                                  : "*pi^" + std::to_string(pi_power));
+  const auto number = rational(*this).str();
+  if (pi_power == 0) return number;
+  return number + (pi_power == 1 ? "*pi" : "*pi^" + std::to_string(pi_power));
 }
 
 bool has_comma(std::string_view text) {
@@ -241,17 +242,15 @@ std::optional<Quantity> parse_decimal(std::string_view text) {
   const std::string last(text.substr(std::min(end + 1, text.size())));
   if (last.size() > 6) return std::nullopt;
   long exponent = last.empty() ? 0 : std::stol(last);
-  const auto mantissa_text = text.substr(0, end);
-  if (const auto point = mantissa_text.find('.'); point != mantissa_text.npos)
+  std::string digits(text.substr(0, end));
+  if (const auto point = digits.find('.'); point != digits.npos)
     exponent -= static_cast<long>(end - point - 1);
-  std::string digits;
-  std::copy_if(mantissa_text.begin(), mantissa_text.end(), std::back_inserter(digits), is_digit);
+  std::erase_if(digits, [](char c) { return !is_digit(c); });
   // Refuses numbers beyond any physical size, which could also fill the memory.
   if (digits.size() > 400 || exponent > 400 || exponent < -800) return std::nullopt;
   const auto first = digits.find_first_not_of('0');
   const cpp_int mantissa(first == std::string::npos ? std::string("0") : digits.substr(first));
-  const cpp_int power =
-      boost::multiprecision::pow(cpp_int(10), static_cast<unsigned>(exponent < 0 ? -exponent : exponent));
+  const cpp_int power = pow(cpp_int(10), static_cast<unsigned>(std::abs(exponent)));
   const Quantity value = quantity_of(exponent < 0 ? Rational(mantissa, power) : Rational(mantissa * power));
   return text.front() == '-' ? -value : value;
 }
@@ -262,12 +261,6 @@ std::optional<std::pair<double, std::string>> split_number(const std::string& te
   if (!number) return std::nullopt;
   return std::pair{number->to<double>(), text.substr(end)};
 }
-
-namespace {
-bool is_same_letter(char a, char b) {
-  return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
-}
-}  // namespace
 
 QuantityResult parse_quantity(std::string_view text, Dimension dimension, SizeLimit limit, Plain plain) {
   const auto problem = [&](const std::string& what) {

@@ -87,9 +87,6 @@ double distance(const Body& body, const std::vector<Place>& corners, const model
   return least - body.shape.rounding();
 }
 
-/// The axes and the origin of a frame, as seen from another one.
-using Seen = std::function<Place(const Place&, const Instant<double>&)>;
-
 /// The least of a gap between two times, and when.
 struct Least {
   double gap = INFINITY, time = 0;
@@ -127,8 +124,8 @@ double free_volume(const model::Mill<double>& mill, const Instant<double>& when)
     ++inside;
     const Place place = mill.motion.to_inertial(pose, local);
     bool is_free = true;
-    for (std::size_t b = 0; b < mill.bodies.size() && is_free; ++b)
-      is_free = mill.bodies[b].shape.clearance(mill.bodies[b].motion.position_in_vessel(poses[b], place)) > 0;
+    for (std::size_t b = 0; const auto& body : mill.bodies)
+      is_free = is_free && body.shape.clearance(body.motion.position_in_vessel(poses[b++], place)) > 0;
     outside_of_bodies += is_free ? 1 : 0;
   }
   return inside > 0 ? mill.vessel.volume() * outside_of_bodies / inside : 0;
@@ -158,12 +155,13 @@ std::vector<NarrowGap> narrow_gaps(const CaseSpec& spec, const model::Mill<doubl
     to = slides ? end : std::min(to, end);
   }
   // Two frames that do not move against each other are seen alike at all times.
-  const auto moves = [&](const Body& body, const Seen& seen) {
+  const auto moves = [&](const Body& body, const auto& other) {
     for (const double share : {0.137, 0.61})
       for (const auto& axis : {Place(0, 0, 0), Place(1, 0, 0), Place(0, 1, 0)}) {
-        const auto at = [&](double time) {
+        const auto at = [&](double time) -> Place {
           const auto when = clock.at(time);
-          return seen(body.motion.to_inertial(body.motion.pose(when), axis), when);
+          return other.position_in_vessel(other.pose(when),
+                                          body.motion.to_inertial(body.motion.pose(when), axis));
         };
         if (norm<double>(Place(at(from) - at(from + share * (to - from)))) > 1e-9) return true;
       }
@@ -181,18 +179,14 @@ std::vector<NarrowGap> narrow_gaps(const CaseSpec& spec, const model::Mill<doubl
     const auto& body = mill.bodies[k];
     const double speed = body.motion.wall_speed(body.shape.size());
     const auto corners = corners_of(body.shape);
-    if (moves(body, [&](const Place& p, const auto& when) {
-          return mill.motion.position_in_vessel(mill.motion.pose(when), p);
-        }))
+    if (moves(body, mill.motion))
       for (int wall = 0; wall < (rounded ? 1 : mill.vessel.wall_count()); ++wall)
         judge(body.name.label, rounded ? "vessel" : mill.vessel.walls()[static_cast<std::size_t>(wall)].label,
               speed + mill.motion.wall_speed(mill.vessel.reach()),
               [&](const auto& when) { return distance(body, corners, mill, wall, when); });
     for (std::size_t other = k + 1; other < mill.bodies.size(); ++other) {
       const auto& partner = mill.bodies[other];
-      if (moves(body, [&](const Place& p, const auto& when) {
-            return partner.motion.position_in_vessel(partner.motion.pose(when), p);
-          }))
+      if (moves(body, partner.motion))
         judge(body.name.label, partner.name.label, speed + partner.motion.wall_speed(partner.shape.size()),
               [&](const auto& when) { return distance(body, partner, when); });
     }
