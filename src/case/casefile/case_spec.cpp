@@ -283,9 +283,8 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
   if (document.problems.empty()) require_travel(walls.pistons, spec);
   if (document.problems.empty()) require_bodies_inside(file.bodies, spec);
   if (!spec.initial_state.empty() && !finished) {
-    const std::filesystem::path given(spec.initial_state);
     const bool stream = io::is_stream(spec.initial_state);
-    if (given.is_relative() && !stream) spec.initial_state = (io::folder_of(name) / given).string();
+    if (!stream) spec.initial_state = (io::folder_of(name) / spec.initial_state).string();
     // It is read more than once.
     if (!io::is_readable(spec.initial_state) || (stream && !io::Spool::is_active()))
       run.problem("initial_state", "\"" + spec.initial_state + "\", which cannot be read",
@@ -298,12 +297,10 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
 
 }  // namespace
 
-std::optional<model::AnyVessel<double>> known_vessel(const CaseSpec& spec) {
-  try {
-    return build_mill<double>(spec).vessel;
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
+std::optional<model::AnyVessel<double>> known_vessel(const CaseSpec& spec) try {
+  return build_mill<double>(spec).vessel;
+} catch (const InputError&) {
+  return std::nullopt;
 }
 
 int wall_named(const std::string& name, const model::Partners& partners) {

@@ -58,7 +58,19 @@ struct Entries : std::vector<Section> {
   bool may_be_none = false;  ///< `key = []` is allowed
 };
 
-/// A new entry of a list of tables.
+/// A new table of a member that is one, and a new entry of a list of them.
+template <Keyed T>
+T new_table(const T&) {
+  return {};
+}
+template <Keyed T>
+T new_table(const std::optional<T>&) {
+  return {};
+}
+template <Keyed T>
+T new_table(const Inner<T>&) {
+  return {};
+}
 auto entry_of(const auto& list) -> decltype((list.like)) { return list.like; }
 template <Keyed T>
 T entry_of(const std::vector<T>&) {
@@ -196,7 +208,7 @@ std::string kind_of(const Parameter& p) {
     return "text";
   } else if constexpr (std::is_integral_v<Value>) {
     return std::is_same_v<Value, bool> ? "true or false" : "count";
-  } else if constexpr (Keyed<Value> || requires { Value::section; }) {
+  } else if constexpr (requires(const Value& value) { new_table(value); }) {
     return "table";
   } else if constexpr (requires(const Value& value) { entry_of(value); }) {
     return "tables";
@@ -281,22 +293,14 @@ class KeyLister {
   void operator()(const Parameter& p, const Value& value) const {
     if (!p.key) return;
     constexpr bool optional = requires { value.has_value(); };
+    constexpr bool table = requires { new_table(value); };
     constexpr bool list = requires { entry_of(value); };
     if constexpr (requires { typename Value::Kinds; })
       add_choice<typename Value::Kinds>(p);
     else
-      add(p, kind_of<Value>(p), default_of(p, optional || Keyed<Value> || list));
-    if constexpr (optional) {
-      using Inside = typename Value::value_type;
-      if constexpr (Keyed<Inside>) add_section(p, false, Inside{});
-    }
-    if constexpr (Keyed<Value>) add_section(p, false, Value{});
+      add(p, kind_of<Value>(p), default_of(p, optional || table || list));
+    if constexpr (table) add_section(p, false, new_table(value));
     if constexpr (list) add_section(p, true, entry_of(value));
-  }
-  template <Keyed T>
-  void operator()(const Parameter& p, const Inner<T>&) const {
-    add(p, kind_of<Inner<T>>(p), default_of(p, true));
-    add_section(p, false, T{});
   }
   /// Adds the key of a choice between types, and the keys of each type.
   template <class... Part>

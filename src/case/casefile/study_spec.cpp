@@ -14,19 +14,16 @@ namespace edmill::casefile {
 
 namespace {
 
-bool asks_for_digits(const std::string& case_file) {
-  try {
-    return read_case(case_file).digits.has_value();
-  } catch (const InputError&) {  // reported for each run
-    return false;
-  }
+bool asks_for_digits(const std::string& case_file) try {
+  return read_case(case_file).digits.has_value();
+} catch (const InputError&) {  // reported for each run
+  return false;
 }
 
 void check_study(Section& s, StudySpec& spec) {
   if (!s.has("case")) s.problem("case", "nothing", "a case file");
   if (!spec.case_file.empty()) {
-    const std::filesystem::path given(spec.case_file);
-    if (given.is_relative()) spec.case_file = (io::folder_of(spec.file) / given).string();
+    spec.case_file = (io::folder_of(spec.file) / spec.case_file).string();
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(spec.case_file, ignored))
       s.problem("case", "\"" + spec.case_file + "\", which cannot be read", "a case file");
