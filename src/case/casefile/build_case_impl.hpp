@@ -21,7 +21,6 @@
 #include "casefile/build_case.hpp"
 #include "casefile/random.hpp"
 #include "casefile/rational.hpp"
-#include "casefile/room.hpp"
 #include "io/final_state.hpp"
 
 namespace edmill::casefile {

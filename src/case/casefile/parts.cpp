@@ -1,5 +1,4 @@
 // Reads motions and vessels of a case file: joints of a chain, shapes, pistons.
-#include "casefile/parts.hpp"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
-#include "casefile/room.hpp"
-
+// The room that bodies inside the vessel leave to the balls.
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
 #include "base/interruption.hpp"
+#include "casefile/build_case.hpp"
 
 namespace edmill::casefile {
 

@@ -10,7 +10,7 @@
 #include "base/errors.hpp"
 #include "base/version.hpp"
 #include "casefile/build_case.hpp"
-#include "casefile/parts.hpp"
+#include "casefile/case_spec.hpp"
 #include "decks/soft_contact.hpp"
 #include "decks/wall_mesh.hpp"
 

@@ -6,7 +6,6 @@
 
 #include "casefile/build_case.hpp"
 #include "casefile/memory_for.hpp"
-#include "casefile/room.hpp"
 #include "io/output_folder.hpp"
 #include "report/report_page.hpp"
 #include "run/any_run.hpp"

@@ -12,7 +12,7 @@
 #include "base/errors.hpp"
 #include "base/standard_arithmetic.hpp"
 #include "base/wide_trigonometry.hpp"
-#include "casefile/parts.hpp"
+#include "casefile/case_spec.hpp"
 #include "edmill/run.hpp"
 #include "io/crate.hpp"
 #include "io/final_state.hpp"

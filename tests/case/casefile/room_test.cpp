@@ -1,5 +1,4 @@
 // The room that bodies leave: narrow gaps against closed forms, and the free volume.
-#include "casefile/room.hpp"
 
 #include <gtest/gtest.h>
 
