@@ -20,11 +20,11 @@ struct InitialCase {
 template <class Real>
 model::Mill<Real> build_mill(const CaseSpec& spec);
 
-/// Builds the case and its initial state in a mill, which need not be that of the file: explicit balls first,
-/// then the batches, placed at random by the case's seed.
+/// Builds the case and its initial state in a mill, which need not be that of the file: explicit
+/// balls first, then the batches, placed at random by the case's seed.
 /// @param resolved  check that this scalar can resolve the case
-/// @throws InputError when balls overlap, lie outside the vessel or cannot be placed, an initial state does
-/// not fit, or the scalar cannot resolve the case
+/// @throws InputError when balls overlap, lie outside the vessel or cannot be placed, an initial
+/// state does not fit, or the scalar cannot resolve the case
 template <class Real>
 InitialCase<Real> build_case_in(const model::Mill<Real>& mill, const CaseSpec& spec, bool resolved = true);
 template <class Real>

@@ -43,19 +43,6 @@ void read_run(Section& run, CaseSpec& spec) {
   run.reject_unknown_keys();
 }
 
-}  // namespace
-
-int material_of(Section& section, const std::string& key, const std::string& name, const CaseSpec& spec) {
-  if (name.empty()) return 0;
-  const int material = spec.material_named(name);
-  std::vector<std::string> names;
-  for (const auto& m : spec.materials) names.push_back(m.name);
-  section.require(material > 0, key, names.empty() ? "the name of a [[material]] entry" : one_of(names));
-  return material;
-}
-
-namespace {
-
 /// A ball's own density, or that of its material.
 void read_density(Section& s, BallSpec& ball, const CaseSpec& spec) {
   ball.material = material_of(s, "material", ball.material_name, spec);
@@ -249,9 +236,7 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
   read_keys(top, file);
   Section &run = *file.run.section, &mill = *file.mill.section, &vessel = *file.vessel.section;
   read_run(run, spec);
-  MillTable motion;
-  read_keys(mill, motion);
-  spec.mill = std::move(motion.motion);
+  spec.mill = read_motion(mill, "type");
   if (!run.has("end_time")) require_end(mill);
   VesselTable walls;
   read_keys(vessel, walls);
@@ -296,6 +281,15 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
 }
 
 }  // namespace
+
+int material_of(Section& section, const std::string& key, const std::string& name, const CaseSpec& spec) {
+  if (name.empty()) return 0;
+  const int material = spec.material_named(name);
+  std::vector<std::string> names;
+  for (const auto& m : spec.materials) names.push_back(m.name);
+  section.require(material > 0, key, names.empty() ? "the name of a [[material]] entry" : one_of(names));
+  return material;
+}
 
 std::optional<model::AnyVessel<double>> known_vessel(const CaseSpec& spec) try {
   return build_mill<double>(spec).vessel;

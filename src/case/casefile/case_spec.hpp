@@ -294,7 +294,7 @@ struct CaseSpec {
   bool reported = false;              ///< the outputs of the report were added to those of the file
   std::string digest;                 ///< SHA-256 of the case's canonical text
   std::string precision = "double";
-  std::optional<std::uint64_t> digits;  ///< number that must be correct to the end; determines the precision
+  std::optional<std::uint64_t> digits;        ///< that must be correct; determines the precision
   std::optional<std::uint64_t> right_digits;  ///< correct digits, by comparison of two runs
   std::uint64_t seed = 1;
   Quantity initial_time, statistics_start;

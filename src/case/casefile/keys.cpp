@@ -18,8 +18,6 @@ using model::Range;
 
 namespace {
 
-std::uint64_t count_of(const Quantity& q) { return static_cast<std::uint64_t>(numerator(rational(q))); }
-
 /// The number that is stored for a value: the period for the speed of a drive, or the value.
 Quantity kept(const Quantity& q, const Range& range) {
   if (range.kind != Range::drive) return q;
@@ -140,7 +138,7 @@ void KeyReader::operator()(const Parameter& p, std::array<Quantity, 3>& values) 
 void KeyReader::operator()(const Parameter& p, std::optional<std::uint64_t>& value) {
   value = section_.count(p.key);
   if (value) section_.require(in_range(quantity_of(*value), p.range), p.key, expected(p));
-  if (!value && p.fallback) value = count_of(fallback_of(p));
+  if (!value && p.fallback) value = static_cast<std::uint64_t>(numerator(rational(fallback_of(p))));
 }
 
 void KeyReader::operator()(const Parameter& p, std::uint64_t& value) {
@@ -171,8 +169,6 @@ void KeyReader::operator()(const Parameter& p, std::string& value) {
   else
     require_presence(p, "a text");
 }
-
-void KeyReader::operator()(const Parameter& p, Colour& value) { value = section_.colour(p.key, value); }
 
 std::string default_of(const Parameter& p, bool optional) {
   if (p.otherwise) return p.otherwise;

@@ -103,7 +103,7 @@ class KeyReader {
     if (section_.has(p.key)) values = section_.settings(p.key);
   }
   void operator()(const Parameter& p, std::vector<std::string>& values) { values = section_.settings(p.key); }
-  void operator()(const Parameter& p, Colour& value);
+  void operator()(const Parameter& p, Colour& value) { value = section_.colour(p.key, value); }
   void operator()(const Parameter& p, MotionSpec& motion) { motion = read_motion(section_, p.key); }
   void operator()(const Parameter& p, VesselSpec& vessel) { vessel = read_vessel(section_, p.key); }
   void operator()(const Parameter& p, Choice auto& value) {

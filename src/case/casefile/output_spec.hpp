@@ -94,7 +94,7 @@ inline std::string statistic_name(Statistic s) {
 
 /// A variable that an output shows.
 struct ColumnSpec {
-  int variable = 0;  ///< place in model::impact_variables; for trends_balls in model::ball_variables
+  int variable = 0;  ///< place in model::impact_variables, or of trends_balls in ball_variables
   std::vector<Statistic> statistics;
   std::string label;                  ///< in place of the variable's name
   std::string true_text, false_text;  ///< for flags

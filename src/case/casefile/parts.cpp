@@ -364,6 +364,56 @@ void require_room(Section& entry, const PolyhedronVessel& polyhedron, const std:
           fmt::format("room for a ball of {:g} m there at all times", diameter));
 }
 
+/// A body without its joints; nothing where a size is missing.
+std::optional<Solid> read_shape(Section& entry, const BodyTable& table) {
+  Solid body;
+  body.rounding = table.rounding;
+  body.on_vessel = table.on == Base::vessel;
+  body.colour = table.colour;
+  body.where = entry.where();
+  const bool round = table.type == Solidity::cylinder;
+  for (const char* key : round ? std::array{"diameter", "height"} : std::array{"size", "size"})
+    if (!entry.has(key)) {
+      entry.problem(key, "nothing", round ? "a length" : "three lengths");
+      return std::nullopt;
+    }
+  for (const char* key : {"diameter", "height", "size"})
+    if (entry.has(key) && round == (key == std::string("size")))
+      entry.problem(key, "a key of the other type", round ? "diameter and height" : "size");
+  if (round && table.diameter && table.height)
+    body.size = {*table.diameter, *table.height, *table.diameter};
+  else
+    body.size = table.size;
+  const Quantity width = Quantity(2) * body.rounding;
+  bool fits = true, negative = false, nothing = true;
+  for (const auto& size : body.size) {
+    fits = fits && width <= size;
+    negative = negative || size.negative();
+    nothing = nothing && size.zero();
+  }
+  if (negative || nothing)
+    entry.problem("size", nothing ? "a body without size" : "a negative length",
+                  "three lengths, at least one of them positive");
+  else
+    entry.require(fits, "rounding", "at most half of each size");
+  body.is_round = round && width < body.size[0];
+  return body;
+}
+
+/// A vessel at rest has the clock of the fastest body.
+void set_clock(CaseSpec& spec) {
+  const auto moves = [](const auto& joint) { return !joint.speed.zero() || !joint.swings.empty(); };
+  const auto own = joints_of(spec.mill);
+  auto* still = std::get_if<model::StillMill<Quantity>>(&spec.mill);
+  if (!still && std::any_of(own.begin(), own.end(), moves)) return;
+  std::vector<Joint<Quantity>> all;
+  for (const auto& body : spec.bodies) all.insert(all.end(), body.joints.begin(), body.joints.end());
+  if (still)
+    still->period = period_of_fastest(all);
+  else if (auto* chain = std::get_if<model::Chain<Quantity>>(&spec.mill))
+    chain->given.period = period_of_fastest(all);
+}
+
 }  // namespace
 
 void Axis::read_from(Section& joint, const char* key) {
@@ -523,60 +573,6 @@ QuantityVector Solid::core() const {
   for (std::size_t k = 0; k < 3; ++k) half[k] = quantity_of(rational(size[k]) / 2 - rational(rounding));
   return half;
 }
-
-namespace {
-
-/// A body without its joints; nothing where a size is missing.
-std::optional<Solid> read_shape(Section& entry, const BodyTable& table) {
-  Solid body;
-  body.rounding = table.rounding;
-  body.on_vessel = table.on == Base::vessel;
-  body.colour = table.colour;
-  body.where = entry.where();
-  const bool round = table.type == Solidity::cylinder;
-  for (const char* key : round ? std::array{"diameter", "height"} : std::array{"size", "size"})
-    if (!entry.has(key)) {
-      entry.problem(key, "nothing", round ? "a length" : "three lengths");
-      return std::nullopt;
-    }
-  for (const char* key : {"diameter", "height", "size"})
-    if (entry.has(key) && round == (key == std::string("size")))
-      entry.problem(key, "a key of the other type", round ? "diameter and height" : "size");
-  if (round && table.diameter && table.height)
-    body.size = {*table.diameter, *table.height, *table.diameter};
-  else
-    body.size = table.size;
-  const Quantity width = Quantity(2) * body.rounding;
-  bool fits = true, negative = false, nothing = true;
-  for (const auto& size : body.size) {
-    fits = fits && width <= size;
-    negative = negative || size.negative();
-    nothing = nothing && size.zero();
-  }
-  if (negative || nothing)
-    entry.problem("size", nothing ? "a body without size" : "a negative length",
-                  "three lengths, at least one of them positive");
-  else
-    entry.require(fits, "rounding", "at most half of each size");
-  body.is_round = round && width < body.size[0];
-  return body;
-}
-
-/// A vessel at rest has the clock of the fastest body.
-void set_clock(CaseSpec& spec) {
-  const auto moves = [](const auto& joint) { return !joint.speed.zero() || !joint.swings.empty(); };
-  const auto own = joints_of(spec.mill);
-  auto* still = std::get_if<model::StillMill<Quantity>>(&spec.mill);
-  if (!still && std::any_of(own.begin(), own.end(), moves)) return;
-  std::vector<Joint<Quantity>> all;
-  for (const auto& body : spec.bodies) all.insert(all.end(), body.joints.begin(), body.joints.end());
-  if (still)
-    still->period = period_of_fastest(all);
-  else if (auto* chain = std::get_if<model::Chain<Quantity>>(&spec.mill))
-    chain->given.period = period_of_fastest(all);
-}
-
-}  // namespace
 
 void read_bodies(Entries<BodyTable>& entries, CaseSpec& spec) {
   constexpr std::size_t most = 48;  // walls and bodies together

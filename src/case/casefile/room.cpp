@@ -80,10 +80,10 @@ double distance(const Body& body, const std::vector<Place>& corners, const model
   const auto pose = body.motion.pose(when);
   const auto of_vessel = mill.motion.pose(when);
   double least = INFINITY;
-  for (const auto& corner : corners)
-    least = std::min(least,
-                     depth(mill.vessel, wall,
-                           mill.motion.position_in_vessel(of_vessel, body.motion.to_inertial(pose, corner))));
+  for (const auto& corner : corners) {
+    const Place place = mill.motion.position_in_vessel(of_vessel, body.motion.to_inertial(pose, corner));
+    least = std::min(least, depth(mill.vessel, wall, place));
+  }
   return least - body.shape.rounding();
 }
 

@@ -363,10 +363,9 @@ std::string Section::kind(const std::string& key, const std::vector<std::string>
 }
 
 std::vector<std::string> Section::keys() const {
-  std::vector<std::pair<toml::source_position, std::string>> found;
+  std::multimap<toml::source_position, std::string> found;
   if (table_)
-    for (const auto& [key, node] : *table_) found.emplace_back(key.source().begin, std::string(key.str()));
-  std::sort(found.begin(), found.end());
+    for (const auto& [key, node] : *table_) found.emplace(key.source().begin, std::string(key.str()));
   std::vector<std::string> keys;
   for (auto& [place, key] : found) keys.push_back(std::move(key));
   return keys;

@@ -263,7 +263,7 @@ struct LawTable {
     std::string text;
     void read_from(Section& section, const char* key);
   };
-  using Points = std::map<std::string, std::vector<std::array<Quantity, 2>>>;  ///< of tables, by key
+  using Points = std::map<std::string, std::vector<std::array<Quantity, 2>>>;  ///< by key
   template <class Law>
   struct PointsOf {
     Points& points;
