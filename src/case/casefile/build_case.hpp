@@ -23,8 +23,7 @@ model::Mill<Real> build_mill(const CaseSpec& spec);
 /// Builds the case and its initial state in a mill, which need not be that of the file: explicit
 /// balls first, then the batches, placed at random by the case's seed.
 /// @param resolved  check that this scalar can resolve the case
-/// @throws InputError when balls overlap, lie outside the vessel or cannot be placed, an initial
-/// state does not fit, or the scalar cannot resolve the case
+/// @throws InputError when balls do not fit, or the scalar cannot resolve the case
 template <class Real>
 InitialCase<Real> build_case_in(const model::Mill<Real>& mill, const CaseSpec& spec, bool resolved = true);
 template <class Real>
@@ -41,9 +40,8 @@ struct NarrowGap {
   double width;  ///< the least [m]; 0 if they touch
   double time;   ///< of it [s]
 };
-/// All such places in a cycle of the slowest joint, or up to the end of the run. Between two times
-/// a gap cannot change faster than both move, so that no passage is missed. Bodies that are joined,
-/// or do not move against each other, are left out.
+/// All such places in a cycle of the slowest joint, or up to the end of the run. No gap changes
+/// faster than both sides move: no passage is missed. Joined bodies are left out.
 std::vector<NarrowGap> narrow_gaps(const CaseSpec& spec, const model::Mill<double>& mill);
 
 }  // namespace edmill::casefile

@@ -1,6 +1,5 @@
-// Implementation of Quantity::to and build_case: from exact quantities to one scalar, and the balls
-// of a case at its start, by given states, at random places, and in crowds that are pushed apart.
-// Included by the instantiation files only.
+// Quantity::to and build_case: from exact quantities to one scalar, and balls by given states, at
+// random places, and in crowds that are pushed apart. Included by the instantiation files only.
 #pragma once
 
 #include <fmt/format.h>
@@ -61,8 +60,7 @@ Real Quantity::to() const {
 }
 
 /// The instant at `time`, reduced exactly: the offset is as sharp at 1e6 s as at the start.
-/// @param time    not negative
-/// @param period  of the drive
+/// @param time  not negative @param period  of the drive
 template <class Real>
 Instant<Real> instant_at(const Quantity& time, const Quantity& period) {
   if (time.zero()) return {};
@@ -482,8 +480,7 @@ class Filling {
         spec_.batches.front().where, drawn.size(), volume_of_balls() / room(), fitting));
   }
 
-  /// Pushes the first `count` of the drawn balls apart, from new random places, and from those
-  /// whose state is given, which do not move. @return true if it succeeds
+  /// Pushes the first `count` drawn balls apart from new random places. @return true on success
   bool part_crowd(const std::vector<Drawn>& drawn, std::size_t count, double share,
                   std::vector<CrowdBall>& crowd) {
     const auto vessel = mill_.vessel.template cast<double>();
@@ -658,8 +655,7 @@ void fill_from_file(const CaseSpec& spec, InitialCase<Real>& result) {
   filling.require_good();
 }
 
-/// Rejects sizes and speeds that the scalar cannot resolve: balls about as small as the rounding of
-/// a position, and a least separation speed whose hops are lower than that.
+/// Rejects balls as small as the rounding of a position, and hops that are lower than that.
 template <class Real>
 void require_resolution(const CaseSpec& spec, const InitialCase<Real>& built) {
   using std::sqrt;

@@ -139,8 +139,7 @@ void check_times(Section run, const CaseSpec& spec) {
   run.require(!spec.end_time || within(*spec.end_time), "end_time", expected);
 }
 
-/// The lines of [run] in the canonical text. The keys of version 1.0 come first, in this order,
-/// even without a value; later keys follow only if they are given.
+/// Lines of [run]: first the keys of version 1.0, even without a value, then later ones if given.
 std::string text_of_run(const CaseSpec& c) {
   constexpr std::array<std::string_view, 8> of_1_0{"precision",      "seed",          "initial_time",
                                                    "start_time",     "end_time",      "max_milling_dose",

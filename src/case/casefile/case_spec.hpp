@@ -404,15 +404,13 @@ struct WrittenNumber {
   std::string plus(int sign, unsigned digits) const;
 };
 
-/// A number of a case as its file or a setting gives it.
-/// @param key  "contact.restitution", "balls.0.diameter"
+/// The number of a key, "balls.0.diameter", as the file or a setting gives it.
 /// @throws InputError when the case gives no such number
 WrittenNumber value_of_key(const CaseSpec& spec, const std::string& key);
 /// The number of a key with its unit as text, "12.7 mm"; nothing if the case gives no such number.
 std::optional<std::string> text_of_key(const CaseSpec& spec, const std::string& key);
 
-/// The case with another value of a key, read anew.
-/// @param sizes  SizeLimit::none allows values such as 1e-380, for finite differences
+/// The case with another value of a key, read anew; without SizeLimit even 1e-380, for differences.
 CaseSpec with_value(const CaseSpec& spec, const std::string& key, const std::string& value,
                     SizeLimit sizes = SizeLimit::physical);
 
@@ -429,8 +427,7 @@ std::string text_with_settings(const CaseSpec& spec);
 CaseSpec read_case_of_run(const std::string& path, const std::vector<std::string>& settings,
                           const std::string& digest);
 
-/// Adds the entries [[output]] of a text to a case.
-/// @throws InputError when one is wrong, or its file's name is taken
+/// Adds the entries [[output]] of a text. @throws InputError for a wrong one or a taken file's name
 void add_outputs(const std::string& text, const std::string& name, CaseSpec& spec);
 
 }  // namespace edmill::casefile

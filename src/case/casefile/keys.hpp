@@ -26,8 +26,7 @@ std::string expected(const Parameter& p);
 /// @pre the parameter has a fallback of its dimension
 Quantity fallback_of(const Parameter& p);
 
-/// A struct that lists its keys. A member may be such a struct itself: a table inside the table.
-/// That table may be absent, so all of its keys need defaults.
+/// A struct that lists its keys. A member may be one too, a table in which all keys need defaults.
 template <class T>
 concept Keyed = requires(T& t) {
   T::keys(t, [](const Parameter&, const auto&) {});
@@ -77,9 +76,8 @@ T entry_of(const std::vector<T>&) {
   return {};
 }
 
-/// Reads members from a section and reports problems. The member of an absent key gets the fallback
-/// of its row. Without a fallback it keeps its value if it is optional or if the row describes a
-/// default in `otherwise`; if not, the missing key is reported.
+/// Reads members from a section. The member of an absent key gets the fallback of its row; without
+/// one it keeps its value if it is optional or the row has `otherwise`, or the key is reported.
 class KeyReader {
  public:
   enum class Absent { fallback, kept };
@@ -270,8 +268,7 @@ struct KeySection {
   std::vector<Key> keys;
 };
 
-/// Every key that a case, a sweep or an optimisation file can contain, in the order of the
-/// reference. Looking up any other key is a programming error.
+/// Every key that a file can contain, in the order of the reference; no other may be looked up.
 std::span<const KeySection> key_sections();
 /// @param path  of a section as messages name it, "output.0.columns.1"
 bool is_key(const std::string& path, const std::string& name);

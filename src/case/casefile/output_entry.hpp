@@ -1,5 +1,4 @@
-// Reads entries [[output]]: the keys that several types of output have. Keys of a single type are
-// defined with that output, output/registry.hpp
+// Reads entries [[output]]: the keys of several types; output/registry.hpp has those of one type.
 #pragma once
 
 #include <span>
@@ -70,8 +69,7 @@ constexpr Parameter max_rows_key(const char* fallback = nullptr) {
 inline constexpr Parameter contact_point_key{"contact_point", Dimension::none,
                                              "mark the point where the bodies touch by a sphere"};
 
-/// Index in impact_variables of the variable that a key names; nothing for a name that is unknown
-/// or that the rules exclude, which is reported.
+/// Index in impact_variables of a name; nothing for an unknown or excluded one, which is reported.
 std::optional<int> variable_of(Section& s, const std::string& name, const ColumnRules& rules);
 
 /// Range of the size of a table.
@@ -96,8 +94,7 @@ struct OutputType {
   OutputKeys keys;
 };
 
-/// The keys that `Keys::keys(output, row)` lists, and conditions that `Keys::check`, if any,
-/// checks.
+/// The keys that `Keys::keys(output, row)` lists, and conditions that `Keys::check` may check.
 template <class Keys>
 inline constexpr OutputKeys output_keys{[](Section& entry, const CaseSpec& spec, OutputSpec& output) {
                                           Keys::keys(output, KeyReader(entry));

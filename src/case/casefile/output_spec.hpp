@@ -59,8 +59,8 @@ struct TimerSpec {
 
 class Section;
 
-/// A table whose keys are chosen by the user. Each is read by `T::read(section, name)`; `T::what`
-/// and `T::entry` describe them for readers.
+/// A table whose keys the user chooses, read by `T::read(section, name)`; `T::entry` describes
+/// them.
 template <class T>
 struct Named : std::vector<T> {
   static constexpr const char* what = T::what;

@@ -25,8 +25,7 @@ using model::Swing;
 using model::TurnFraction;
 using PistonSpec = model::Piston<Quantity>;
 
-/// Splits `turns` into whole turns and a fraction. The fraction is truncated to the bits of a
-/// TurnFraction, or to those of the thread's `mpfr` if it needs more.
+/// Whole turns and a fraction, truncated to a TurnFraction's bits, or more if `mpfr` needs them.
 TurnFraction fraction_of(const Quantity& turns) {
   TurnFraction fraction;
 #if !defined(EDMILL_WITHOUT_MPFR)
@@ -45,8 +44,7 @@ TurnFraction fraction_of(const Quantity& turns) {
   return fraction;
 }
 
-/// A constant angle or phase without its whole turns, so that a scalar represents it to its last
-/// digit. An angle of less than a turn is returned as given.
+/// An angle or phase without its whole turns, so that a scalar represents it to its last digit.
 Quantity without_whole_turns(const Quantity& turns) {
   const auto fraction = fraction_of(turns);
   if (fraction.whole == 0 || fraction.whole == -1) return turns;

@@ -95,8 +95,7 @@ std::optional<Quantity> parse_decimal(std::string_view text);
 /// "4.76 mm" is 4.76 and " mm"; nothing for a text that does not begin with a number.
 std::optional<std::pair<double, std::string>> split_number(const std::string& text);
 
-/// A number with a unit in SI, and the SI unit: "200 rpm" is 20.94... and "rad/s". Nothing for
-/// other texts, and for units of two dimensions, "m".
+/// A number and its unit in SI: "200 rpm" is 20.94... and "rad/s"; nothing for the ambiguous "m".
 std::optional<std::pair<double, std::string>> in_si(std::string_view text);
 
 }  // namespace edmill::casefile

@@ -74,8 +74,7 @@ class Section {
 
   /// A sub-section; a key of another kind is reported.
   Section section(const std::string& key);
-  /// Entries of an array of tables.
-  /// @param may_be_empty  true if `key = []` is valid and has no entries, as for `--set output=[]`
+  /// Entries of an array of tables. @param may_be_empty  `key = []` is valid, as in `output=[]`
   std::vector<Section> sections(const std::string& key, bool may_be_empty = false);
 
   std::optional<Quantity> quantity(const std::string& key, Dimension dimension);
@@ -139,7 +138,6 @@ class Section {
 };
 
 /// The key at which to report a problem of several keys: the first one present, or else the last.
-/// The report is dropped if a problem with that key's own value has been reported before.
 inline const char* first_of(const Section& section, std::initializer_list<const char*> keys) {
   for (const char* key : keys)
     if (section.has(key)) return key;

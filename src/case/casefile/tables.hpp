@@ -254,8 +254,7 @@ struct PairTable {
 
 using Laws = model::NamedLaws<Quantity>;
 
-/// The keys of a contact law in a section. Parameters of other laws may be given too, so that a
-/// sweep over laws needs only one section.
+/// The keys of a contact law. Those of other laws may be given too, for sweeps over laws.
 struct LawTable {
   /// The law's name. An inherited name has precedence over the default.
   struct Name {
