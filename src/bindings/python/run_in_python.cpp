@@ -8,8 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "casefile/memory_for.hpp"
-#include "casefile/precisions.hpp"
+#include "casefile/case_spec.hpp"
 #include "python/binding.hpp"
 #include "report/report_page.hpp"
 #include "run/any_run.hpp"

@@ -11,9 +11,9 @@
 
 #include "base/digest.hpp"
 #include "base/errors.hpp"
+#include "base/scalar.hpp"
 #include "casefile/build_case.hpp"
 #include "casefile/output_entry.hpp"
-#include "casefile/precisions.hpp"
 #include "casefile/rational.hpp"
 #include "casefile/tables.hpp"
 #include "io/input_file.hpp"
@@ -447,6 +447,38 @@ model::Partners partners_of(const CaseSpec& spec) { return model::partners_of(bu
 
 CaseSpec read_case(const std::string& path, const std::vector<std::string>& overrides) {
   return parse_case(io::read_whole(path, "a case file (TOML)"), path, overrides);
+}
+
+const std::vector<std::string>& precisions() {
+  static const auto names = [] {
+    std::vector<std::string> all{"double", "float128"};
+#if !defined(EDMILL_WITHOUT_MPFR)
+    for (const unsigned digits : named_digits) all.push_back("mpfr" + std::to_string(digits));
+#endif
+    return all;
+  }();
+  return names;
+}
+
+std::string choices_of_precision() {
+  return fmt::format("one of \"{}\", \"mpfr:DIGITS\" with {} to {} digits", fmt::join(precisions(), "\", \""),
+                     fewest_digits, most_digits);
+}
+
+bool is_precision(const std::string& name) {
+  return name == "double" || name == "float128" || chosen_digits_of(name) > 0;
+}
+
+double digits_of(const std::string& precision) {
+  if (precision == "double") return 15.95;
+  if (precision == "float128") return 34.02;
+  return chosen_digits_of(precision);
+}
+
+void check_precision(Section& section, std::string& name) {
+  if (is_precision(name)) return;
+  section.require(false, "precision", choices_of_precision());
+  name = precisions().front();
 }
 
 }  // namespace edmill::casefile

@@ -4,7 +4,9 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <new>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <variant>
 #include <vector>
@@ -429,5 +431,41 @@ CaseSpec read_case_of_run(const std::string& path, const std::vector<std::string
 
 /// Adds the entries [[output]] of a text. @throws InputError for a wrong one or a taken file's name
 void add_outputs(const std::string& text, const std::string& name, CaseSpec& spec);
+
+/// The scalars of a fixed number of digits, the narrowest first: "double", "float128"...
+const std::vector<std::string>& precisions();
+
+/// True if the name is one of these, or "mpfr:DIGITS".
+bool is_precision(const std::string& name);
+
+/// The valid names, for messages.
+std::string choices_of_precision();
+
+/// Decimal digits of a scalar. @pre is_precision(precision)
+double digits_of(const std::string& precision);
+
+/// Reports an unknown value of the key `precision` and replaces it by "double".
+void check_precision(Section& section, std::string& name);
+
+/// Lack of memory as an error message that names the case.
+class OutOfMemory : public std::bad_alloc {
+ public:
+  explicit OutOfMemory(const CaseSpec& spec)
+      : text_(spec.file + ": not enough memory for " + std::to_string(spec.ball_count()) +
+              " balls: use fewer balls, or a computer with more memory") {}
+  const char* what() const noexcept override { return text_.c_str(); }
+
+ private:
+  std::string text_;
+};
+
+/// Calls work() and returns its result. @throws OutOfMemory when there is too little memory
+auto with_memory_for(const CaseSpec& spec, const auto& work) try {
+  return work();
+} catch (const std::bad_alloc&) {
+  throw OutOfMemory(spec);
+} catch (const std::length_error&) {
+  throw OutOfMemory(spec);
+}
 
 }  // namespace edmill::casefile

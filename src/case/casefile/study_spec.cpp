@@ -6,8 +6,8 @@
 #include <tuple>
 
 #include "base/errors.hpp"
+#include "casefile/case_spec.hpp"
 #include "casefile/keys.hpp"
-#include "casefile/precisions.hpp"
 #include "io/input_file.hpp"
 
 namespace edmill::casefile {

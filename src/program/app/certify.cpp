@@ -13,7 +13,7 @@
 #include "base/errors.hpp"
 #include "base/interruption.hpp"
 #include "base/version.hpp"
-#include "casefile/precisions.hpp"
+#include "casefile/case_spec.hpp"
 #include "io/input_file.hpp"
 #include "io/output_folder.hpp"
 #include "output/collision_log.hpp"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "casefile/build_case.hpp"
-#include "casefile/memory_for.hpp"
+#include "casefile/case_spec.hpp"
 #include "io/output_folder.hpp"
 #include "report/report_page.hpp"
 #include "run/any_run.hpp"

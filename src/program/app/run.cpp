@@ -1,7 +1,7 @@
 #include "app/run.hpp"
 
 #include "base/errors.hpp"
-#include "casefile/memory_for.hpp"
+#include "casefile/case_spec.hpp"
 #include "io/atomic_file.hpp"
 #include "io/input_file.hpp"
 #include "io/output_folder.hpp"

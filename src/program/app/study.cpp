@@ -8,7 +8,7 @@
 #include <map>
 
 #include "base/errors.hpp"
-#include "casefile/memory_for.hpp"
+#include "casefile/case_spec.hpp"
 #include "io/input_file.hpp"
 #include "io/output_folder.hpp"
 #include "plot/chart.hpp"

@@ -13,7 +13,7 @@
 #include <new>
 
 #include "base/errors.hpp"
-#include "casefile/memory_for.hpp"
+#include "casefile/case_spec.hpp"
 #include "io/atomic_file.hpp"
 #include "io/input_file.hpp"
 #include "io/terminal.hpp"

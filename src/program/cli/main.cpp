@@ -13,8 +13,8 @@
 
 #include "base/standard_arithmetic.hpp"
 #include "base/version.hpp"
+#include "casefile/case_spec.hpp"
 #include "casefile/nearest.hpp"
-#include "casefile/precisions.hpp"
 #include "casefile/quantity.hpp"
 #include "cli/commands/cases.hpp"
 #include "cli/commands/certainty.hpp"

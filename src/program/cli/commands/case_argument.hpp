@@ -9,7 +9,6 @@
 
 #include "base/errors.hpp"
 #include "casefile/case_spec.hpp"
-#include "casefile/memory_for.hpp"
 #include "casefile/quantity.hpp"
 #include "cli/exit_codes.hpp"
 #include "io/input_file.hpp"

@@ -3,7 +3,7 @@
 
 #include "app/certify.hpp"
 #include "base/errors.hpp"
-#include "casefile/precisions.hpp"
+#include "casefile/case_spec.hpp"
 #include "cli/commands/case_argument.hpp"
 #include "cli/exit_codes.hpp"
 #include "io/progress_line.hpp"

@@ -13,7 +13,7 @@
 #include "app/variations.hpp"
 #include "base/clean_text.hpp"
 #include "base/errors.hpp"
-#include "casefile/precisions.hpp"
+#include "casefile/case_spec.hpp"
 #include "casefile/quantity.hpp"
 #include "cli/commands/case_argument.hpp"
 #include "cli/exit_codes.hpp"

@@ -10,9 +10,9 @@
 
 #include "app/judge.hpp"
 #include "base/version.hpp"
+#include "casefile/case_spec.hpp"
 #include "casefile/keys.hpp"
 #include "casefile/output_entry.hpp"
-#include "casefile/precisions.hpp"
 #include "casefile/quantity.hpp"
 #include "cli/exit_codes.hpp"
 #include "io/summary.hpp"
