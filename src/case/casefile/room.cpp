@@ -167,27 +167,27 @@ std::vector<NarrowGap> narrow_gaps(const CaseSpec& spec, const model::Mill<doubl
       }
     return false;
   };
-  const auto judge = [&](const std::string& one, const std::string& other, double change, const auto& gap) {
+  const auto judge = [&](const Body& body, const std::string& other, double speed, const auto& gap) {
+    const double change = body.motion.wall_speed(body.shape.size()) + speed;
     Least least;
     const double finest = std::max(diameter / 200, change * (to - from) / 20000);
     search([&](double time) { return gap(clock.at(time)); }, from, to, change, diameter, finest, least);
     if (!least.joined && least.gap < diameter)
-      found.push_back({one, other, std::max(least.gap, 0.0), least.time});
+      found.push_back({body.name.label, other, std::max(least.gap, 0.0), least.time});
   };
   const bool rounded = mill.vessel.get_if<model::RoundedVessel<double>>() != nullptr;
   for (std::size_t k = 0; k < mill.bodies.size(); ++k) {
     const auto& body = mill.bodies[k];
-    const double speed = body.motion.wall_speed(body.shape.size());
     const auto corners = corners_of(body.shape);
     if (moves(body, mill.motion))
       for (int wall = 0; wall < (rounded ? 1 : mill.vessel.wall_count()); ++wall)
-        judge(body.name.label, rounded ? "vessel" : mill.vessel.walls()[static_cast<std::size_t>(wall)].label,
-              speed + mill.motion.wall_speed(mill.vessel.reach()),
+        judge(body, rounded ? "vessel" : mill.vessel.walls()[static_cast<std::size_t>(wall)].label,
+              mill.motion.wall_speed(mill.vessel.reach()),
               [&](const auto& when) { return distance(body, corners, mill, wall, when); });
     for (std::size_t other = k + 1; other < mill.bodies.size(); ++other) {
       const auto& partner = mill.bodies[other];
       if (moves(body, partner.motion))
-        judge(body.name.label, partner.name.label, speed + partner.motion.wall_speed(partner.shape.size()),
+        judge(body, partner.name.label, partner.motion.wall_speed(partner.shape.size()),
               [&](const auto& when) { return distance(body, partner, when); });
     }
   }

@@ -336,21 +336,25 @@ void put_machine(Writer& out, const Machine& machine, const Wanted& wanted, cons
       out.section(section);
       source.clear();
     }
-    auto value = s.value;
-    const double jar = s.key == "vessel.diameter" ? inside.diameter
-                       : s.key == "vessel.height" ? inside.height
-                                                  : 0;
-    const bool is_jar = jar > 0 && !inside.note.empty();
-    const bool given = s.key == "mill.speed" && !wanted.speed.empty();
-    if (is_jar) value = quoted(fmt::format("{:.4g} mm", 1000 * jar));
-    if (given) value = quoted(speed);
-    const auto at = value.find("{speed}");
-    if (at != std::string::npos) value.replace(at, 7, speed);
-    std::string comment = is_jar ? inside.note : given ? as_given : s.source == source ? "" : brief(s.source);
-    if (at != std::string::npos && outside) comment += (comment.empty() ? "speed " : "; speed ") + as_given;
-    if (!given && !is_jar && !s.note.empty()) comment = s.note + (comment.empty() ? "" : "; " + comment);
-    out.key(s.key.substr(dot + 1), value, comment);
-    if (!given) source = s.source;
+    const auto name = s.key.substr(dot + 1);
+    if (s.key == "mill.speed" && !wanted.speed.empty()) {
+      out.key(name, quoted(speed), as_given);
+      continue;
+    }
+    std::string value = s.value, comment = s.source == source ? "" : brief(s.source);
+    source = s.source;
+    const bool is_diameter = s.key == "vessel.diameter";
+    if (!inside.note.empty() && (is_diameter || s.key == "vessel.height")) {
+      const double size = is_diameter ? inside.diameter : inside.height;
+      out.key(name, quoted(fmt::format("{:.4g} mm", 1000 * size)), inside.note);
+      continue;
+    }
+    if (const auto at = value.find("{speed}"); at != std::string::npos) {
+      value.replace(at, 7, speed);
+      if (outside) comment += (comment.empty() ? "speed " : "; speed ") + as_given;
+    }
+    if (!s.note.empty()) comment = s.note + (comment.empty() ? "" : "; " + comment);
+    out.key(name, value, comment);
   }
 }
 
