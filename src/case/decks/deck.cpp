@@ -16,7 +16,7 @@
 
 namespace edmill::decks {
 
-// Templates with named fields, the files *.in of this folder. A field that may be empty contains the end of
+// Templates with named fields, the files *.in of this folder. One that may be empty has the end of
 // its line.
 extern const std::string_view lammps_in, lammps_frame_in, liggghts_in, yade_in, yade_planes_in,
     yade_triangles_in;
@@ -155,8 +155,7 @@ using FormulaVector = Vec3<Formula>;
 
 FormulaVector numbers(const std::array<double, 3>& x) { return {x[0], x[1], x[2]}; }
 
-/// [0.003 * sin(62.8 * t + 0.5)]: the sum of the speed and the swings of a joint at the time `t`, times a
-/// factor.
+/// [0.003 * sin(62.8 * t + 0.5)]: the speed and swings of a joint at the time `t`, times a factor.
 Formula moved_formula(const model::Joint<double>& joint, double factor, const std::string& time) {
   Formula sum;
   if (joint.speed != 0) sum += fmt::format("{}*{}", factor * joint.speed, time);
@@ -166,7 +165,7 @@ Formula moved_formula(const model::Joint<double>& joint, double factor, const st
   return sum;
 }
 
-/// The displacement of all translations along each axis at the time `t`, as LAMMPS and Python write formulas.
+/// The sum of all translations along each axis at the time `t`, as a formula of LAMMPS and Python.
 /// @pre none of the joints turns
 std::array<Formula, 3> displacement_formulas(const std::vector<model::Joint<double>>& joints,
                                              const std::string& time) {
@@ -219,8 +218,7 @@ std::string atoms_of(const DeckCase& c, const char* spin, bool also_at_rest) {
   return text + sets;
 }
 
-/// Writes the number of facets of a round wall to the deck, for `facts_of_deck`, and to the notes for the
-/// user.
+/// Writes the number of facets of a round wall to the deck, for `facts_of_deck`, and to the notes.
 void tell_facets(DeckCase& c, const std::vector<WallMesh>& meshes, Deck& deck) {
   const int facets = c.options.facets;
   const bool is_round =
@@ -412,11 +410,10 @@ Deck lammps_deck(DeckCase& c) {
   return deck;
 }
 
-// LIGGGHTS 3.8: walls are triangles, moved by several commands: rotations about fixed axes through the
-// origin, and a translation by the remaining velocity. Their formulas are variables of LIGGGHTS, built joint
-// by joint.
+// LIGGGHTS 3.8: walls are triangles, moved by several commands: rotations about fixed axes through
+// the origin, and a translation by the remaining velocity. Their formulas are built joint by joint.
 
-/// Orientation, angular velocity, and place and velocity of the vessel or a body as variables of LIGGGHTS.
+/// Orientation, spin, place and velocity of the vessel or a body as variables of LIGGGHTS.
 class Chain {
  public:
   /// @param prefix  of the names of its variables

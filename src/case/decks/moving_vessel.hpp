@@ -1,4 +1,4 @@
-// The moving vessel of a case and the bodies inside it, with the walls of a deck; balls relative to them.
+// The moving vessel of a case with its bodies and the walls of a deck; balls relative to them.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,7 @@ using BallState = model::BallState<double>;
 /// Frame 0 is the vessel's; each body has one of its own.
 class MovingVessel {
  public:
-  /// @param facets  of the prism that represents a round wall, as `meshes_of` makes it; 0 if round walls are
-  /// not replaced
+  /// @param facets  of the prism that replaces a round wall, as in `meshes_of`; 0 if none does
   MovingVessel(const model::Mill<double>& mill, const std::vector<model::BallProperties<double>>& balls,
                int facets = 0);
 

@@ -4,12 +4,12 @@
 
 namespace edmill::decks {
 
-/// The force at the end of a contact with damping: cut off at zero, or attractive until the bodies separate.
+/// The force at the end of a contact with damping: cut off at zero, or attractive to its end.
 enum class Separation { free, attracts };
 
-/// Restitution of a contact m x'' = -K x^(3/2) - damping sqrt(m K) x^(1/4) x' as leapfrog integrates it: the
-/// force of a step has the velocity of half a step before, in LAMMPS, LIGGGHTS and YADE alike. The result is
-/// the mean over the moments between two steps at which the bodies can begin to touch.
+/// Restitution of a contact m x'' = -K x^(3/2) - damping sqrt(m K) x^(1/4) x' as leapfrog
+/// integrates it: the force of a step has the velocity of half a step before, in all three codes.
+/// The result is the mean over the moments between two steps at which a touch can begin.
 /// @param steps  in a contact without damping
 /// @pre damping >= 0
 double restitution_of(double damping, int steps, Separation separation = Separation::free);
@@ -23,13 +23,12 @@ double damping_for(double restitution, int steps, Separation separation = Separa
 /// @pre damping >= 0
 double lammps_restitution(double damping);
 
-/// The reduction of the restitution by a force that presses the bodies together, divided by the ratio of the
-/// speed that this force would give them during the contact to the approach speed; to first order in this
-/// ratio. 0.42 for a restitution of 0.3, 0.21 for 0.6 (0.18 with a linear spring), 0.05 for 0.9.
+/// The reduction of the restitution by a force that presses the bodies together, divided by the
+/// ratio of the speed that this force would give them during the contact to the approach speed; to
+/// first order in this ratio. 0.42 for a restitution of 0.3, 0.21 for 0.6, 0.05 for 0.9.
 double press_effect(double restitution);
 
-/// The parameter coefficientRestitution of LIGGGHTS, en of YADE: their damping is -sqrt(5) ln e / sqrt(ln^2 e
-/// + pi^2).
+/// coefficientRestitution of LIGGGHTS, en of YADE: damping -sqrt(5) ln e / sqrt(ln^2 e + pi^2).
 double formula_restitution(double damping);
 
 /// Young's modulus for which a ball on a flat wall of the same material has this contact time [Pa].

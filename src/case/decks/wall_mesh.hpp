@@ -14,7 +14,7 @@ namespace edmill::decks {
 
 using Triangle = std::array<Vec3<double>, 3>;
 
-/// The triangles of one part of the vessel, and the angle between neighbours beyond which an edge is one.
+/// The triangles of one part of the vessel, and the angle beyond which an edge is one.
 struct WallMesh {
   std::string name;
   std::vector<Triangle> triangles;

@@ -23,8 +23,7 @@ bool all_digits(const std::string& text) {
   return !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// Calls visit(path) for a path and for the target of each symbolic link in turn, until it returns true or
-/// the path is not a link.
+/// Calls visit(path) for a path and the target of each symbolic link, until it returns true.
 /// @return false when the links do not end
 bool follow(fs::path path, const auto& visit) {
   std::error_code error;
@@ -52,8 +51,7 @@ int open_for_writing(const fs::path& file, int more_flags) {
   return ::open(file.c_str(), O_WRONLY | O_CLOEXEC | more_flags, 0666);
 }
 
-/// The digest of `size` bytes of a file from `begin` on, to which more bytes can be added; nothing if the
-/// file is shorter.
+/// The digest of `size` bytes of a file from `begin` on; nothing if the file is shorter.
 /// @param copy  file to which the bytes are copied; none when empty
 /// @throws std::runtime_error when the copy was not written
 std::optional<Sha256> digest_of(const fs::path& file, std::uint64_t begin, std::uint64_t size,
@@ -287,7 +285,8 @@ void AtomicFile::commit() {
   complete();
   if (dropped_ || destination_.through) return;
   if (!append_ || !destination_.kept) return destination_.commit();
-  // The temporary file is kept as long as the checkpoint. It shows a resumed run that its rows are in place.
+  // The temporary file stays as long as the checkpoint: it shows a resumed run that its rows are in
+  // place.
   const Destination second(destination_.place);
   const auto& own = destination_.temporary;
   std::error_code no_links;
@@ -313,8 +312,7 @@ void AtomicFile::archive(Archive& a) {
   if (a.loading()) go_on_from(left, size, digest);
 }
 
-/// Finds the first `size` bytes of the file, as the ended process wrote them, and makes sure that they are in
-/// `left`.
+/// Finds the first `size` bytes that the ended process wrote, and makes sure that `left` has them.
 /// @return their digest; nothing if they are not found
 std::optional<Sha256> AtomicFile::found_beginning(const fs::path& left, std::uint64_t size,
                                                   const std::string& digest) const {

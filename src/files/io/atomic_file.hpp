@@ -27,7 +27,7 @@ class PipeClosed : public std::runtime_error {
 /// Throws PipeClosed, or what `not_written` returns.
 [[noreturn]] void throw_not_written(const std::filesystem::path& place, int error);
 
-/// A buffer for writing to a descriptor. It keeps the error number of a failure and the digest of all bytes.
+/// Writes to a descriptor; keeps the error number of a failure and the digest of all bytes.
 class FileBuffer : public std::streambuf {
  public:
   FileBuffer() = default;
@@ -61,7 +61,7 @@ class FileBuffer : public std::streambuf {
   Sha256 digest_;
 };
 
-/// The number of this process's descriptor that a path names: /dev/stdout, /dev/fd/63, a link to one of them.
+/// The descriptor of this process that a path names: /dev/stdout, /dev/fd/63, a link to one.
 std::optional<int> descriptor_named(const std::filesystem::path& path);
 /// Another descriptor of the same open file, above the standard ones. @return -1 with errno
 int duplicate(int descriptor);
@@ -72,8 +72,8 @@ bool is_device(const std::filesystem::path& path);
 /// Whether a name ends as those of temporary files do.
 bool is_temporary(const std::string& name);
 
-/// The place of a file, and the temporary name under which it is written. A device, a pipe or a socket is
-/// written through. Anything else, including the target of a symbolic link, is replaced by a complete file.
+/// The place of a file, and the temporary name under which it is written. A device, a pipe or a
+/// socket is written through. Anything else, also the target of a link, is replaced.
 struct Destination {
   std::filesystem::path named, place;  ///< as given; with links followed
   bool through = false;
@@ -92,13 +92,12 @@ struct Destination {
   /// Moves the complete temporary file into place, or copies it through. @throws std::runtime_error
   void commit() const;
 
-  /// @throws InputError if the place is a device, pipe or socket: a resumed run could not continue it
+  /// @throws InputError for a device, pipe or socket, which a resumed run could not continue
   void require_file() const;
-  /// Saves the name of the temporary file. @return loading: the one that the run left, which may be gone
-  /// @throws InputError unless it is such a name: no other file is opened, changed or removed for it
+  /// Saves the name of the temporary file. @return loading: the run's, which may be gone
+  /// @throws InputError unless it is such a name: no other file is touched
   std::filesystem::path archive(Archive& a);
-  /// Continues with the file that a run left, in place of its own. @param is_kept  a checkpoint names it
-  /// still
+  /// Continues with the file that a run left. @param is_kept  a checkpoint names it still
   void continue_with(const std::filesystem::path& left, bool is_kept);
   /// The error for a file whose bytes differ from those in the checkpoint of its run.
   InputError another_file() const;
@@ -111,7 +110,7 @@ struct Destination {
 class WholeFile {
  public:
   virtual ~WholeFile() = default;
-  /// Puts it in place. @throws std::runtime_error when anything was not written; the old file is then kept
+  /// Puts it in place. @throws std::runtime_error when that fails; the old file is then kept
   virtual void commit() = 0;
   /// Its path as given; empty for a device, and for a file that has rows of other runs as well.
   virtual std::filesystem::path place() const = 0;
@@ -133,7 +132,7 @@ class AtomicFile : public WholeFile {
     return stream_;
   }
 
-  /// Writes the rest of the buffer. Afterwards nothing can fail for lack of space, and nothing can be added.
+  /// Writes the rest. Afterwards nothing can fail for lack of space, and nothing can be added.
   /// @throws std::runtime_error when anything was not written
   void complete();
   /// Completes the file and puts it in place.
@@ -145,9 +144,8 @@ class AtomicFile : public WholeFile {
   /// Flushes the file to disk. @throws std::runtime_error when anything was not written
   void sync();
 
-  /// Saves or loads a record of what was written, for a checkpoint; the temporary file is then kept even
-  /// without `commit`. Loading continues from there, with that file, or a copy of the committed one when it
-  /// is gone.
+  /// Saves or loads a record of what was written, for a checkpoint; the temporary file is then kept
+  /// even without `commit`. Loading continues that file, or a copy of the committed one.
   /// @throws InputError when neither begins with exactly the bytes that were written
   void archive(Archive& a);
 

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The first line; its number changes with the format. Then a line with the SHA-256 of all bytes after it.
+// The first line, with the number of the format. Then a line with the SHA-256 of what follows.
 const std::string magic = "edmill checkpoint 4\n";
 constexpr std::size_t digest_size = 64;
 

@@ -27,11 +27,11 @@ struct Checkpoint {
   }
 };
 
-/// Replaces the folder's checkpoint atomically: a kill at any moment leaves the old one or the new one.
+/// Replaces the folder's checkpoint; a kill at any moment leaves the old one or the new one.
 /// @throws std::runtime_error when it was not written; the old one is then kept
 void write_checkpoint(const std::filesystem::path& folder, Checkpoint checkpoint);
 
-/// @throws InputError when there is none, when it is damaged, or when another version or commit wrote it
+/// @throws InputError when it is absent, damaged, or of another version or commit
 Checkpoint read_checkpoint(const std::filesystem::path& folder);
 
 /// @throws InputError when an unfinished run has left one, from which it could continue

@@ -155,7 +155,7 @@ std::optional<int> CsvReader::whole(std::size_t column, const std::string& expec
   return std::nullopt;
 }
 
-/// Splits the row that begins in line_ into fields. If a line ends within quotes, the next one is appended.
+/// Splits the row that begins in line_ into fields. A line that ends within quotes goes on.
 bool CsvReader::read_row() {
   constexpr std::size_t longest = 1 << 20;
   for (std::string more; !split(); ++further_lines_) {

@@ -14,7 +14,7 @@ namespace edmill::io {
 
 /// Text between quotes for a message, cut when long.
 std::string in_quotes(std::string_view text);
-/// Parses a number, also with a leading sign or an exponent of Fortran; nan and infinity are accepted.
+/// Parses a number, also nan and infinity, with a leading sign or an exponent of Fortran.
 std::optional<double> number_in(std::string_view text);
 
 /// Fields are separated by commas, or by semicolons or tabs where the header is, and may be in quotes

@@ -37,7 +37,7 @@ class Facts {
   double number(std::string_view path) const { return get<double>(path, "a number"); }
   bool flag(std::string_view path) const { return get<bool>(path, "true or false"); }
   const Texts& texts(std::string_view path) const { return get<Texts>(path, "a list of texts"); }
-  /// Nothing where there is no such field, or it is null. @throws InputError for anything but a number
+  /// Nothing where it is absent or null. @throws InputError for anything but a number
   std::optional<double> find(std::string_view path) const;
   /// A list of numbers; null if there is no such field.
   const std::vector<double>* numbers(std::string_view path) const {

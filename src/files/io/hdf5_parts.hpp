@@ -1,5 +1,5 @@
-// Parts of HDF5 files. They contain no dates, so that equal runs give equal bytes. A heavy header: include
-// it in source files only.
+// Parts of HDF5 files. They contain no dates, so that equal runs give equal bytes. Heavy: for
+// sources only.
 #pragma once
 
 #include <hdf5.h>
@@ -26,7 +26,7 @@ class Hdf5Error : public std::runtime_error {
 
 /// @throws Hdf5Error with what HDF5 knows of its last failure
 [[noreturn]] inline void throw_hdf5_error() {
-  // HDF5 keeps the error of the system only in texts of its stack: "errno = 27, error message = ...".
+  // HDF5 keeps the error of the system only in texts of its stack: "errno = 27, ...".
   const auto find_errno = [](unsigned, const H5E_error2_t* entry, void* error) -> herr_t {
     const char* text = entry->desc ? std::strstr(entry->desc, "errno = ") : nullptr;
     if (text) std::sscanf(text, "errno = %d", static_cast<int*>(error));
@@ -83,7 +83,7 @@ inline Handle text_type(std::size_t width) {
   return type;
 }
 
-/// Writes a text as an attribute. It has variable length, so that readers return a text and not bytes.
+/// Writes a text as an attribute, of variable length so that readers return no bytes.
 inline void note(hid_t object, const std::string& key, const std::string& value) {
   const Handle type = text_type(H5T_VARIABLE), space(H5Screate(H5S_SCALAR), H5Sclose);
   const Handle attribute(H5Acreate2(object, key.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);

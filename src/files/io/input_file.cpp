@@ -59,8 +59,7 @@ ssize_t read_some(int descriptor, char* bytes, std::size_t size, std::optional<s
 
 /// @return -1 with errno
 int open_for_reading(const std::string& path) {
-  // An open descriptor is duplicated: reading continues at its position, and sockets cannot be opened by
-  // name.
+  // An open descriptor is duplicated: it keeps its position, and sockets cannot be opened by name.
   if (const auto number = descriptor_of(path)) return duplicate(*number);
   struct stat file {};
   const bool fifo = ::stat(path.c_str(), &file) == 0 && S_ISFIFO(file.st_mode);
@@ -86,7 +85,7 @@ class Spooled {
     if (users_ == 0) files_.clear();
     return users_;
   }
-  /// A descriptor of the temporary file, which stays its own; -1 with errno when the stream cannot be read.
+  /// A descriptor of the temporary file, which owns it; -1 with errno if the stream is unreadable.
   int file_of(const std::string& path) {
     const std::lock_guard lock(mutex_);
     const auto number = descriptor_of(path);

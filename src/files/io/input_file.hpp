@@ -11,17 +11,17 @@
 
 namespace edmill::io {
 
-/// True if a path names a pipe, a device or standard input ("-"), which has no folder and can be read once.
+/// True for a pipe, a device or standard input ("-"), which has no folder and can be read once.
 bool is_stream(const std::string& path);
 /// True if a path names a stream or a regular file.
 bool is_readable(const std::string& path);
 /// Base folder of the relative paths in a file: its own, or the working directory for a stream.
 std::filesystem::path folder_of(const std::string& path);
 
-/// Reading that waits for a pipe or a terminal ends with an InterruptedError when this becomes true.
+/// Waiting for a pipe or a terminal ends with an InterruptedError when this becomes true.
 void end_waits_by(const std::atomic<bool>& flag);
 
-/// As long as an object of this class exists, streams can be read more than once, from temporary copies.
+/// While an object of this class exists, streams can be read repeatedly, from temporary copies.
 class Spool {
  public:
   Spool();

@@ -40,8 +40,7 @@ class JsonText {
     add(keys_and_values...);
     end();
   }
-  /// JSON text of a string, flag, number or list of these; null for an empty value, and for nan and infinity,
-  /// which JSON lacks.
+  /// JSON text of a string, flag, number or list of these; null for nothing, nan and infinity.
   template <class T>
   static std::string of(const T& value) {
     using std::isfinite;

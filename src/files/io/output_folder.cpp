@@ -52,7 +52,7 @@ using Names = std::set<std::string>;  ///< relative to the folder, with slashes
 const std::string first_line =
     "# Files of this folder that edmill has written; a later run replaces or removes them.";
 
-/// True if a relative path stays inside its folder and has no line break. It may be from any source.
+/// True if a relative path, from any source, stays inside its folder and has no line break.
 bool is_inside(const fs::path& name) {
   return !name.empty() && name.is_relative() && name.begin()->string() != ".." && name != "." &&
          name.string().find('\n') == std::string::npos;

@@ -1,5 +1,4 @@
-// Output folders: their locks, temporary files of killed processes, and the record of the files that edmill
-// has written.
+// Output folders: locks, temporary files of killed processes, the record of the files written.
 #pragma once
 
 #include <filesystem>
@@ -64,8 +63,7 @@ void sync_to_disk(const std::filesystem::path& place);
 /// Name of the record of written files; a later run removes only files in the record.
 inline constexpr const char* file_record_name = ".edmill-files";
 
-/// Adds files to the record of a folder; to be called before they are put in place. Files outside the folder
-/// are left out.
+/// Adds files inside the folder to its record; to be called before they are put in place.
 /// @throws std::runtime_error when the record was not written
 void record_files(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files);
 
@@ -73,8 +71,7 @@ void record_files(const std::filesystem::path& folder, const std::vector<std::fi
 /// @throws InputError when one of these files of the folder exists and is not in the record
 void require_own_files(const std::filesystem::path& folder, const std::vector<std::string>& names);
 
-/// Removes the recorded files that are not in `files`, and folders that become empty. `files` becomes the
-/// record.
+/// Removes recorded files that are not in `files`, which becomes the record, and empty folders.
 /// @throws std::runtime_error when the record was not written
 void remove_other_files(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files);
 

@@ -1,4 +1,4 @@
-// summary.json: the result of a run. Its fields, with units and meanings, are listed once, in summary.cpp.
+// summary.json: the result of a run. Its fields, units and meanings are listed in summary.cpp.
 #pragma once
 
 #include <algorithm>
@@ -25,9 +25,9 @@ struct Provenance {
   std::optional<std::uint64_t> right_digits;  ///< to the end, where digits were asked for
 };
 
-/// 95 % intervals of the rates of one run, from batches of whole drive periods. Half-widths in the units of
-/// the rates; none where the statistics have too few batches. Impacts are collisions that the least
-/// separation speed does not decide: contacts at rest come in bursts whose rate a run does not know.
+/// 95 % intervals of the rates of one run, from batches of whole drive periods. Half-widths in the
+/// units of the rates; none where the statistics have too few batches. Impacts are collisions that
+/// the least separation speed does not decide: contacts at rest come in bursts.
 struct Intervals {
   static constexpr std::size_t fewest = 5;
   static constexpr int fast = 1;  ///< approach speed beyond which impacts are counted by themselves [m/s]

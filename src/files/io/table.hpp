@@ -1,4 +1,4 @@
-// Tables with typed columns, which are written as CSV and as HDF5. The same table gives the same bytes.
+// Tables with typed columns, written as CSV and HDF5. The same table gives the same bytes.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,7 @@
 
 namespace edmill::io {
 
-/// A text as a cell of CSV (RFC 4180), quoted where necessary, also for readers with comments (#) and with
-/// other separators.
+/// A text as a cell of CSV (RFC 4180), quoted for readers with any separator and comments (#).
 inline std::string csv_cell(const std::string& text) {
   const bool blank_ends = text.starts_with(' ') || text.ends_with(' ');
   if (!blank_ends && text.find_first_of(",;\t\"#\n\r") == std::string::npos) return clean_text(text);
@@ -31,7 +30,7 @@ struct Column {
   enum class Type { text, integer, number };
   std::string name;
   Type type;
-  std::string unit{};  ///< "1" for numbers without a dimension; empty for cells without a unit, such as names
+  std::string unit{};  ///< "1" without a dimension; empty for names and the like
   std::string description{};  ///< empty when the name says it all
 
   /// "milling_dose [J]", or only the name for a column without a unit.

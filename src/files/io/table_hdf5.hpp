@@ -14,7 +14,7 @@ struct StoredColumn {
   Table<double>::Cells cells;
 };
 
-/// The cells of a column as stored: numbers if all texts are numbers, such as flags shown as 1 and 0.
+/// The cells of a column as stored: numbers if all texts are numbers, such as flags 1 and 0.
 Table<double>::Cells stored(const std::vector<std::string>& texts);
 inline Table<double>::Cells stored(const std::vector<std::int64_t>& integers) { return integers; }
 /// Numbers in double, or as integers when all of them are whole.
@@ -35,9 +35,8 @@ Table<double>::Cells stored(const std::vector<std::optional<Real>>& numbers) {
   return doubles;
 }
 
-/// Bytes of an HDF5 file with a dataset for each column. A missing number is nan. Attributes of a dataset are
-/// its
-/// `title`, `unit` and `description`; those of the file are the notes, and the comments as `comment`.
+/// Bytes of an HDF5 file with a dataset for each column. A missing number is nan. Attributes of a
+/// dataset are its `title`, `unit` and `description`; of the file, notes and `comment`.
 std::string hdf5_columns(const std::vector<StoredColumn>& columns, const std::vector<std::string>& comments,
                          const std::vector<FileNote>& notes);
 

@@ -23,7 +23,7 @@ inline void print_text(std::string_view text) {
   errno = 0;
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) note_error();
 }
-/// Prints text to standard error. Failures to do so are ignored, so that an error keeps its exit code.
+/// Prints to standard error. Failures are ignored, so that an error keeps its exit code.
 inline void tell_text(std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);

@@ -71,8 +71,7 @@ class AnyRun {
 
   /// Makes the run write the outputs of the case, case.toml, final_state.csv and summary.json to a folder.
   /// Must be called before the run begins.
-  /// @param checkpoint  what checkpoints contain besides the state; if it has a state, the run continues from
-  /// there
+  /// @param checkpoint  of what checkpoints contain; with a state, the run continues from there
   /// @param without_locks  called if the file system cannot lock the folder against a second run
   /// @throws InputError when a file cannot be written, another process or run writes into the folder, or an
   /// unfinished run has left its checkpoint there
@@ -85,7 +84,7 @@ class AnyRun {
   /// Predicts the first contacts. @throws UndecidedError when no scalar can decide about one
   virtual void begin() = 0;
   /// Simulates to the end of the case.
-  /// @throws UndecidedError when no scalar can make a decision; the summary covers the time up to then
+  /// @throws UndecidedError when no scalar can decide; the summary covers the time up to then
   virtual void finish() = 0;
   /// Ends the run after the present impact; for watchers.
   virtual void stop(model::EndReason why) = 0;
@@ -99,8 +98,8 @@ class AnyRun {
 
   /// True if the run can be resumed from its checkpoint.
   virtual bool goes_on() const = 0;
-  /// Moves the files into place and removes those of an earlier run that this one does not have. Must be
-  /// called once, at the end.
+  /// Moves the files into place and removes others of an earlier run. To be called once, at the
+  /// end.
   /// @param when_written  called when all is written, while the folder is locked and the checkpoint still
   /// valid; its result is stored in the checkpoint until that is removed
   virtual void commit(const std::function<std::string()>& when_written) = 0;

@@ -43,7 +43,7 @@ class EventSource {
   virtual void continue_in(unsigned digits) = 0;
 };
 
-/// @param precision  name of the scalar, in which the balls are placed from the exact quantities of the case
+/// @param precision  name of the scalar, in which the balls are placed
 /// @param to_end     whether the run ends where the case does; otherwise it continues on request
 /// @param interrupt  ends it when it becomes true
 /// @throws InterruptedError when it becomes true at the start

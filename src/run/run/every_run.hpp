@@ -47,8 +47,8 @@ class StopRuleWatch : public engine::Observer<Real> {
   decltype(watches_of(model::StopRuleList{})) watches_;
 };
 
-/// The observers of every run. Each is constructed from the case, `Observer(const model::Case<Real>&)`, and
-/// may add numbers to the summary with `note(summary)`. A new one is a file in run/ and a line here.
+/// The observers of every run. Each is constructed from the case, `Observer(const
+/// model::Case<Real>&)`, and may `note(summary)`. A new one is a file in run/ and a line here.
 template <class Real>
 using EveryRunList = std::tuple<StopRuleWatch<Real>>;
 

@@ -108,8 +108,7 @@ class CheckpointWatch : public engine::Observer<Real> {
   SeldomLook<Real> look_;
 };
 
-/// Runs the stages of a run: up to the start of statistics, then with them to the end, with checkpoints in
-/// between.
+/// Runs up to the start of statistics, then with them to the end, with checkpoints in between.
 template <class Real>
 class RunDriver {
  public:

@@ -81,12 +81,12 @@ void RunFolder::commit(std::vector<io::WholeFile*> files) {
 void RunFolder::remove_checkpoint(const std::string& result) {
   if (!checkpoint_) return;
   if (checkpoint_->result.empty()) {
-    // A run killed between the steps below must not continue, since its temporary files are being removed.
+    // A run killed between the steps below must not continue: its temporary files go.
     checkpoint_->state.clear();
     checkpoint_->result = result;
     io::write_checkpoint(place_, *checkpoint_);
   }
-  // Leftovers are removed before the checkpoint, without which the files of killed processes are not found.
+  // Leftovers go before the checkpoint, without which they would not be found.
   remove_leftovers();
   fs::remove(io::checkpoint_place(place_));
 }

@@ -28,15 +28,14 @@ struct Checkpoints {
   std::optional<CheckpointInterval> every;
   /// Called with a state of the run each time that one is due, and when the run is interrupted.
   std::function<void(const std::string& state)> save;
-  /// The state to resume from; empty at the start of a run. It must be of the same case and program.
+  /// The state to resume from, of the same case and program; empty at the start of a run.
   std::string_view restored;
 };
 
-/// The folder that a run writes to. Other processes cannot use it during the lifetime of this object.
+/// The folder that a run writes to. While this object lives, other processes cannot use it.
 class RunFolder {
  public:
-  /// @param checkpoint  given if the run makes checkpoints; if it contains a state, the run continues from
-  /// there
+  /// @param checkpoint  of a run that makes them; with a state, the run continues there
   /// @throws InputError when the folder cannot be used, another process writes there, or it contains the
   /// checkpoint of another run
   RunFolder(std::filesystem::path place, const casefile::CaseSpec& spec,
@@ -55,11 +54,9 @@ class RunFolder {
 
   /// Writes a file of the run itself, which `commit` puts in place. @throws std::runtime_error
   void write(const std::string& name, const std::function<void(std::ostream&)>& put);
-  /// Moves these complete results into place, then the run's own files, and removes those that an earlier run
-  /// has left.
+  /// Moves these complete results into place, then the run's own; removes others of earlier runs.
   void commit(std::vector<io::WholeFile*> files);
-  /// Removes the checkpoint of a run that has ended. @param result  stored in the checkpoint until it is
-  /// removed
+  /// Removes the checkpoint of a run that has ended. @param result  kept there until then
   void remove_checkpoint(const std::string& result);
 
  private:

@@ -1,5 +1,4 @@
-// A run in one scalar: as EventSource, as AnyRun, and as the public Run; included by the instantiation files
-// only.
+// A run in one scalar: EventSource, AnyRun and the public Run; for the instantiation files only.
 #pragma once
 
 #include <algorithm>
@@ -82,8 +81,7 @@ class RunningCase : public EventSource, private engine::Observer<Real> {
     simulation_.emplace(built_.the_case, states, reached_, interrupt_);
     simulation_->attach(*this);
   }
-  /// Advances by a window that is short compared with the duration of many events, so that few are computed
-  /// in vain.
+  /// Advances by a window much shorter than many events take, so that few are computed in vain.
   void advance() {
     reached_ = simulation_->clock().after(reached_, simulation_->clock().period() / 16);
     const bool last = !(reached_ < end_);
@@ -183,8 +181,8 @@ model::AnyMotion<Real> to_motion(const Joints<Real>& given, const Real& period) 
   return model::ChainMotion<Real>(joints);
 }
 
-/// Replaces the vessel of a case by the program's own, and discards what the case says about its walls.
-/// @throws InputError when the case has moving walls or materials of walls, which cannot be transferred
+/// Replaces the vessel of a case by the program's own, without what the case says about walls.
+/// @throws InputError for moving walls or materials of walls, which cannot be transferred
 template <class Real>
 void forget_walls(model::Mill<Real>& mill, const model::AnyVessel<Real>& own) {
   auto& of_walls = mill.pairs.of_walls;
@@ -382,7 +380,8 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
     const auto scope = use();
     return io::summary_json(result());
   }
-  /// The summary so far, with warnings. After the end of the run it does not change, processor time included.
+  /// The summary so far, with warnings. After the run's end it does not change, nor does its
+  /// processor time.
   io::Summary<Real> result() const {
     if (ended_) return *ended_;
     auto s = summary_of(*spec_, built_, driver_);
@@ -431,8 +430,8 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
     if (outputs_ && !spec_->outputs.empty()) a(*outputs_);
   }
 
-  /// Writes all files before any is put in place. The summary is put in place last, so that the results that
-  /// it names exist.
+  /// Writes all files before any is put in place; the summary is last, so that what it names
+  /// exists.
   void write_results() {
     const DriveClock<Real> clock(built_.the_case.mill.motion.period());
     auto files = outputs_->complete(goes_on());

@@ -152,9 +152,9 @@ class RunStatistics : public engine::Observer<Real> {
             dose.half_width < least_share * *e.half_width);
   }
 
-  /// True if identical balls differ in their doses by more than their scatter over the record allows. The
-  /// scatter is that of eight parts, since shorter parts are correlated. @param place  of the first ball's
-  /// dose
+  /// True if identical balls differ in their doses by more than their scatter over the record
+  /// allows. The scatter is that of eight parts; shorter ones are correlated. @param place  of the
+  /// first ball
   bool stay_apart(const numerics::Batches<Real>& batches, std::size_t place) const {
     constexpr std::size_t parts = 8;
     constexpr double significance = 3e-5;

@@ -18,8 +18,7 @@ namespace {
 using Vector = Vec3<mpfr>;
 using Tangent = tangent::Tangent<mpfr>;
 
-/// The model and the initial state after a small change of one parameter of the case or one number of the
-/// initial state.
+/// The model and the initial state after a small change of one number of either.
 struct Perturbation {
   model::Mill<mpfr> mill;  ///< with the parameter larger by `step`
   std::vector<model::BallProperties<mpfr>> balls;
@@ -54,9 +53,10 @@ dynamics::ImpactOutcome<mpfr> collide(const Perturbation& in, const engine::Impa
                                            in.mill.law_with_wall(own, impact.partner), rests);
 }
 
-/// Observes a run, and carries the states of motions that are infinitely close to it from impact to impact.
-/// The map of an impact is taken for the run and for the neighbouring motion, `step` away, in three times the
-/// run's digits: the difference divided by the step is the derivative to the digits of the run.
+/// Observes a run, and carries the states of motions that are infinitely close to it from impact to
+/// impact. The map of an impact is taken for the run and for the neighbouring motion, `step` away,
+/// in three times the run's digits: their difference over the step is the derivative to the run's
+/// digits.
 class Linearised : public engine::Observer<mpfr> {
  public:
   /// @param base    the mill in these digits, and balls without `initial`
@@ -255,8 +255,7 @@ class Differentiator : private engine::Observer<mpfr> {
     (*parts[number.coordinate / 3])[number.coordinate % 3] = 1;
     return same;
   }
-  /// Changes a parameter by `step`; one at the end of its range, such as a restitution of 1, in the other
-  /// direction.
+  /// Changes a parameter by `step`; at the end of its range, in the other direction.
   Perturbation with_parameter(const std::string& key, const Built& base, const mpfr& step,
                               unsigned step_digits) const {
     const auto value = casefile::value_of_key(spec_, key);
@@ -274,8 +273,8 @@ class Differentiator : private engine::Observer<mpfr> {
         "parameter that varies continuously",
         key, value.number));
   }
-  /// Derivative of the initial state: the parameters of a case also determine where balls are placed and when
-  /// the run begins.
+  /// Derivative of the initial state: parameters also determine where balls are and when a run
+  /// begins.
   static std::vector<Tangent> change_of_start(const Built& base, const Built& other, const mpfr& step) {
     const auto begin = [](const Built& built) {
       return DriveClock<mpfr>(built.the_case.mill.motion.period()).seconds(built.start);
@@ -301,7 +300,7 @@ class Differentiator : private engine::Observer<mpfr> {
     }
   }
 
-  /// The digits that the run needs: its errors have grown like the derivatives, by the largest of them.
+  /// The digits that the run needs: its errors have grown by the largest of the derivatives.
   double needed() const {
     mpfr largest(1);
     for (const auto& event : result.derivatives)
@@ -309,7 +308,7 @@ class Differentiator : private engine::Observer<mpfr> {
         for (const auto& t : d.states_after)
           for (const auto* v : {&t.position, &t.velocity})
             for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, abs((*v)[axis]));
-    // Includes the digits of a second derivative, by which an error of the state changes the first one.
+    // With those of a second derivative, by which an error of the state changes the first.
     return options_.digits + 25 + 2 * static_cast<double>(log10(largest));
   }
 

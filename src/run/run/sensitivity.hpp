@@ -40,8 +40,8 @@ struct Sensitivities {
   bool interrupted = false;
 };
 
-/// Computes the first events in the digits that the growth of errors requires, with their derivatives.
-/// @throws InputError for a key that the case does not give as a number, and a case that ends before
+/// Computes the first events, with their derivatives, in the digits that their errors require.
+/// @throws InputError for a key that is no number of the case, and a case that ends before
 /// @throws UndecidedError when a rule orders two contacts at one time
 Sensitivities sensitivity(const casefile::CaseSpec& spec, const SensitivityOptions& options);
 

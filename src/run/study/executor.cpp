@@ -76,7 +76,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// At most `most` jobs, evenly spaced in the order of their costs and including the first and the last.
+/// At most `most` jobs, evenly spaced in the order of their costs, from the first to the last.
 std::vector<Job> chosen(std::vector<Job> jobs, std::size_t most) {
   std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.cost < b.cost; });
   if (jobs.size() <= most) return jobs;

@@ -1,4 +1,4 @@
-// Execution of runs on all threads of all ranks, longest first, and a forecast of how long they take.
+// Execution of runs on all threads of all ranks, longest first, and a forecast of their time.
 #pragma once
 
 #include <atomic>

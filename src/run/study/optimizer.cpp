@@ -136,7 +136,7 @@ class Search {
     return add_product(lists);
   }
 
-  /// Doubles the runs of all points that may be the best until one is left or all have the most runs allowed.
+  /// Doubles the runs of all points that may be the best until one is left or all have the most.
   void separate() {
     while (!stopped()) {
       const auto leader = best();

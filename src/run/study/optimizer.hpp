@@ -13,8 +13,9 @@ struct Optimum {
   std::string why;                      ///< reason for the end of the search
 };
 
-/// Evaluates a grid with a few runs at each point, gives more runs to those that may be the best, and makes
-/// the grid finer around the best, until the budget is used. Depends on the results only, not on their order.
+/// Evaluates a grid with a few runs at each point, gives more runs to those that may be the best,
+/// and makes the grid finer around the best, until the budget is used. Independent of the results'
+/// order.
 Optimum optimize(const casefile::OptimizeSpec& spec, Study& study);
 
 /// The longest time that the search will take, in words, from short trials; nothing is written.

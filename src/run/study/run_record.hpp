@@ -48,8 +48,7 @@ struct Quantity {
   const char *title = "", *unit = "";
   double size = 1;
 
-  /// The value in a record; empty if it is undefined, such as a rate of a wall that the run's vessel does not
-  /// have.
+  /// The value in a record; empty if undefined, as for a wall that the vessel lacks.
   std::optional<double> of(const RunRecord& record) const { return record.facts.find(path); }
 };
 /// The main results of a study, such as dose rate, specific dose rate and milling time.

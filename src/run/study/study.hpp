@@ -31,14 +31,13 @@ struct Point {
 
   std::size_t done() const;
   std::size_t failed() const;
-  /// A quantity of all runs that are done, in the order of their seeds; empty when one of them lacks it.
+  /// A quantity of all runs done, in the order of their seeds; empty when one of them lacks it.
   std::vector<double> values(const Quantity& quantity) const;
   /// Estimate of a quantity from these runs and their own intervals.
   numerics::OfSeeds estimate(const Quantity& quantity) const;
 };
 
-/// "1.0934 ± 0.0021 W"; where seeds settle in several states "1.0934 ± 0.0021 W (5 runs), 1.36 ± 0.01 W (3
-/// runs)".
+/// "1.0934 ± 0.0021 W"; for several states "1.0934 ± 0.0021 W (5 runs), 1.36 ± 0.01 W (3 runs)".
 std::string text_of(const numerics::OfSeeds& found, const Quantity& quantity);
 
 /// Combined results of the runs of a point, with their steady states, as lines for a terminal.
@@ -56,7 +55,7 @@ std::string list_of(const std::vector<Point>& points);
 /// Points of a sweep: the entries times the grid, whose last key changes fastest.
 std::vector<Point> points_of(const casefile::SweepSpec& spec);
 
-/// The run of a point with a seed. A case that is invalid at this point gives a record without a run.
+/// The run of a point with a seed. An invalid case gives a record without a run.
 Run make_run(const casefile::StudySpec& spec, const Point& point, std::uint64_t seed);
 
 /// Numbers of runs: all, found on disk, done now, and failed.
@@ -83,8 +82,7 @@ class Study {
 
   /// Does every run without a record, then writes the tables.
   void run();
-  /// The number of runs left to do and how long they will take, in words, from short trials. Nothing is
-  /// written.
+  /// The runs left to do and the time that they will take, from short trials; writes nothing.
   std::string forecast();
   /// Sets the largest number of runs that may be added, for the forecast.
   void expect_at_most(std::uint64_t runs) { most_runs_ = runs; }
