@@ -85,8 +85,8 @@ SoftLaw soft_law(const model::ContactLaw<double>& law, const std::string& file, 
   });
   if (soft.restitution < 0.05)
     throw InputError(
-        fmt::format("{}: key 'contact.restitution': found {}, expected 0.05 or more: with a lower one the "
-                    "contacts of DEM codes stick",
+        fmt::format("{}: key 'contact.restitution': found {}, expected 0.05 or more: with a lower "
+                    "one the contacts of DEM codes stick",
                     file, soft.restitution));
   soft.damping = damping_for(soft.restitution, options.steps,
                              options.code == "yade" ? Separation::attracts : Separation::free);
@@ -234,13 +234,12 @@ void tell_facets(DeckCase& c, const std::vector<WallMesh>& meshes, Deck& deck) {
 void tell_bodies(const DeckCase& c, Deck& deck) {
   if (!c.mill.bodies.empty())
     deck.notes.push_back(
-        "bodies in the vessel are triangles; round parts are prisms of 48 facets within them, 0.2 % narrower "
-        "in "
-        "the middle of a facet");
+        "bodies in the vessel are triangles; round parts are prisms of 48 facets within them, 0.2 "
+        "% narrower in the middle of a facet");
 }
 
-// LAMMPS of 2021 and later: exact regions. Regions turn about one axis at most, so a vessel that turns is
-// simulated in its own frame, with fictitious forces and torques computed in Python.
+// LAMMPS of 2021 and later: exact regions. Regions turn about one axis at most, so a vessel that
+// turns is simulated in its own frame, with fictitious forces and torques computed in Python.
 
 std::string region_of(const DeckCase& c, const std::string& moves) {
   const auto& v = c.mill.vessel;
@@ -253,8 +252,8 @@ std::string region_of(const DeckCase& c, const std::string& moves) {
   if (const auto* sphere = v.get_if<model::SphereVessel<double>>())
     return fmt::format("region vessel sphere 0 0 0 {} side in units box{}\n", sphere->radius, moves);
   throw InputError(
-      fmt::format("{}: key 'vessel.type': found a vessel that is not a single region of LAMMPS, expected "
-                  "cylinder, box or sphere",
+      fmt::format("{}: key 'vessel.type': found a vessel that is not a single region of LAMMPS, "
+                  "expected cylinder, box or sphere",
                   c.file));
 }
 
@@ -267,8 +266,8 @@ struct RegionMotion {
 
 InputError no_region(const DeckCase& c, std::size_t body, const char* found, const char* expected) {
   return InputError(
-      fmt::format("{}: found {}, {}, expected {}, as LAMMPS's regions require; LIGGGHTS and YADE represent "
-                  "bodies by triangles",
+      fmt::format("{}: found {}, {}, expected {}, as LAMMPS's regions require; LIGGGHTS and YADE "
+                  "represent bodies by triangles",
                   c.file, c.mill.bodies[body].name.label, found, expected));
 }
 
@@ -341,8 +340,8 @@ std::string body_of(const DeckCase& c, std::size_t k, const std::string& contact
 double tsuji_of(const DeckCase& c, const SoftLaw& law) {
   if (law.damping > 1.2728)
     throw InputError(
-        fmt::format("{}: key 'contact.restitution': found {}, expected {:.2g} or more: LAMMPS's damping "
-                    "tsuji allows no lower one",
+        fmt::format("{}: key 'contact.restitution': found {}, expected {:.2g} or more: LAMMPS's "
+                    "damping tsuji allows no lower one",
                     c.file, law.restitution, restitution_of(1.2728, c.options.steps) + 0.005));
   return lammps_restitution(law.damping);
 }
@@ -356,8 +355,8 @@ void put_in_vessel(DeckCase& c) {
   }
 }
 
-/// @return the commands for fictitious forces and torques. They use the velocity at the step, not LAMMPS's
-/// velocity half a step before.
+/// @return the commands for fictitious forces and torques. They use the velocity at the step, not
+/// LAMMPS's velocity half a step before.
 std::string fictitious_forces(DeckCase& c) {
   std::string masses, radii;
   for (const auto& ball : c.balls) {
@@ -374,8 +373,8 @@ Deck lammps_deck(DeckCase& c) {
   for (std::size_t k = 0; k < c.mill.bodies.size(); ++k)
     if (in_vessel && !at_rest && !c.on_vessel[k])
       throw InputError(
-          fmt::format("{}: found {} on the ground in a vessel that turns, expected a body on the "
-                      "vessel or a vessel that does not turn: the deck computes in the vessel's frame",
+          fmt::format("{}: found {} on the ground in a vessel that turns, expected a body on the vessel or a "
+                      "vessel that does not turn: the deck computes in the vessel's frame",
                       c.file, c.mill.bodies[k].name.label));
   if (in_vessel) put_in_vessel(c);
   c.add("forces", in_vessel && !at_rest ? fictitious_forces(c) : "");
@@ -405,8 +404,8 @@ Deck lammps_deck(DeckCase& c) {
       {{c.options.name + ".in", c.filled(lammps_in)}}, fmt::format("lmp -in {}.in", c.options.name), {}};
   if (in_vessel && !at_rest)
     deck.notes = {
-        "the vessel turns, which LAMMPS's regions do about one axis at most: the deck computes in the "
-        "vessel's frame, with fictitious forces by python3-lammps"};
+        "the vessel turns, which LAMMPS's regions do about one axis at most: the deck computes in "
+        "the vessel's frame, with fictitious forces by python3-lammps"};
   return deck;
 }
 
@@ -428,7 +427,6 @@ class Chain {
 
   std::string lines;             ///< definitions of the variables
   FormulaVector spin, velocity;  ///< each "v_q7" or empty
-
  private:
   using Joint = model::Joint<double>;
   using Matrix = Eigen::Matrix<Formula, 3, 3>;
@@ -500,7 +498,8 @@ std::string moves_of(const Chain& chain, const std::vector<WallMesh>& meshes) {
     for (std::size_t k = 0; k < 3; ++k)
       if (!chain.spin[k].text.empty())
         text += fmt::format(
-            "fix turn_{0}_{1} all move/mesh mesh {0} rotate/variable origin 0 0 0 axis {2} omega {3}\n",
+            "fix turn_{0}_{1} all move/mesh mesh {0} rotate/variable origin 0 0 0 axis {2} omega "
+            "{3}\n",
             mesh.name, "xyz"[k], axes[k], chain.spin[k].text);
     if (!(chain.velocity.sum().text.empty())) {
       std::string speeds;
@@ -516,12 +515,12 @@ Deck liggghts_deck(DeckCase& c) {
   const auto meshes = meshes_of(c.mill.vessel, c.options.facets);
   if (meshes.empty())
     throw InputError(
-        fmt::format("{}: key 'vessel.type': found a vessel with doubly curved walls, expected "
-                    "flat walls or a cylinder, which LIGGGHTS can represent by triangles",
+        fmt::format("{}: key 'vessel.type': found a vessel with doubly curved walls, expected flat "
+                    "walls or a cylinder, which LIGGGHTS can represent by triangles",
                     c.file));
   Deck deck{{{}}, fmt::format("liggghts -in {}.in", c.options.name), {}};
-  // During a step the commands evaluate their rates with the step number of its end. The rates of its middle
-  // keep the walls in place.
+  // During a step the commands evaluate their rates with the step number of its end. The rates of
+  // its middle keep the walls in place.
   std::string rates = fmt::format("variable t equal {}+(step-0.5)*dt\n", c.begin), walls, names, moves;
   const auto put = [&](const WallMesh& mesh, const auto& motion, const auto& pose) {
     const auto file = fmt::format("{}_{}.stl", c.options.name, mesh.name);
@@ -554,11 +553,11 @@ Deck liggghts_deck(DeckCase& c) {
   return deck;
 }
 
-// YADE 2023: infinite planes if the vessel only translates, otherwise triangles that turn about the point of
-// the vessel that is at rest.
+// YADE 2023: infinite planes if the vessel only translates, otherwise triangles that turn about the
+// point of the vessel that is at rest.
 
-/// True if a point of the vessel or body is at rest at all sampled times: its centre moves perpendicularly to
-/// its angular velocity.
+/// True if a point of the vessel or body is at rest at all sampled times: its centre moves
+/// perpendicularly to its angular velocity.
 bool turns_about_a_point(const DeckCase& c, const auto& motion) {
   const DriveClock<double> clock(motion.period());
   for (int k = 0; k < 64; ++k) {
@@ -580,13 +579,13 @@ Deck yade_deck(DeckCase& c) {
   for (const auto& body : c.mill.bodies)
     if (!turns_about_a_point(c, body.motion))
       throw InputError(
-          fmt::format("{}: found {}, which has no point at rest, expected a body that turns about one, as "
-                      "YADE's engines require",
+          fmt::format("{}: found {}, which has no point at rest, expected a body that turns about "
+                      "one, as YADE's engines require",
                       c.file, body.name.label));
   if (!planes && (meshes.empty() || !turns_about_a_point(c, c.mill.motion)))
     throw InputError(fmt::format(
-        "{}: found a {}, expected a box that translates, or flat walls or a cylinder that turn about a point "
-        "at rest, as YADE's engines require",
+        "{}: found a {}, expected a box that translates, or flat walls or a cylinder that turn "
+        "about a point at rest, as YADE's engines require",
         c.file, meshes.empty() ? "vessel with doubly curved walls" : "motion along its own axis"));
   std::string balls;
   for (std::size_t k = 0; k < c.balls.size(); ++k) {

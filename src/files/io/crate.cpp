@@ -51,14 +51,13 @@ std::string crate_text(const Crate& crate) {
       fmt::format("Simulation of a ball mill by edmill {} in {}; case.toml has digest {}", version(),
                   crate.precision, crate.case_digest);
   return "{\n  \"@context\": \"https://w3id.org/ro/crate/1.1/context\",\n  \"@graph\": [\n    "
-         "{\"@id\": \"ro-crate-metadata.json\", \"@type\": \"CreativeWork\", \"about\": {\"@id\": \"./\"}, "
-         "\"conformsTo\": {\"@id\": \"https://w3id.org/ro/crate/1.1\"}}" +
-         entity(
-             "./", "Dataset",
-             fmt::format("\"name\": {}, \"description\": {}, \"datePublished\": \"{}\", \"hasPart\": [{}], "
-                         "\"mentions\": {{\"@id\": \"#run\"}}",
-                         JsonText::of(std::string("Simulation of a ball mill")), JsonText::of(about), today(),
-                         parts)) +
+         "{\"@id\": \"ro-crate-metadata.json\", \"@type\": \"CreativeWork\", \"about\": {\"@id\": "
+         "\"./\"}, \"conformsTo\": {\"@id\": \"https://w3id.org/ro/crate/1.1\"}}" +
+         entity("./", "Dataset",
+                fmt::format("\"name\": {}, \"description\": {}, \"datePublished\": \"{}\", \"hasPart\": "
+                            "[{}], \"mentions\": {{\"@id\": \"#run\"}}",
+                            JsonText::of(std::string("Simulation of a ball mill")), JsonText::of(about),
+                            today(), parts)) +
          entity("#run", "CreateAction",
                 "\"name\": \"edmill run\", \"instrument\": " + id("#edmill") +
                     ", \"object\": " + id("case.toml") + ", \"result\": [" + parts + "]") +

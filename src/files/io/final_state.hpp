@@ -16,8 +16,8 @@
 namespace edmill::io {
 
 inline constexpr const char* final_state_header =
-    "ball,position_x,position_y,position_z,velocity_x,velocity_y,velocity_z,spin_x,spin_y,spin_z,time,"
-    "drive_period,drive_offset";
+    "ball,position_x,position_y,position_z,velocity_x,velocity_y,velocity_z,spin_x,spin_y,spin_z,"
+    "time,drive_period,drive_offset";
 
 template <class Real>
 struct SavedState {

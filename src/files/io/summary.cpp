@@ -11,8 +11,8 @@ namespace edmill::io {
 
 namespace {
 
-/// Lists every field of summary.json in the order of the file: with its unit and meaning. `Visit` is called
-/// with key, unit, meaning and value; its `group` has a group visited.
+/// Lists every field of summary.json in the order of the file: with its unit and meaning. `Visit`
+/// is called with key, unit, meaning and value; its `group` has a group visited.
 template <class Real, class Visit>
 struct FieldList {
   const Summary<Real>& s;
@@ -33,12 +33,12 @@ struct FieldList {
     v("precision", "", "name of the scalar", p.precision);
     if (p.right_digits)
       v("right_digits", "",
-        "number of correct digits of every event and of the final state, if digits were requested; two runs "
-        "have confirmed them ([precision.md](precision.md#ask-for-digits))",
+        "number of correct digits of every event and of the final state, if digits were "
+        "requested; two runs have confirmed them ([precision.md](precision.md#ask-for-digits))",
         *p.right_digits);
     v("end_reason", "",
-      "`end_time` or the key of another stop rule, `inelastic_collapse`, `stalled`, `interrupted`, "
-      "`undecided`; for a run from Python or C++ also `stopped`, by an observer",
+      "`end_time` or the key of another stop rule, `inelastic_collapse`, `stalled`, "
+      "`interrupted`, `undecided`; for a run from Python or C++ also `stopped`, by an observer",
       model::name(s.end_reason));
     if (!s.error.empty()) v("error", "", "why the run ended before its end", s.error);
     v("start_time", "s", "start of the statistics", s.start_time);
@@ -66,11 +66,10 @@ struct FieldList {
       "mean approach speed along the normal, weighted by dose, without contacts at rest",
       s.speed_by_dose > 0 && impact_dose > 0 ? std::optional<Real>(s.speed_by_dose / impact_dose)
                                              : std::nullopt);
-    v.group(
-        "impact_energy_by_dose",
-        "kinetic energy of the approach along the normal, M/2 v^2, before any of it is dissipated; without "
-        "contacts at rest",
-        [&] { by_dose(s.impact_energy); });
+    v.group("impact_energy_by_dose",
+            "kinetic energy of the approach along the normal, M/2 v^2, before any of it is dissipated; "
+            "without contacts at rest",
+            [&] { by_dose(s.impact_energy); });
     v.group("dissipated_energy_by_dose", "dose of single impacts, without contacts at rest",
             [&] { by_dose(s.dissipated_energy); });
     v("milling_dose", "J", "energy dissipated by all impacts", s.milling_dose);
@@ -99,7 +98,8 @@ struct FieldList {
       v("potential_end", "J", "at `end_time`", s.energy_at_end.potential);
       v("closure", "J", "wall work - dose + supplied energy - change of the energies", s.energy_closure);
       v("closure_relative", "1",
-        "closure relative to the dose, or to the kinetic energy at the start or end if that is larger",
+        "closure relative to the dose, or to the kinetic energy at the start or end if that is "
+        "larger",
         Real(s.energy_closure / s.energy_scale()));
     });
     v.group("least_separation", "impacts that separated at the least separation speed", [&] {
@@ -110,13 +110,14 @@ struct FieldList {
         ratio(s.supplied_energy, s.energy_scale()));
     });
     v.group("stalls",
-            "impacts without friction because a ball was in a stall ([theory.md](theory.md), section 6)",
+            "impacts without friction because a ball was in a stall ([theory.md](theory.md), section "
+            "6)",
             [&] { visit_impacts(s.stall_impacts, s.stall_dose); });
 
     const auto& i = s.intervals;
     v.group("intervals",
-            "half-widths of 95 % intervals under the names of the rates; none for a run of fewer than five "
-            "drive periods ([theory.md](theory.md), section 8)",
+            "half-widths of 95 % intervals under the names of the rates; none for a run of fewer than "
+            "five drive periods ([theory.md](theory.md), section 8)",
             [&] {
               v("batches", "1", "number of batches of the statistics", i.batches);
               v("batch_length", "s", "length of a batch", i.batch_length);
@@ -147,9 +148,9 @@ struct FieldList {
                   i.several_states);
             });
     v.group("warnings",
-            "by kind, why the numbers may not be reliable: `too_few_collisions`, `too_short`, `transient`, "
-            "`several_states`, `wide_interval`, `precision`, `supplied_energy`, `by_rule`, `stall_share`, "
-            "`energy`, `end_reason`",
+            "by kind, why the numbers may not be reliable: `too_few_collisions`, `too_short`, "
+            "`transient`, `several_states`, `wide_interval`, `precision`, `supplied_energy`, "
+            "`by_rule`, `stall_share`, `energy`, `end_reason`",
             [&] {
               for (const auto& warning : s.warnings) v(warning.kind, "", "", warning.text);
             });
@@ -199,8 +200,8 @@ struct FieldList {
                 });
             });
     v("simultaneous_contacts", "1",
-      "impacts that a rule put before another contact of the ball at the same time ([theory](theory.md), "
-      "section 4)",
+      "impacts that a rule put before another contact of the ball at the same time "
+      "([theory](theory.md), section 4)",
       s.simultaneous_contacts);
     v("deepest_overlap", "m", "deepest overlap of bodies, by rounding, in all impacts", s.deepest_overlap);
     v("impacts_since_start", "1", "number of impacts of the whole run", s.total_impacts);
@@ -310,9 +311,8 @@ std::string stall_message(const Summary<Real>& s) {
     add("wall " + std::to_string(wall) + " (" + s.partners[wall].label + ")");
   return "the run has stalled at " + to_text<Real>(s.stall->time) + " s: " + bodies + " hit each other " +
          std::to_string(s.stall->impacts) +
-         " times while the simulated time did not advance, and no motion separates them; give them room "
-         "(fewer or smaller "
-         "balls, a piston that stops earlier), or end the run before";
+         " times while the simulated time did not advance, and no motion separates them; give them "
+         "room (fewer or smaller balls, a piston that stops earlier), or end the run before";
 }
 
 template <class Real>

@@ -202,8 +202,8 @@ void forget_walls(model::Mill<Real>& mill, const model::AnyVessel<Real>& own) {
                      " walls and bodies, expected at most " + std::to_string(most));
   if (foreign)
     throw InputError(
-        "vessel of the program: found a case whose walls move or have materials, expected a case with plain "
-        "walls");
+        "vessel of the program: found a case whose walls move or have materials, expected a case "
+        "with plain walls");
   of_walls = kept;
   mill.vessel = own;
 }
@@ -349,8 +349,8 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
     const auto scope = use();
     return to_text<Real>(now());
   }
-  /// The current time [s]: the exact value that was requested if the run is there, since the sum of periods
-  /// and a remainder is rounded.
+  /// The current time [s]: the exact value that was requested if the run is there, since the sum of
+  /// periods and a remainder is rounded.
   Real now() const {
     const auto& now = driver_->simulation().now();
     const auto& end = built_.the_case.stop.end_time;

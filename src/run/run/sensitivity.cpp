@@ -223,9 +223,10 @@ class Differentiator : private engine::Observer<mpfr> {
                                    result.events.size(), options_.events));
     for (const auto& event : result.events)
       if (event.by_rule)
-        throw UndecidedError(fmt::format(
-            "a rule and not the equations orders two contacts of ball {} at {} s: there is no derivative",
-            event.ball, event.time.str(17)));
+        throw UndecidedError(
+            fmt::format("a rule and not the equations orders two contacts of ball {} at {} s: "
+                        "there is no derivative",
+                        event.ball, event.time.str(17)));
   }
 
   Sensitivities result;
@@ -268,10 +269,10 @@ class Differentiator : private engine::Observer<mpfr> {
         return changed;
       } catch (const InputError&) {
       }
-    throw InputError(fmt::format(
-        "--by: found \"{}\", whose value {} can be neither a little larger nor a little smaller, expected a "
-        "parameter that varies continuously",
-        key, value.number));
+    throw InputError(
+        fmt::format("--by: found \"{}\", whose value {} can be neither a little larger nor a "
+                    "little smaller, expected a parameter that varies continuously",
+                    key, value.number));
   }
   /// Derivative of the initial state: parameters also determine where balls are and when a run
   /// begins.

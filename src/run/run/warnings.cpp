@@ -18,12 +18,14 @@ constexpr double fewest_collisions = 1000;
 constexpr std::pair<model::EndReason, const char*> ends[] = {
     {model::EndReason::interrupted, "The run was interrupted; the results cover the time up to then."},
     {model::EndReason::inelastic_collapse,
-     "The run ended in inelastic collapse: a ball met another body infinitely often in a finite time."},
+     "The run ended in inelastic collapse: a ball met another body infinitely often in a finite "
+     "time."},
     {model::EndReason::stalled,
-     "The run has stalled: bodies that cannot separate hit each other while the simulated time did not "
-     "advance. The results cover the time up to then."},
+     "The run has stalled: bodies that cannot separate hit each other while the simulated time "
+     "did not advance. The results cover the time up to then."},
     {model::EndReason::undecided,
-     "The run ended at a decision that no scalar could make; the results cover the time up to then."}};
+     "The run ended at a decision that no scalar could make; the results cover the time up to "
+     "then."}};
 
 void check_dose_rate(const io::Facts& f, const std::optional<double>& wanted, const auto& warn) {
   const double duration = f.number("duration");
@@ -40,7 +42,8 @@ void check_dose_rate(const io::Facts& f, const std::optional<double>& wanted, co
   if (io::has_dose(f) && (numerics::drifts(*means) ||
                           numerics::stands_apart(means->front(), {means->begin() + 1, means->end()}, 0.01)))
     warn("transient",
-         "The dose rate drifts within the statistics: begin them later (run.start_time), when it is steady.");
+         "The dose rate drifts within the statistics: begin them later (run.start_time), when it is "
+         "steady.");
   if (f.has("intervals/several_states"))
     warn("several_states",
          fmt::format("Other seeds may settle at another dose rate: {}. Run several: edmill run --seeds 8.",
@@ -77,13 +80,15 @@ std::vector<io::Warning> warnings_of(const io::Facts& f, const std::optional<dou
                      counted(static_cast<std::uint64_t>(collisions), "collision"), fewest_collisions));
   check_dose_rate(f, wanted_precision, warn);
   if (in_stalls > stall_share_limit)
-    warn("stall_share", fmt::format("{} of the dose comes from impacts without friction, in stalls of bodies "
-                                    "that touch: friction is weaker than in the case.",
-                                    percent(in_stalls)));
+    warn("stall_share",
+         fmt::format("{} of the dose comes from impacts without friction, in stalls of bodies that "
+                     "touch: friction is weaker than in the case.",
+                     percent(in_stalls)));
   if (supplied > supplied_share_limit)
-    warn("supplied_energy", fmt::format("The least separation speed supplies energy, {} of the {}: "
-                                        "run with a smaller contact.least_separation.",
-                                        percent(supplied), scale));
+    warn("supplied_energy",
+         fmt::format("The least separation speed supplies energy, {} of the {}: run with a smaller "
+                     "contact.least_separation.",
+                     percent(supplied), scale));
   if (by_rule > by_rule_share_limit)
     warn("by_rule", fmt::format("{} of the impacts coincide with another impact of their ball, and a rule "
                                 "decides the order: compare with other seeds or another precision.",
