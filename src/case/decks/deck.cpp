@@ -11,8 +11,8 @@
 #include "base/version.hpp"
 #include "casefile/build_case.hpp"
 #include "casefile/case_spec.hpp"
+#include "decks/moving_vessel.hpp"
 #include "decks/soft_contact.hpp"
-#include "decks/wall_mesh.hpp"
 
 namespace edmill::decks {
 

@@ -1,12 +1,38 @@
-// The moving vessel of a case with its bodies and the walls of a deck; balls relative to them.
+// The walls of a case as triangles; its moving vessel with bodies and such walls, and balls relative to it.
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "model/mill.hpp"
 
 namespace edmill::decks {
+
+using Triangle = std::array<Vec3<double>, 3>;
+
+/// The triangles of one part of the vessel, and the angle beyond which an edge is one.
+struct WallMesh {
+  std::string name;
+  std::vector<Triangle> triangles;
+  double smooth_angle = 0;  ///< [deg] of facets that represent a round wall; 0 for flat walls
+};
+
+/// A round wall becomes a prism around it, whose facets touch it along their middles, one of them on the
+/// vessel's x axis. Empty for a vessel that has none.
+std::vector<WallMesh> meshes_of(const model::AnyVessel<double>& vessel, int facets);
+
+/// The surface of a body, whose round parts are prisms within it.
+WallMesh mesh_of(const model::RoundedBody<double>& body, const std::string& name);
+
+/// Unit normal, out of the vessel, of the facet of that prism that is nearest to a position.
+Vec3<double> facet_normal(const model::Tube<double>& tube, int facets, const Vec3<double>& place);
+
+/// The text of an STL file (ASCII) of these meshes, placed as in this pose.
+std::string stl_text(std::span<const WallMesh> meshes, const model::AnyMotion<double>& motion,
+                     const model::AnyPose<double>& pose);
 
 using Vector = Vec3<double>;
 using BallState = model::BallState<double>;

@@ -99,7 +99,7 @@ struct Summary {
   Real deepest_overlap{0};                  ///< by rounding, at any impact [m]
   double cpu_seconds = 0;
   std::uint64_t total_impacts = 0;                  ///< since the start of the run
-  std::vector<std::pair<std::string, Real>> notes;  ///< of observers (run/every_run.hpp)
+  std::vector<std::pair<std::string, Real>> notes;  ///< of observers (EveryRunList)
   Intervals intervals;
   std::vector<Warning> warnings;
   std::optional<double> wanted_precision;  ///< of the dose rate, relative

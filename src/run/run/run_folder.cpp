@@ -1,14 +1,42 @@
 #include "run/run_folder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstdlib>
+#include <ctime>
 
 #include "base/errors.hpp"
+#include "base/version.hpp"
 #include "casefile/quantity.hpp"
-#include "io/crate.hpp"
+#include "io/json_text.hpp"
 
 namespace edmill::run {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::pair<const char*, const char*> encodings[] = {
+    {".csv", "text/csv"},          {".json", "application/json"}, {".toml", "application/toml"},
+    {".h5", "application/x-hdf5"}, {".x3d", "model/x3d+xml"},     {".pvd", "application/xml"},
+    {".vtp", "application/xml"}};
+
+std::string today() {
+  std::time_t now = std::time(nullptr);
+  if (const char* fixed = std::getenv("SOURCE_DATE_EPOCH")) now = std::atoll(fixed);
+  std::tm date{};
+  gmtime_r(&now, &date);
+  return fmt::format("{:04}-{:02}-{:02}", date.tm_year + 1900, date.tm_mon + 1, date.tm_mday);
+}
+
+std::string id(const std::string& name) { return "{\"@id\": " + io::JsonText::of(name) + "}"; }
+
+std::string entity(const std::string& name, const char* type, const std::string& others) {
+  return ",\n    {\"@id\": " + io::JsonText::of(name) + ", \"@type\": \"" + type + "\", " + others + "}";
+}
+
+}  // namespace
 
 RunFolder::RunFolder(fs::path place, const casefile::CaseSpec& spec, std::optional<io::Checkpoint> checkpoint)
     : place_(std::move(place)), checkpoint_(std::move(checkpoint)) {
@@ -16,7 +44,7 @@ RunFolder::RunFolder(fs::path place, const casefile::CaseSpec& spec, std::option
   const bool begins = !checkpoint_ || (checkpoint_->state.empty() && checkpoint_->result.empty());
   if (begins) {
     io::require_no_checkpoint(place_);
-    io::require_own_files(place_, {"case.toml", "final_state.csv", "summary.json", io::crate_file});
+    io::require_own_files(place_, {"case.toml", "final_state.csv", "summary.json", crate_file});
     if (fs::exists(place_ / "runs") && fs::exists(place_ / "runs.csv"))
       throw InputError(
           place_.string() +
@@ -66,6 +94,34 @@ void RunFolder::write(const std::string& name, const std::function<void(std::ost
   auto& file = own_files_.emplace_back(place_ / name);
   put(file.stream());
   file.complete();
+}
+
+void RunFolder::write_crate(const std::string& case_digest, const std::string& precision,
+                            const std::vector<fs::path>& files) {
+  std::string parts, entities;
+  for (const auto& file : files) {
+    const auto name = file.generic_string();
+    parts += (parts.empty() ? "" : ", ") + id(name);
+    std::string others = "\"name\": " + io::JsonText::of(name);
+    for (const auto& [ending, encoding] : encodings)
+      if (file.extension() == ending) others += fmt::format(", \"encodingFormat\": \"{}\"", encoding);
+    entities += entity(name, "File", others);
+  }
+  const auto dataset = fmt::format(
+      "\"name\": \"Simulation of a ball mill\", \"description\": \"Simulation of a ball mill "
+      "by edmill {} in {}; case.toml has digest {}\", \"datePublished\": \"{}\", "
+      "\"hasPart\": [{}], \"mentions\": {{\"@id\": \"#run\"}}",
+      version(), precision, case_digest, today(), parts);
+  const auto action = "\"name\": \"edmill run\", \"instrument\": " + id("#edmill") +
+                      ", \"object\": " + id("case.toml") + ", \"result\": [" + parts + "]";
+  const auto program = "\"name\": \"edmill\", \"softwareVersion\": \"" + version() + "\"";
+  write(crate_file, [&](std::ostream& out) {
+    out << "{\n  \"@context\": \"https://w3id.org/ro/crate/1.1/context\",\n  \"@graph\": [\n    "
+           "{\"@id\": \"ro-crate-metadata.json\", \"@type\": \"CreativeWork\", \"about\": {\"@id\": "
+           "\"./\"}, \"conformsTo\": {\"@id\": \"https://w3id.org/ro/crate/1.1\"}}"
+        << entity("./", "Dataset", dataset) << entity("#run", "CreateAction", action)
+        << entity("#edmill", "SoftwareApplication", program) << entities << "\n  ]\n}\n";
+  });
 }
 
 void RunFolder::commit(std::vector<io::WholeFile*> files) {

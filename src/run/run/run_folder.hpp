@@ -32,6 +32,9 @@ struct Checkpoints {
   std::string_view restored;
 };
 
+/// Description of a run's files for archives: RO-Crate 1.1.
+inline constexpr const char* crate_file = "ro-crate-metadata.json";
+
 /// The folder that a run writes to. While this object lives, other processes cannot use it.
 class RunFolder {
  public:
@@ -54,6 +57,10 @@ class RunFolder {
 
   /// Writes a file of the run itself, which `commit` puts in place. @throws std::runtime_error
   void write(const std::string& name, const std::function<void(std::ostream&)>& put);
+  /// Describes these files, relative to the folder, and the program that made them, with the date of
+  /// SOURCE_DATE_EPOCH if the environment has it, else today's (UTC).
+  void write_crate(const std::string& case_digest, const std::string& precision,
+                   const std::vector<std::filesystem::path>& files);
   /// Moves these complete results into place, then the run's own; removes others of earlier runs.
   void commit(std::vector<io::WholeFile*> files);
   /// Removes the checkpoint of a run that has ended. @param result  kept there until then

@@ -13,7 +13,6 @@
 #include "base/wide_trigonometry.hpp"
 #include "casefile/case_spec.hpp"
 #include "edmill/run.hpp"
-#include "io/crate.hpp"
 #include "io/final_state.hpp"
 #include "io/summary.hpp"
 #include "output/collision_log.hpp"
@@ -439,9 +438,9 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
       io::write_final_state<Real>(out, saved_state(built_, driver_), clock);
     });
     folder_->write("case.toml", [&](std::ostream& out) { out << casefile::text_with_settings(*spec_); });
-    io::Crate crate{spec_->digest, scalar_name<Real>(), {"case.toml", "summary.json", "final_state.csv"}};
-    for (const auto* file : files) crate.files.push_back(file->place().lexically_proximate(folder_->place()));
-    folder_->write(io::crate_file, [&](std::ostream& out) { out << io::crate_text(crate); });
+    std::vector<std::filesystem::path> all{"case.toml", "summary.json", "final_state.csv"};
+    for (const auto* file : files) all.push_back(file->place().lexically_proximate(folder_->place()));
+    folder_->write_crate(spec_->digest, scalar_name<Real>(), all);
     folder_->write("summary.json", [&](std::ostream& out) { out << summary_json(); });
     folder_->commit(std::move(files));
   }

@@ -1,6 +1,4 @@
 // The prism that stands for a round wall: what contacts are judged against is what decks have as triangles.
-#include "decks/wall_mesh.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
