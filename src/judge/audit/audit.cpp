@@ -16,17 +16,6 @@ namespace edmill::audit {
 
 namespace {
 
-std::vector<Check> checks_not_made(const Findings& findings, bool any_pairs) {
-  std::vector<Check> missing;
-  for (std::size_t k = 0; k < check_count; ++k) {
-    const auto check = static_cast<Check>(k);
-    const bool only_pairs = check == Check::momentum && !any_pairs;
-    const bool tried = findings.judged_number(check) + findings.unresolved_number(check) > 0;
-    if (!tried && !only_pairs) missing.push_back(check);
-  }
-  return missing;
-}
-
 /// The body that a ball has hit: the other ball, or -1 - wall.
 int other_of(const LoggedEvent& event, std::size_t body) {
   return event.with_wall ? -1 - event.partner : event.ball_at(1 - body);
@@ -116,7 +105,7 @@ class Auditor : Judge {
   std::vector<Diagnosis> diagnoses() const {
     std::vector<Diagnosis> found;
     const auto add = [&](const char* name, std::uint64_t events, Kind kind, std::string text) {
-      if (const auto of = findings_.of(kind).count; events > 0 && accounts_for(events, of))
+      if (const auto of = findings_.of(kind).count; accounts_for(events, of))
         found.push_back({name, std::move(text), events, of});
     };
     if (least_ball_ == 1 && most_ball_ == flights_.balls())
@@ -132,18 +121,14 @@ class Auditor : Judge {
     add("pairs", from_both_sides_, Kind::duplicate,
         "impacts of two balls are logged for the one and for the other: log each once");
     const auto walls = case_.mill.walls();
-    const auto missed = findings_.of(Kind::missed_event).count;
     for (std::size_t wall = 0; wall < walls.size(); ++wall)
-      if (const auto through = flights_.flown_through()[wall];
-          with_wall_[wall] == 0 && accounts_for(through, missed))
-        found.push_back(
-            {"unseen_wall",
-             fmt::format("no impact with {} is logged, and balls fly through it{}", walls[wall].meaning,
-                         walls[wall].label == "cap -y"
-                             ? "; as with the printed error (2.19), (2.20): y - R - h/2 is negative "
-                               "everywhere in the vessel, the gap is h/2 + y - R"
-                             : ""),
-             through, missed});
+      if (with_wall_[wall] == 0)
+        add("unseen_wall", flights_.flown_through()[wall], Kind::missed_event,
+            fmt::format("no impact with {} is logged, and balls fly through it{}", walls[wall].meaning,
+                        walls[wall].label == "cap -y"
+                            ? "; as with the printed error (2.19), (2.20): y - R - h/2 is negative "
+                              "everywhere in the vessel, the gap is h/2 + y - R"
+                            : ""));
     return found;
   }
 
@@ -182,23 +167,21 @@ class Auditor : Judge {
   void find_wrong_balls(LoggedEvent& event) {
     for (std::size_t body = 0; body < event.count(); ++body) {
       if (!available_.body[body].position || !available_.body[body].velocity_before) continue;
+      const double time = event.time, speed = size(event.body[body].velocity_before);
       const auto off = [&](int k) {
-        const Track& track = flights_.of(k);
-        if (!track.state_known || event.time < track.start) return -1.0;
-        return size(Vec(flights_.position_at(k, event.time) - event.body[body].position));
+        if (!flights_.of(k).known_at(time)) return -1.0;
+        return size(Vec(flights_.position_at(k, time) - event.body[body].position));
       };
-      const int named = event.ball_at(body);
-      const double own = off(named), speed = size(event.body[body].velocity_before);
-      const double path = own >= 0 ? speed * (event.time - flights_.of(named).start) : 0;
-      const double allowed = tolerances_.position(event.time, path, speed), radius = radius_of(named);
+      const auto allowed = [&](int k) {
+        return tolerances_.position(time, speed * (time - flights_.of(k).start), speed);
+      };
+      const int named = event.ball_at(body), other = event.ball_at(1 - body);
+      const double own = off(named), radius = radius_of(named);
       // Balls cannot be distinguished if the tolerance exceeds half a radius.
-      if (own <= radius / 100 + allowed || allowed > radius / 2) continue;
+      if (own < 0 || own <= radius / 100 + allowed(named) || allowed(named) > radius / 2) continue;
       for (int k = 0; k < flights_.balls(); ++k) {
         const double theirs = off(k);
-        if (k == named || theirs < 0 || k == event.ball_at(1 - body) ||
-            !vanishes(own, theirs,
-                      tolerances_.position(event.time, speed * (event.time - flights_.of(k).start), speed)))
-          continue;
+        if (k == named || k == other || theirs < 0 || !vanishes(own, theirs, allowed(k))) continue;
         report(Kind::wrong_partner, event, own, named, k, "the states are another ball's");
         (body == 0 ? event.ball : event.partner) = k;
         break;
@@ -239,7 +222,7 @@ class Auditor : Judge {
         return true;
       }
     for (int k = 0; k < flights_.balls(); ++k) {
-      if (k == event.ball || !flights_.of(k).state_known || event.time < flights_.of(k).start) continue;
+      if (k == event.ball || !flights_.of(k).known_at(event.time)) continue;
       const Vec between = flights_.position_at(k, event.time) - position;
       const double apart = std::abs(size(between) - radius - radius_of(k));
       if (vanishes(off, apart, allowed)) {
@@ -327,10 +310,9 @@ class Auditor : Judge {
 
 /// Audits a sequence of events.
 /// @param next  returns the next event in order of time, or nothing at the end
-template <class Next>
 Audit audit_events(const model::Case<double>& the_case, const std::vector<model::BallState<double>>* states,
                    const Options& options, const std::string& file, const Available& available,
-                   const Next& next) {
+                   const auto& next) {
   Audit result;
   result.findings = Findings(options.examples);
   result.tolerances = tolerances_of(the_case, options);
@@ -352,8 +334,11 @@ Audit audit_events(const model::Case<double>& the_case, const std::vector<model:
     if (options.progress && result.events % 4096 == 0) options.progress(event->time, result.events);
   }
   auditor.finish();
-  result.not_made = checks_not_made(result.findings, any_pairs);
   const auto& checked = result.findings;
+  result.not_made = checks_with([&](Check check) {
+    const bool tried = checked.judged_number(check) + checked.unresolved_number(check) > 0;
+    return !tried && (check != Check::momentum || any_pairs);
+  });
   // A log can be clean only if at least half of its contacts could be checked.
   const bool judged = checked.judged_number(Check::touch) + checked.judged_number(Check::milling_dose) > 0 &&
                       checked.judged_number(Check::touch) >= checked.unresolved_number(Check::touch);

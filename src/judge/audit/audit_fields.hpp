@@ -58,12 +58,6 @@ struct Fields {
   }
 
  private:
-  static std::vector<Check> checks_with(const auto& wanted) {
-    std::vector<Check> list;
-    for (std::size_t k = 0; k < check_count; ++k)
-      if (const auto check = static_cast<Check>(k); wanted(check)) list.push_back(check);
-    return list;
-  }
   void violations(auto& v, Kind kind) const {
     const Tally& tally = a.findings.of(kind);
     v("count", "1", "", tally.count);

@@ -21,9 +21,8 @@ std::string describe(const Finding& f) {
 /// Lists the checks whose `number` is not 0: "touch (12), approach (7)".
 std::string list_of_checks(const Findings& findings, std::uint64_t (Findings::*number)(Check) const) {
   std::vector<std::string> list;
-  for (std::size_t k = 0; k < check_count; ++k)
-    if (const auto n = (findings.*number)(static_cast<Check>(k)); n > 0)
-      list.push_back(fmt::format("{} ({})", checks[k].name, n));
+  for (const Check check : checks_with([&](Check c) { return (findings.*number)(c) > 0; }))
+    list.push_back(fmt::format("{} ({})", info(check).name, (findings.*number)(check)));
   return fmt::format("{}", fmt::join(list, ", "));
 }
 

@@ -54,6 +54,13 @@ constexpr Kind kind_of(Check check) {
   return static_cast<Kind>(first - kinds.begin());
 }
 inline const CheckInfo& info(Check check) { return checks[static_cast<std::size_t>(check)]; }
+/// The checks for which `wanted` is true.
+std::vector<Check> checks_with(const auto& wanted) {
+  std::vector<Check> list;
+  for (std::size_t k = 0; k < check_count; ++k)
+    if (const auto check = static_cast<Check>(k); wanted(check)) list.push_back(check);
+  return list;
+}
 
 /// A violation, with the bodies, time and log line of its impact.
 struct Finding : model::ImpactRecord<double> {

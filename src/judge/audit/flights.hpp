@@ -34,6 +34,7 @@ struct Flying {
 /// The last logged state of a ball.
 struct Track : Flying {
   bool state_known = false, spin_known = false;
+  bool known_at(double time) const { return state_known && time >= start; }
   /// Time of an unlogged impact during the flight [s]; infinity if none is known.
   double broken_from = std::numeric_limits<double>::infinity();
   std::vector<Finding> pending;  ///< missed impacts, found at the end of the other ball's flight
@@ -75,7 +76,7 @@ class Flights : Judge {
     Track& track = of(ball);
     const double time = end.event->time;
     settle_held(track, end.event);
-    if (!track.state_known || time < track.start) return;
+    if (!track.known_at(time)) return;
     put_rows_of_end(ball, track, end);
     const double off = judge_end(ball, track, end, false);
     const double until = std::min(time, track.broken_from);

@@ -7,7 +7,6 @@
 
 #include "base/clean_text.hpp"
 #include "base/errors.hpp"
-#include "compare/junit.hpp"
 #include "dem/contacts.hpp"
 #include "io/fields.hpp"
 #include "logs/event_log.hpp"

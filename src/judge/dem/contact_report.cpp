@@ -2,7 +2,6 @@
 
 #include "base/clean_text.hpp"
 #include "base/version.hpp"
-#include "compare/junit.hpp"
 #include "dem/contact_audit.hpp"
 #include "io/fields.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "dem/contact_audit.hpp"
-#include "identify/assumptions.hpp"
+#include "identify/assumed.hpp"
 
 namespace edmill::dem {
 

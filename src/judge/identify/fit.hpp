@@ -13,7 +13,7 @@
 
 #include "audit/audit.hpp"
 #include "audit/equations.hpp"
-#include "identify/assumptions.hpp"
+#include "identify/assumed.hpp"
 
 namespace edmill::identify {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "audit/audit.hpp"
-#include "identify/assumptions.hpp"
+#include "identify/assumed.hpp"
 
 namespace edmill::identify {
 

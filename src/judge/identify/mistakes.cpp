@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "audit/mechanics.hpp"
-#include "identify/assumptions.hpp"
+#include "identify/assumed.hpp"
 
 namespace edmill::identify {
 

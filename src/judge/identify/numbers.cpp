@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "identify/assumptions.hpp"
+#include "identify/assumed.hpp"
 
 namespace edmill::identify {
 

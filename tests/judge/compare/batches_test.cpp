@@ -1,5 +1,5 @@
 // Tests on batches against closed forms, and their rate of false alarms.
-#include "compare/batches.hpp"
+#include "compare/comparison.hpp"
 
 #include <gtest/gtest.h>
 
