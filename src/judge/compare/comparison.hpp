@@ -1,4 +1,5 @@
-// Two collision logs compared: event by event, then by statistics of batches, with a verdict for each quantity.
+// Two collision logs compared: event by event, then by statistics of batches, with a verdict for each
+// quantity.
 #pragma once
 
 #include "logs/event_log.hpp"

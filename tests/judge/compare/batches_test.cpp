@@ -1,6 +1,4 @@
 // Tests on batches against closed forms, and their rate of false alarms.
-#include "compare/comparison.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <random>
 
 #include "base/statistics.hpp"
+#include "compare/comparison.hpp"
 
 namespace edmill::compare {
 namespace {
