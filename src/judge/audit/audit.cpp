@@ -101,7 +101,7 @@ class Auditor : Judge {
   }
 
  private:
-  /// Diagnoses walls that are missing in the other code, and other conventions for numbers and lines.
+  /// Diagnoses walls that the other code lacks, and other conventions for numbers and lines.
   std::vector<Diagnosis> diagnoses() const {
     std::vector<Diagnosis> found;
     const auto add = [&](const char* name, std::uint64_t events, Kind kind, std::string text) {
@@ -149,7 +149,7 @@ class Auditor : Judge {
     findings_.add({event, kind, size, found, expected, note});
   }
 
-  /// True if the event repeats the ball's last one: separated bodies cannot collide again at the same time.
+  /// True if the event repeats the ball's last one: bodies cannot collide twice at the same time.
   bool is_repeated(const LoggedEvent& event) const {
     const LastEvent& last = last_[event.ball];
     if (last.time != event.time || last.other != other_of(event, 0)) return false;
@@ -193,7 +193,7 @@ class Auditor : Judge {
     if (event.with_wall) ++with_wall_[event.partner];
     if (!available_.positions(event.with_wall)) return {};
     const double allowed = tolerances_.touch(event.time, event.with_wall);
-    // The touch cannot be checked if the position of the wall is uncertain by more than half a radius.
+    // The touch cannot be checked if the wall's position is uncertain by more than half a radius.
     if (event.with_wall && tolerances_.wall_places(event.time) > radius_of(event.ball) / 2) {
       findings_.unresolved(Check::touch);
       return {};
@@ -207,8 +207,7 @@ class Auditor : Judge {
     return {gap < 0, true};
   }
 
-  /// Finds the body that is actually touched, at a distance `off` from the one that is logged; the other
-  /// checks of the event use it.
+  /// Finds the body that is touched, at `off` from the logged one; the other checks use it.
   bool another_body_is_there(LoggedEvent& event, const VesselFrame& frame, double allowed, double off) {
     const double radius = radius_of(event.ball);
     const Vec& position = event.body[0].position;
@@ -243,10 +242,10 @@ class Auditor : Judge {
     rows_.clear();
     const auto allowed = equations_.of_impact(impact, rows_);
     if (friction == Friction::either) {  // choose the one that violates fewer equations
-      std::vector<Row> rested;
+      Rows rested;
       impact.in_stall = true;
       equations_.of_impact(impact, rested);
-      const auto violated = [](const std::vector<Row>& rows) {
+      const auto violated = [](const Rows& rows) {
         return std::count_if(rows.begin(), rows.end(), std::mem_fn(&Row::is_violated));
       };
       impact.in_stall = violated(rested) < violated(rows_);
@@ -298,7 +297,7 @@ class Auditor : Judge {
 
   Audit& result_;
   Equations equations_;
-  std::vector<Row> rows_;  ///< equations of the current impact
+  Rows rows_;  ///< equations of the current impact
   Flights flights_;
   StallHistory stalls_;
   std::vector<LastEvent> last_;

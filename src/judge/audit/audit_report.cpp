@@ -26,7 +26,7 @@ std::string list_of_checks(const Findings& findings, std::uint64_t (Findings::*n
   return fmt::format("{}", fmt::join(list, ", "));
 }
 
-/// Reports the effect of rounded times, if it exceeds the relative tolerance, and the unresolved checks.
+/// Reports rounded times, if their effect exceeds the tolerance, and the unresolved checks.
 std::string unresolved_checks(const Audit& a) {
   std::string out;
   const double latest = std::max(std::abs(a.first), std::abs(a.last));

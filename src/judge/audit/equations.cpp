@@ -6,25 +6,11 @@
 
 namespace edmill::audit {
 
-namespace {
-
-/// A row of one number.
-Row scalar(Check equation, RowKind kind, double difference, double allowed, double found, double expected) {
-  return {equation, kind, -1, 1, {difference, 0, 0}, std::abs(difference), allowed, found, expected};
-}
-Row vector(Check equation, RowKind kind, int body, const Vec& difference, double allowed) {
-  const double off = size(difference);
-  return {equation, kind, body, 3, difference, off, allowed, off, 0};
+void Equations::of_touch(const LoggedEvent& event, double gap, Rows& rows) const {
+  rows.scalar(Check::touch, gap - terms_.contact_gap, tolerances_.touch(event.time, event.with_wall), gap, 0);
 }
 
-}  // namespace
-
-Row Equations::of_touch(const LoggedEvent& event, double gap) const {
-  return scalar(Check::touch, RowKind::touch, gap - terms_.contact_gap,
-                tolerances_.touch(event.time, event.with_wall), gap, 0);
-}
-
-ImpactTolerance Equations::of_impact(const LoggedImpact& impact, std::vector<Row>& rows) const {
+ImpactTolerance Equations::of_impact(const LoggedImpact& impact, Rows& rows) const {
   const LoggedEvent& event = *impact.event;
   const bool with_wall = impact.with_wall();
   if (!has_.positions(with_wall) || !has_.velocities_before(with_wall)) {
@@ -38,24 +24,22 @@ ImpactTolerance Equations::of_impact(const LoggedImpact& impact, std::vector<Row
   const double allowed = tolerances_.relative * scale + by_wall;
   const double energy = 4 * allowed * impact.effective_mass * scale;
   const Speeds speeds = speeds_before(impact);
-  rows.push_back(scalar(Check::approach, RowKind::law, std::max(0.0, speeds.g_n), allowed, -speeds.g_n, 0));
+  rows.scalar(Check::approach, std::max(0.0, speeds.g_n), allowed, -speeds.g_n, 0);
   if (after) of_states(impact, speeds, allowed, rows);
   if (has_.approach_speed)
-    rows.push_back(scalar(Check::approach_speed, RowKind::speed,
-                          event.approach_speed + speeds.g_n * terms_.approach_speed, allowed,
-                          event.approach_speed, -speeds.g_n));
+    rows.scalar(Check::approach_speed, event.approach_speed + speeds.g_n * terms_.approach_speed, allowed,
+                event.approach_speed, -speeds.g_n);
   if (has_.slip_speed && spins)
-    rows.push_back(scalar(Check::slip_speed, RowKind::speed,
-                          event.slip_speed - speeds.slip * terms_.slip_speed, allowed, event.slip_speed,
-                          speeds.slip));
+    rows.scalar(Check::slip_speed, event.slip_speed - speeds.slip * terms_.slip_speed, allowed,
+                event.slip_speed, speeds.slip);
   if (after && spins) of_energies(impact, speeds, energy, rows);
   return {energy, by_wall == 0 || by_wall < scale};
 }
 
-/// Residuals of the logged states with respect to the outcome by the contact law: for each body, or summed as
-/// in (2.23'), (2.28'), (2.35) and (2.24'). In the sums the logged normal impulse limits the friction.
+/// Residuals of the logged states with respect to the contact law's outcome: for each body, or as in (2.23'),
+/// (2.28'), (2.35) and (2.24'). In the sums the logged normal impulse limits the friction.
 void Equations::of_states(const LoggedImpact& impact, const Speeds& speeds, double allowed,
-                          std::vector<Row>& rows) const {
+                          Rows& rows) const {
   const auto& logged = impact.event->body;
   const bool spins = has_.spins(impact.with_wall()), summed = !by_body_ || !spins;
   const auto due = outcome(impact, terms_, summed);
@@ -76,35 +60,31 @@ void Equations::of_states(const LoggedImpact& impact, const Speeds& speeds, doub
     torque[k] = spin * (ball.reduced_inertia * ball.radius) -
                 edmill::cross<double>(arm, velocity) * (1 / ball.radius);
     if (summed) continue;
-    rows.push_back(vector(Check::momentum, RowKind::law, static_cast<int>(k), velocity, allowed));
-    rows.push_back(
-        vector(Check::spin_change, RowKind::law, static_cast<int>(k), spin * ball.radius, allowed));
+    rows.vector(Check::momentum, k, velocity, allowed);
+    rows.vector(Check::spin_change, k, spin * ball.radius, allowed);
   }
   if (!summed) return;
   const double g_n = speeds.g_n, g_n_after = impact.g_n_after();
   double normal = impact.along(relative);
-  // If bodies separate before the impact (reported elsewhere), reflecting g_n as usual is accepted too.
+  // If bodies separate before the impact, which is reported, reflecting g_n is accepted too.
   if (const double other = g_n_after - impact.by_restitution(g_n);
       g_n > allowed && std::abs(other) < std::abs(normal))
     normal = other;
-  rows.push_back(scalar(Check::normal_law, RowKind::law, normal, allowed,
-                        g_n != 0 ? -g_n_after / g_n : unknown,
-                        g_n != 0 ? -impact.separation_speed(g_n) / g_n : unknown));
-  if (!impact.with_wall()) rows.push_back(vector(Check::momentum, RowKind::law, -1, momentum, allowed));
+  rows.scalar(Check::normal_law, normal, allowed, g_n != 0 ? -g_n_after / g_n : unknown,
+              g_n != 0 ? -impact.separation_speed(g_n) / g_n : unknown);
+  if (!impact.with_wall()) rows.vector(Check::momentum, -1, momentum, allowed);
   if (!spins) return;
-  for (std::size_t k = 0; k < impact.count(); ++k)
-    rows.push_back(vector(Check::spin_change, RowKind::law, static_cast<int>(k), torque[k], allowed));
-  Row tangential = vector(Check::tangential_law, RowKind::law, -1, impact.across(slip), allowed);
+  for (std::size_t k = 0; k < impact.count(); ++k) rows.vector(Check::spin_change, k, torque[k], allowed);
+  Row& tangential = rows.vector(Check::tangential_law, -1, impact.across(slip), allowed);
   const Vec before = impact.across(impact.before());
   tangential.found = speeds.slip > 0 ? dot(before, impact.after()) / dot(before, before) : unknown;
   tangential.expected = due.restitution_tangential;
-  rows.push_back(tangential);
 }
 
-/// The dose is the wall work plus the energy that the least separation speed supplies, minus what the balls
-/// have gained. (2.36'), (A.82)
+/// The dose is the wall work plus what the least separation speed supplies, minus what the balls gain.
+/// (2.36'), (A.82)
 void Equations::of_energies(const LoggedImpact& impact, const Speeds& speeds, double allowed,
-                            std::vector<Row>& rows) const {
+                            Rows& rows) const {
   const LoggedEvent& event = *impact.event;
   const double work = work_of_wall(impact);
   if (has_.milling_dose) {
@@ -116,40 +96,39 @@ void Equations::of_energies(const LoggedImpact& impact, const Speeds& speeds, do
       if (const double other = event.milling_dose - terms_.dose * dose; std::abs(other) < std::abs(off))
         off = other;
     };
-    // A code with a wrong impulse may compute its dose from the law, or supply no energy: then the law is
-    // violated, not the dose. A fit accepts this only if a term changes the impulse: its rows must be smooth.
+    // A code with a wrong impulse may compute its dose from the law, or supply no energy: the law is
+    // violated, not the dose. In a fit, of smooth rows, only if a term changes the impulse.
     if (!by_body_ || terms_.change_impulse()) or_else(dose_by_law(impact, speeds));
     const bool supplies = supplied(impact, speeds.g_n, impact.separation_speed(speeds.g_n)) > 0;
     if (!by_body_ && !supplies) or_else(balance);
-    rows.push_back(scalar(Check::milling_dose, RowKind::energy, off, allowed, event.milling_dose, expected));
+    rows.scalar(Check::milling_dose, off, allowed, event.milling_dose, expected);
   }
   if (has_.wall_work)
-    rows.push_back(scalar(Check::wall_work, RowKind::energy, event.wall_work - work * terms_.wall_work,
-                          allowed, event.wall_work, work));
+    rows.scalar(Check::wall_work, event.wall_work - work * terms_.wall_work, allowed, event.wall_work, work);
 }
 
-void Equations::of_logged_speeds(const LoggedImpact& impact, std::vector<Row>& rows) const {
+void Equations::of_logged_speeds(const LoggedImpact& impact, Rows& rows) const {
   const LoggedEvent& event = *impact.event;
   if (has_.approach_speed) {
     const auto true_of = [](double logged, double factor) { return factor == 0 ? logged : logged / factor; };
     const double approach = true_of(event.approach_speed, terms_.approach_speed);
     const double slip = has_.slip_speed ? true_of(event.slip_speed, terms_.slip_speed) : 0;
     const double scale = std::max(std::abs(approach), slip);
-    rows.push_back(scalar(Check::approach, RowKind::law, std::max(0.0, -approach),
-                          tolerances_.relative * std::max(scale, 1.0), approach, 0));
+    rows.scalar(Check::approach, std::max(0.0, -approach), tolerances_.relative * std::max(scale, 1.0),
+                approach, 0);
     if (has_.slip_speed && has_.milling_dose) {
       const double expected = terms_.dose * dose_by_law(impact, {-approach, slip});
       const double speed = std::max(scale, impact.law->least_separation);
-      rows.push_back(scalar(Check::milling_dose, RowKind::energy, event.milling_dose - expected,
-                            4 * tolerances_.relative * impact.effective_mass * speed * speed,
-                            event.milling_dose, expected));
+      rows.scalar(Check::milling_dose, event.milling_dose - expected,
+                  4 * tolerances_.relative * impact.effective_mass * speed * speed, event.milling_dose,
+                  expected);
     }
   }
   if (has_.wall_work && !event.with_wall)
-    rows.push_back(scalar(Check::wall_work, RowKind::energy, event.wall_work, 0, event.wall_work, 0));
+    rows.scalar(Check::wall_work, event.wall_work, 0, event.wall_work, 0);
 }
 
-void Equations::of_flight(const LoggedFlight& flight, const Vec& gravity, std::vector<Row>& rows) const {
+void Equations::of_flight(const LoggedFlight& flight, const Vec& gravity, Rows& rows) const {
   const auto& [from, to, had, has, begin, time, radius, body] = flight;
   if (had.position && had.velocity_after && has.position) {
     const double dt = time - begin + terms_.time_of_flight;
@@ -157,20 +136,19 @@ void Equations::of_flight(const LoggedFlight& flight, const Vec& gravity, std::v
     const Vec g = gravity * terms_.gravity;
     const double fastest = speed + size(g) * std::abs(dt);
     const Vec path = (from.velocity_after + g * (terms_.gravity_in_places * (dt / 2))) * dt;
-    rows.push_back(vector(Check::flight, RowKind::place, body, to.position - (from.position + path),
-                          tolerances_.position(time, speed * dt, fastest)));
+    rows.vector(Check::flight, body, to.position - (from.position + path),
+                tolerances_.position(time, speed * dt, fastest))
+        .kind = RowKind::place;
     const Vec fallen = g * (terms_.gravity_in_velocities * (dt - terms_.age_of_velocities));
     if (has.velocity_before)
-      rows.push_back(vector(Check::flight, RowKind::velocity, body,
-                            to.velocity_before - (from.velocity_after + fallen),
-                            tolerances_.velocity(time, fastest)));
+      rows.vector(Check::flight, body, to.velocity_before - (from.velocity_after + fallen),
+                  tolerances_.velocity(time, fastest));
   }
   if (has.spin_before && had.spin_after) {
     const double scale = std::max({size(from.velocity_after), size(to.velocity_before),
                                    radius * size(from.spin_after), radius * size(to.spin_before)});
-    rows.push_back(vector(Check::spin_kept, RowKind::velocity, body,
-                          (to.spin_before - from.spin_after * terms_.spin_in_flight) * radius,
-                          tolerances_.relative * scale));
+    rows.vector(Check::spin_kept, body, (to.spin_before - from.spin_after * terms_.spin_in_flight) * radius,
+                tolerances_.relative * scale);
   }
 }
 

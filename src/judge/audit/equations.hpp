@@ -59,10 +59,8 @@ struct Tolerances {
   }
   double velocity(double t, double speed) const { return relative * speed + 2 * rounding_of(t) * gravity; }
 
-  /// Contribution of the wall's uncertainty to the difference of two relative velocities of an impact, both
-  /// normal or both tangential [m/s].
-  /// @param scale  upper bound of the velocities of the impact; relative ones are at most three times as
-  /// large
+  /// What the wall's uncertainty contributes to a difference of relative velocities [m/s].
+  /// @param scale  bound of the velocities; relative ones are at most three times as large
   /// @param bend   rotation of the normal per displacement of the ball in the vessel [1/m]
   double of_wall(double t, double scale, double bend, double radius) const {
     const double turned = walls.turning + walls.speed * bend;  // of the normal [rad/s]
@@ -72,20 +70,20 @@ struct Tolerances {
   }
 };
 
-/// Whether an impact has friction or is frictionless because of a stall (docs/theory.md, section 6); `either`
-/// if the log does not determine how long the preceding flights were.
+/// Whether an impact has friction, or none because of a stall (docs/theory.md, section 6); `either` if the
+/// log does not tell how long the preceding flights were.
 enum class Friction { acts, rests, either };
 
 /// Bounds the number of consecutive impacts of each ball without time to move in between.
 class StallHistory {
  public:
-  explicit StallHistory(const model::Mill<double>& mill, std::size_t balls)
-      : mill_(mill), balls_(balls, Ball{unknown, 0, mill.stall.impacts}) {}
+  StallHistory(const model::Mill<double>& mill, std::size_t balls)
+      : stall_(mill.stall), balls_(balls, Ball{unknown, 0, stall_.impacts}) {}
 
   /// Starts all flights at `time`; the log is complete from then on.
   void begin(double time) { std::fill(balls_.begin(), balls_.end(), Ball{time, 0, 0}); }
   /// Discards the history of a ball of which events are missing.
-  void forget(int ball) { balls_[ball] = {unknown, 0, mill_.stall.impacts}; }
+  void forget(int ball) { balls_[ball] = {unknown, 0, stall_.impacts}; }
 
   /// Counts an event and returns its state of friction. @param relative  tolerance of logged times
   Friction take(const LoggedEvent& event, const model::ContactLaw<double>& law, double relative) {
@@ -104,11 +102,11 @@ class StallHistory {
 
   Friction count(int k, double time, const model::ContactLaw<double>& law, double relative) {
     Ball& ball = balls_[k];
-    const int enough = mill_.stall.impacts;
-    const double flight = time - ball.time, off = 2 * rounding_of(time) + relative * std::abs(flight);
-    const bool may_have_moved =
-        std::isnan(flight) || mill_.stall.has_moved(flight + off, law.least_separation);
-    const bool has_moved = !std::isnan(flight) && mill_.stall.has_moved(flight - off, law.least_separation);
+    const int enough = stall_.impacts;
+    const double flight = time - ball.time, speed = law.least_separation;
+    const double off = 2 * rounding_of(time) + relative * std::abs(flight);
+    const bool may_have_moved = std::isnan(flight) || stall_.has_moved(flight + off, speed);
+    const bool has_moved = !std::isnan(flight) && stall_.has_moved(flight - off, speed);
     const Friction friction = has_moved || ball.most < enough           ? Friction::acts
                               : !may_have_moved && ball.least >= enough ? Friction::rests
                                                                         : Friction::either;
@@ -118,13 +116,9 @@ class StallHistory {
     return friction;
   }
 
-  const model::Mill<double>& mill_;
+  const model::StallRule& stall_;
   std::vector<Ball> balls_;
 };
-
-/// The quantity of a row; rows of one kind share a scale of noise.
-enum class RowKind : unsigned char { touch, law, energy, speed, place, velocity };
-inline constexpr std::size_t row_kinds = 6;
 
 /// The residual of an equation at an event of the log.
 struct Row {
@@ -138,6 +132,20 @@ struct Row {
   double found = unknown, expected = unknown;  ///< for reports, if more informative
 
   bool is_violated() const { return size > allowed; }
+};
+
+/// Rows of which most have the kind of their check.
+struct Rows : std::vector<Row> {
+  /// Adds a row of one number.
+  void scalar(Check check, double difference, double allowed, double found, double expected) {
+    const Vec first{difference, 0, 0};
+    push_back({check, info(check).rows, -1, 1, first, std::abs(difference), allowed, found, expected});
+  }
+  Row& vector(Check check, auto body, const Vec& difference, double allowed) {
+    const double off = audit::size(difference);
+    push_back({check, info(check).rows, static_cast<int>(body), 3, difference, off, allowed, off, 0});
+    return back();
+  }
 };
 
 /// A flight between two logged impacts of a ball.
@@ -159,27 +167,24 @@ struct ImpactTolerance {
 class Equations {
  public:
   /// @param terms  those of the code that made the log
-  /// @param by_body  true: residuals of each body's velocity and spin, for fits, in which a term may differ
-  /// for one body alone; false: residuals of the law along and across the normal, momentum and torque
+  /// @param by_body  residuals of each body's velocity and spin, for fits, in which a term may differ for
+  /// one; otherwise of the law along and across the normal, momentum and torque
   Equations(const Available& available, const Tolerances& tolerances, const Terms& terms = {},
             bool by_body = false)
       : has_(available), tolerances_(tolerances), terms_(terms), by_body_(by_body) {}
 
   /// The bodies of an event touch. @param gap  between them [m]
-  Row of_touch(const LoggedEvent& event, double gap) const;
+  void of_touch(const LoggedEvent& event, double gap, Rows& rows) const;
   /// The contact law, conservation, and the values logged with an impact: by the states of its bodies, or
   /// without them by the logged speeds.
-  ImpactTolerance of_impact(const LoggedImpact& impact, std::vector<Row>& rows) const;
-  /// Position, velocity and spin at the end of a flight.
-  /// @param gravity  of the case [m/s^2]
-  void of_flight(const LoggedFlight& flight, const Vec& gravity, std::vector<Row>& rows) const;
+  ImpactTolerance of_impact(const LoggedImpact& impact, Rows& rows) const;
+  /// Position, velocity and spin at the end of a flight. @param gravity  of the case [m/s^2]
+  void of_flight(const LoggedFlight& flight, const Vec& gravity, Rows& rows) const;
 
  private:
-  void of_states(const LoggedImpact& impact, const Speeds& speeds, double allowed,
-                 std::vector<Row>& rows) const;
-  void of_energies(const LoggedImpact& impact, const Speeds& speeds, double allowed,
-                   std::vector<Row>& rows) const;
-  void of_logged_speeds(const LoggedImpact& impact, std::vector<Row>& rows) const;
+  void of_states(const LoggedImpact& impact, const Speeds& speeds, double allowed, Rows& rows) const;
+  void of_energies(const LoggedImpact& impact, const Speeds& speeds, double allowed, Rows& rows) const;
+  void of_logged_speeds(const LoggedImpact& impact, Rows& rows) const;
 
   const Available& has_;
   const Tolerances& tolerances_;

@@ -19,8 +19,8 @@ enum class Kind : std::size_t {
 #include "audit/findings.def"
 };
 #undef EDMILL_KIND
-/// Checks, each of which finds one or several kinds. The share of a kind is relative to the checks made.
-#define EDMILL_CHECK(id, name, columns) id,
+/// Checks, each of which finds one or several kinds. A kind's share is relative to those made.
+#define EDMILL_CHECK(id, name, rows, columns) id,
 enum class Check : std::size_t {
 #include "audit/findings.def"
 };
@@ -36,11 +36,15 @@ inline constexpr std::array kinds{
 #include "audit/findings.def"
 };
 #undef EDMILL_KIND
+/// The quantity of a row; rows of one kind share a scale of noise.
+enum class RowKind : unsigned char { touch, law, energy, speed, place, velocity };
+inline constexpr std::size_t row_kinds = 6;
 struct CheckInfo {
   std::string_view name;
+  RowKind rows;
   std::string_view columns;  ///< that it needs
 };
-#define EDMILL_CHECK(id, name, columns) CheckInfo{name, columns},
+#define EDMILL_CHECK(id, name, rows, columns) CheckInfo{name, RowKind::rows, columns},
 inline constexpr std::array checks{
 #include "audit/findings.def"
 };
@@ -142,13 +146,13 @@ struct Energies {
   }
 };
 
-/// True if an assumption explains a violation: the residual with it is within the tolerance and at most a
-/// tenth of the residual without it. The second condition matters where the tolerance is coarse.
+/// True if an assumption explains a violation: the residual with it is within the tolerance and, where that
+/// is coarse, at most a tenth of the one without it.
 inline bool vanishes(double without, double with, double allowed) {
   return with <= allowed && 10 * with <= without;
 }
 
-/// True if a cause explains at least nine tenths of the violations; the others may have another cause.
+/// True if a cause explains at least nine tenths of the violations; others may have another.
 inline bool accounts_for(std::uint64_t explained, std::uint64_t of) {
   return explained > 0 && 10 * explained >= 9 * of;
 }

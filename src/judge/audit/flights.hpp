@@ -38,7 +38,7 @@ struct Track : Flying {
   /// Time of an unlogged impact during the flight [s]; infinity if none is known.
   double broken_from = std::numeric_limits<double>::infinity();
   std::vector<Finding> pending;  ///< missed impacts, found at the end of the other ball's flight
-  /// A missed impact with a wall, held until the ball's next line shows that it is not logged at this time.
+  /// A missed impact with a wall, held until the ball's next line, which may log it at this time.
   std::optional<Finding> held;
 };
 
@@ -137,7 +137,7 @@ class Flights : Judge {
   static constexpr double fastest_judged = 1e4;  ///< [m/s]
   static constexpr int samples = 32;             ///< of a flight
 
-  /// Half of the smallest sum of two balls' radii; the search reduces the sums by no more than half.
+  /// Half of the smallest sum of two radii; the search reduces the sums by no more than half.
   static double smallest_radius(const model::Case<double>& c) {
     const auto smaller = [](const auto& a, const auto& b) { return a.radius < b.radius; };
     return std::min_element(c.balls.begin(), c.balls.end(), smaller)->radius;
@@ -149,8 +149,7 @@ class Flights : Judge {
     int partner = -1;
     double depth = 0;  ///< largest overlap of the bodies later in the flight [m]
   };
-  /// First overlap of a ball with a wall in its flight. The radius is reduced by the tolerance, so that a
-  /// contact is certainly an overlap.
+  /// First overlap of a ball with a wall in its flight, with a radius reduced by the tolerance.
   std::optional<Encounter> first_wall(int ball, const Track& track, double until, double slack) {
     const double radius = radius_of(ball);
     const auto frame = nested_at(track.start);
@@ -371,8 +370,7 @@ class Flights : Judge {
     return wall || explained || !flown_through;
   }
 
-  /// Confirms missed impacts that were found at the end of other balls' flights, if this flight agrees with
-  /// the log.
+  /// Confirms missed impacts found at the end of others' flights, if this one agrees with the log.
   void settle_pending(Track& track, const FlightEnd& end, double off, double missed_at) {
     const int other = end.partner();
     for (const auto& missed : track.pending) {
@@ -411,7 +409,7 @@ class Flights : Judge {
   }
 
   Equations equations_;
-  std::vector<Row> rows_;  ///< of the present flight
+  Rows rows_;  ///< of the present flight
   DriveClock<double> clock_;
   dynamics::DecisionLadder<double> ladder_;
   double top_speed_;

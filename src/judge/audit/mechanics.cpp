@@ -74,8 +74,7 @@ double bend_of(const auto& room, int wall, const Vec& place, double step) {
   return std::sqrt(square) / step;
 }
 
-/// Calls f(frame, room, number) with what a wall belongs to, its frame and its number there: the vessel, or a
-/// body.
+/// Calls f(frame, room, number) with the vessel or body of a wall, and its number there.
 template <class F>
 auto with_wall(const model::Mill<double>& mill, int wall, const VesselFrame& vessel, double radius, F&& f) {
   const auto* body = mill.body_of(wall);
@@ -193,7 +192,7 @@ Vec LoggedImpact::after() const {
 
 double LoggedImpact::tangential_restitution(double c, double bounce, double slip_speed) const {
   if (in_stall) return 1;
-  // Sliding has an independent formula here, so that a mistake in the law that runs use is detected.
+  // Sliding has a formula of its own here: a mistake in the law that runs use is detected.
   if (const auto* coulomb = std::get_if<model::WaltonBraun<double>>(&law->law)) {
     const double reversal = coulomb->friction * c * bounce;  // reduction of the slip by full sliding
     if (reversal >= (1 - coulomb->min_tangential) * slip_speed) return coulomb->min_tangential;

@@ -1,6 +1,5 @@
-// The mechanics of the audit, written from the definitions and independently of the solver's own
-// impulse: the vessel's walls, the correct outcome of an impact, and its outcome with wrong formulas.
-// Equations: docs/theory.md, sections 1, 2 and 5.
+// The mechanics of the audit, independent of the solver's: the vessel's walls, the outcome of an impact by
+// right and by wrong formulas. Equations: docs/theory.md, sections 1, 2 and 5.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +17,7 @@ using logs::Available, logs::BodyState, logs::LoggedEvent, logs::unknown;
 EIGEN_ALWAYS_INLINE double dot(const Vec& a, const Vec& b) { return a.dot(b); }
 EIGEN_ALWAYS_INLINE double size(const Vec& a) { return std::sqrt(a.dot(a)); }
 
-/// The vessel, or a body in it, at an instant: its axes x, y, z and its centre C in the inertial frame.
+/// The vessel, or a body in it, at an instant: its axes and its centre C in the inertial frame.
 struct VesselFrame {
   Vec x, y, z, centre;
   Vec centre_velocity{0, 0, 0}, angular_velocity{0, 0, 0};
@@ -35,16 +34,15 @@ struct VesselFrame {
 };
 
 /// The vessel at a time [s]. The rotation of the nested motion is R_z(theta) R_x(gamma), (2.7').
-/// @param as_printed  use R_x(gamma) R_z(theta) instead, as (2.14) is printed; no effect on other motions
+/// @param as_printed  the nested motion's is R_x(gamma) R_z(theta), as (2.14) is printed
 VesselFrame vessel_at(const model::Mill<double>& mill, double time, bool as_printed);
 
 /// Gap of a ball to a wall [m]; negative for an overlap. (2.17'), (2.19'), (2.21)
-/// @param frame  of the vessel
 double wall_gap(const VesselFrame& frame, const model::Case<double>& the_case, int wall, int ball,
                 const Vec& position);
 /// Gap of the bodies of an event [m].
 double gap_of(const LoggedEvent& event, const model::Case<double>& the_case, const VesselFrame& frame);
-/// Arguments of a wall velocity: the frames of the vessel, the contact point P, and the ball's centre.
+/// The frames of the vessel, the contact point P, and the ball's centre.
 struct WallPoint {
   const VesselFrame &nested, &printed;
   Vec contact, ball_centre;
@@ -54,23 +52,19 @@ struct WallVelocity {
   const char* note;
   Vec (*at)(const WallPoint& point);
 };
-/// The first formula is correct, V = W_Z x P + (R_z W_x') x (P - C); the last derives the printed matrix.
+/// The first is correct, V = W_Z x P + (R_z W_x') x (P - C); the last derives the printed matrix.
 extern const std::array<WallVelocity, 10> wall_velocities;
 
-/// Deviations of a code in single terms of the equations: a term may be larger, smaller, reversed or missing.
-/// Each member is a factor, 1 for the equations of docs/theory.md, or a shift, 0 for these.
+/// Deviations of a code in single terms of the equations, larger, smaller, reversed or missing: factors,
+/// 1 for the equations of docs/theory.md, and shifts, 0 for these.
 struct Terms {
   // impacts
   double friction = 1, friction_on_velocity = 1, torque = 1, share = 1;
   double compliance_in_limit = 1, compliance_in_impulse = 1;  ///< of c - 1
   double arm = 1;
-  enum class EqualBalls {
-    no,
-    limit_of_sliding,
-    friction,
-    masses,
-    exchanged_masses
-  } equal_balls = EqualBalls::no;                     ///< formulas for equal balls, used for unequal ones
+  /// Formulas for equal balls, used for unequal ones.
+  enum class EqualBalls { no, limit_of_sliding, friction, masses, exchanged_masses };
+  EqualBalls equal_balls = EqualBalls::no;
   bool friction_of_restitution = false;               ///< limited by mu (1 + e_n) |g_n| at v_s as well
   double wall_velocity = 1, wall_velocity_delay = 0;  ///< delay [s]
   std::size_t wall_velocity_formula = 0;              ///< index in wall_velocities
@@ -90,8 +84,7 @@ struct Terms {
   }
 };
 
-/// A logged event as input of the contact law: bodies, geometry, and the wall's velocity. The event and the
-/// law must outlive it.
+/// A logged event as input of the contact law; the event and the law must outlive it.
 struct LoggedImpact {
   const LoggedEvent* event = nullptr;
   const model::ContactLaw<double>* law = nullptr;       ///< of the case
@@ -118,7 +111,7 @@ struct LoggedImpact {
   /// e_n for a speed before the impact, and the speed e_n |g_n| after it [m/s].
   double restitution(double g_n) const { return law->restitution(-g_n, bodies()); }
   double by_restitution(double g_n) const { return restitution(g_n) * -g_n; }
-  /// Speed along the normal at which the contact points separate, max(e_n |g_n|, v_s) [m/s]. (2.23')
+  /// Speed at which the contact points separate, max(e_n |g_n|, v_s) [m/s]. (2.23')
   double separation_speed(double g_n) const {
     // Bodies that already separate, by rounding, do not leave more slowly.
     return std::max({by_restitution(g_n), law->least_separation, g_n});
@@ -135,11 +128,11 @@ struct LoggedImpact {
 };
 
 /// The impact of an event, with the right velocity of the wall.
-/// @param placed  true if the log has the positions of the bodies; otherwise the normal is arbitrary
+/// @param placed  the log has the positions of the bodies; otherwise the normal is arbitrary
 LoggedImpact impact_of(const LoggedEvent& event, const model::Case<double>& the_case,
                        const VesselFrame& frame, bool placed);
 
-/// Result of the contact law: velocities and spins after an impact, and e_t.
+/// Result of the contact law: the states after an impact, and e_t.
 struct Outcome {
   std::array<BodyState, 2> body;
   double restitution_tangential;

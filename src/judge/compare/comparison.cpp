@@ -59,7 +59,7 @@ BatchValues ratio_values(const BatchValues& sums, const BatchValues& numbers) {
 }
 
 SpectrumTest test_spectra(const std::vector<Batch>& a, const std::vector<Batch>& b, Spectrum spectrum) {
-  // The permutations below use sums and differences. Classes that are empty in both logs are left out.
+  // The permutations use sums and differences. Classes that are empty in both are left out.
   std::vector<std::size_t> used;
   BatchValues both;
   for (std::size_t c = 0; c < SpectrumClasses::count; ++c) {

@@ -1,5 +1,4 @@
-// Two collision logs compared: event by event, then by statistics of batches, with a verdict for each
-// quantity.
+// Two collision logs compared, event by event and by statistics, with verdicts.
 #pragma once
 
 #include "logs/event_log.hpp"
@@ -26,9 +25,8 @@ class SpectrumClasses {
   double floor_;
 };
 
-/// Number of impacts by approach speed, on walls and between balls; milling dose by dose of the impact. The
-/// dose has a spectrum of its own because mills have many impacts of negligible dose, whose number varies
-/// much.
+/// Number of impacts by approach speed, on walls and between balls; milling dose by dose of the impact, since
+/// mills have many impacts of negligible dose, whose number varies much.
 enum Spectrum : std::size_t { wall_speeds, ball_speeds, doses };
 inline constexpr std::size_t spectrum_count = 3;
 
@@ -60,15 +58,15 @@ using BatchValues = std::vector<double>;
 /// @pre the numbers are not all 0
 BatchValues ratio_values(const BatchValues& sums, const BatchValues& numbers);
 
-/// Largest distance between the distribution functions of two spectra, with a permutation test over batches.
+/// Largest distance of the distribution functions of two spectra, with a permutation test over batches.
 struct SpectrumTest {
   double distance = 0;     ///< Kolmogorov's, over the bounds of the classes
   double limit = 0;        ///< exceeded in 5 % of the permutations
   double probability = 1;  ///< of at least this distance when A and B are alike
 };
 
-/// Each of 9999 permutations swaps batch k of A and B, or not, at random for every k; seeded, so that the
-/// same logs give the same result. @pre as many batches in A as in B, and both spectra are not empty
+/// Each of 9999 permutations swaps batch k of A and B, or not, at random for every k, with a fixed seed. @pre
+/// as many batches in A as in B, and both spectra are not empty
 SpectrumTest test_spectra(const std::vector<Batch>& a, const std::vector<Batch>& b, Spectrum spectrum);
 
 using logs::LogScan, logs::OfEach;
@@ -116,7 +114,7 @@ struct Quantity {
   std::string name, unit;
   std::optional<double> a = {}, b = {};  ///< means over the common time; nothing for a spectrum
   std::optional<double> a_half_width = {}, b_half_width = {};  ///< of the 95 % intervals of the means
-  /// B - A with its 95 % interval; for a spectrum Kolmogorov's distance and its 5 % limit by permutations.
+  /// B - A with its 95 % interval; for a spectrum Kolmogorov's distance and its 5 % limit.
   std::optional<double> difference = {}, half_width = {};
   std::optional<double> probability =
       {};  ///< of such a difference by chance, after Holm; nothing if not tested

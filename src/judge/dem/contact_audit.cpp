@@ -39,7 +39,7 @@ struct Measured {
   std::optional<double> wall_velocity = {};      ///< factor that gives the case's restitution
 };
 
-/// Relative velocity of two surfaces [m/s], split along and across the unit normal towards the ball.
+/// Relative velocity of two surfaces [m/s], along and across the unit normal to the ball.
 struct Surfaces {
   Vector normal;
   double separation;
@@ -58,9 +58,8 @@ struct Bodies {
   double compliance;  ///< 1 + M/(m_i J_i) + M/(m_j J_j)
 };
 
-/// Measures a contact. During it curved walls rotate, the line of centres of a pair turns and gravity acts,
-/// which presses the bodies together or separates them; flights extrapolated through the contact show by how
-/// much.
+/// Measures a contact. During it curved walls rotate, the line of centres of a pair turns and gravity presses
+/// or separates the bodies; flights extrapolated through it show by how much.
 /// @param at  returns the surfaces at a time for states of the ball and its partner
 Measured measured_by(const Contact& c, const Vector& gravity, const Bodies& bodies, const auto& at) {
   const double duration = c.end - c.begin;
@@ -81,7 +80,7 @@ Measured measured_by(const Contact& c, const Vector& gravity, const Bodies& bodi
     has_friction = true;
     measured.law_friction = value;
   });
-  // The flights before and after give different amounts; friction leads from the first to the second.
+  // The flights before and after differ in it; friction leads from the first to the second.
   const double first = (touch.separation - flown_on.separation) / (2 * measured.approach),
                last = (flown_back.separation - leave.separation) / (2 * measured.approach),
                early = (3 * first + last) / 4, late = (first + 3 * last) / 4;
@@ -240,7 +239,7 @@ class Clear {
 constexpr double spread_allowed = 0.007;
 
 /// Judges a value by contacts, each with its own law, which may depend on speed or materials. The result has
-/// the median of the laws' values, and that median plus the code's deviation from the laws.
+/// the median of the laws' values, and this plus the code's deviation.
 /// @param number  of values judged together, for the width of the interval
 Judged judged(const Value& value, const std::string& where, const std::vector<Measured>& list,
               const Clear& is_clear, double number, double all_dose) {
@@ -284,7 +283,7 @@ void judge_laws(const std::vector<Measured>& list, Judged::Of of, ContactAudit& 
     auto result = judged(value, at, some, is_clear, alike, dose);
     result.of = of;
     result.is_part = alike > 1;
-    // Friction that stops the slip and values of single balls are optional: no verdict depends on them.
+    // No verdict depends on friction that stops the slip and on values of single balls.
     if (result.dose_share > 0 &&
         (result.found.known() || !(&value == &sticking || at.starts_with("of ball "))))
       audit.judged.push_back(std::move(result));
@@ -317,8 +316,8 @@ void leave_out(ContactAudit& audit, const std::string& because, const auto& whic
 constexpr const char* follows_from_velocity = "it would follow from the velocity of the walls";
 
 /// Distinguishes a wrong wall velocity from a wrong restitution, which look alike: the one that explains more
-/// of the differences is judged, for all walls together and for each that differs by itself. A velocity that
-/// explains a wrong restitution is judged by its interval alone, without a tolerance.
+/// is judged, for all walls together and for each that differs by itself. A velocity that explains a wrong
+/// restitution is judged without a tolerance.
 void judge_wall_velocity(const std::vector<Measured>& walls, ContactAudit& audit) {
   std::vector<std::string> parts{"at walls"};
   for (const auto& j : audit.judged)
@@ -419,7 +418,7 @@ std::vector<SlipBin> slips_of(const std::vector<Measured>& walls, const std::vec
   return bins;
 }
 
-/// Removes unexplained contacts that overlap in time: two balls that leave their flights together collided.
+/// Removes unexplained contacts that overlap in time: balls that leave flights together collided.
 void drop_pairs(std::vector<Contact>& contacts) {
   std::erase_if(contacts, [all = contacts](const Contact& c) {
     return c.kind == ContactClass::unexplained &&

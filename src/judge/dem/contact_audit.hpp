@@ -1,4 +1,4 @@
-// Audit of contacts of finite duration: measured values with intervals, and those expected. docs/dem.md
+// Audit of contacts of finite duration: measured values, and those expected. docs/dem.md
 #pragma once
 
 #include <atomic>
@@ -30,7 +30,7 @@ struct Judged {
   std::string not_judged = {};  ///< the reason, other than too few contacts, if it is not judged
 
   bool known() const { return not_judged.empty() && found.known(); }
-  /// A value is open if too few contacts determine it, although they have more than this share of the dose.
+  /// A value is open if too few contacts determine it, though with more than this share of the dose.
   static constexpr double large_share = 0.05;
   bool is_open() const { return not_judged.empty() && !found.known() && dose_share > large_share; }
   bool agrees() const {
@@ -46,7 +46,7 @@ struct GeometryCause {
   double left = 0;  ///< median distance from the walls with this value [m]
 };
 
-/// e_t, the fraction of the slip that remains after a contact, for a range of slip over approach speed.
+/// e_t, the fraction of the slip that a contact leaves, for a range of slip over approach speed.
 struct SlipBin {
   double ratio = 0;  ///< median in the bin
   Median of_walls, of_balls;

@@ -44,10 +44,9 @@ std::optional<double> crossing(const auto& gap, double low, double high, bool fa
   return one == other ? low : low + (high - low) * one / (one - other);
 }
 
-/// Determines gravity as the median acceleration, since balls are in free flight most of the time. Longer
-/// spans reduce the effect of rounded numbers, until most of them contain contacts; the span with the least
-/// scatter is used. The interval includes the scatter of a single value, because rounding errors do not
-/// average out.
+/// Gravity is the median acceleration: balls fly freely most of the time. Longer spans reduce the effect of
+/// rounding, until most contain contacts; the span with the least scatter is used. The interval includes the
+/// scatter of a single value, because rounding errors do not average out.
 void set_gravity(const std::vector<Frame>& frames, FrameStatistics& s) {
   double least = std::numeric_limits<double>::infinity();
   for (const std::size_t span : {1u, 10u, 100u}) {
@@ -255,7 +254,7 @@ bool ContactFinder::come_near(const Stretch& one, const Stretch& other) const {
   if (nearest <= touch) return true;
   const double whole = frame(high).time - frame(low).time;
   if ((high - low > 2 && resolved()) || nearest > touch + 2 * fastest * whole) return false;
-  // For contacts between two frames, extrapolate forwards from the first and backwards from the second.
+  // Between two frames, extrapolate forwards from the first and backwards from the second.
   const auto meet = [&](std::size_t from, double step) {
     const auto &i = frame(from).balls[one.ball], &j = frame(from).balls[other.ball];
     for (int k = 0; k <= tried; ++k) {
@@ -336,8 +335,7 @@ double ContactFinder::balance(std::size_t frame, std::size_t ball, const States&
 }
 
 /// The energy that balls lose relative to what they touch [J]. Where a ball touches walls that move
-/// differently, it is the energy relative to the vessel, with the work of the bodies: the impulse is divided
-/// among the normals.
+/// differently, it is that relative to the vessel, with the work of the bodies.
 double ContactFinder::dose_of(const std::vector<Stretch>& group) const {
   std::vector<std::vector<int>> met(group.size());
   std::vector<std::size_t> touched;
@@ -361,7 +359,7 @@ double ContactFinder::dose_of(const std::vector<Stretch>& group) const {
   return dose;
 }
 
-/// Work of bodies on a ball, relative to the vessel, by the part of its impulse along their normals [J].
+/// Work of bodies on a ball, relative to the vessel, by its impulse along their normals [J].
 double ContactFinder::work_of_bodies(const Stretch& s, const std::vector<int>& walls) const {
   if (walls.empty()) return 0;
   double work = 0;
@@ -399,7 +397,7 @@ bool ContactFinder::make_single(const std::vector<Stretch>& group, int wall, Con
     };
   };
   const double longest = to.time - from.time;
-  // Velocities of some codes are half a step old: the touch may be before the last frame that shows a flight.
+  // Some codes' velocities are half a step old: the touch may precede the last frame of a flight.
   const auto touch = crossing(gap_of(from), from.time - frames_.interval, to.time, true);
   const auto leave = crossing(gap_of(to), from.time, to.time + 2 * longest, false);
   // In codes whose contacts have no duration, rounding may put the detachment before the touch.

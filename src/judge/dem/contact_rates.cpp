@@ -21,7 +21,7 @@ struct Window {
   bool compared = false;  ///< with another record: contacts outside are ignored, and it must not be empty
 };
 
-/// Rates of a record within a window. @param what  "contacts" or "impacts" @param next  returns the next one
+/// Rates of a record within a window. @param what  "contacts" or "impacts"
 ContactRates rates_of(const std::string& log, const char* what, double first, double last,
                       const Window& window, const auto& next) {
   ContactRates r{.log = log, .first = std::max(first, window.from), .last = std::min(last, window.until)};

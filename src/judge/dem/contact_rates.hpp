@@ -12,7 +12,7 @@
 
 namespace edmill::dem {
 
-/// A dose rate with its interval, from batches of equal duration; neighbouring batches may be correlated.
+/// A dose rate with its interval, from batches of equal duration, which may be correlated.
 class DoseRate {
  public:
   static constexpr std::size_t batches = 64;
@@ -46,12 +46,12 @@ struct ContactComparison {
   ContactRates a = {}, b = {};
   std::optional<double> within = {};  ///< largest allowed |ratio - 1|, if required
   double ratio = 1, half_width = 0;   ///< of B's dose rate over A's
-  /// With `within`, the ratio agrees if its interval lies inside the allowed range and differs if it lies
-  /// outside. Without it, the ratio agrees if its interval contains 1 and its half-width is at most 5 %.
+  /// With `within`, the ratio agrees if its interval lies inside the allowed range and differs if outside.
+  /// Without it, it agrees if its interval contains 1 and its half-width is at most 5 %.
   compare::Verdict verdict = compare::Verdict::too_few;
 };
 
-/// @param options  A is a run, a collision log or a log of contacts, B a log of contacts, or the reverse
+/// @param options  A is a run, a log of collisions or of contacts, B a log of contacts, or the reverse
 /// @throws InputError
 ContactComparison compare_contacts(const compare::ComparisonOptions& options);
 

@@ -57,7 +57,7 @@ struct FrameStatistics {
 /// @pre at least three frames
 FrameStatistics statistics_of(const std::vector<Frame>& frames, const Vector& expected_gravity);
 
-/// Finds contacts in a stream of frames; the memory needed grows with the duration of contacts only.
+/// Finds contacts in a stream of frames; its memory grows with the duration of contacts only.
 class ContactFinder {
  public:
   using Found = std::function<void(const Contact&)>;
@@ -153,7 +153,7 @@ struct ContactLogFacts {
 /// A table of the number of contacts of each class and their share of the dose. @param doses  [J]
 std::string class_table(const ByClass<double>& doses, const ByClass<std::uint64_t>& counts);
 
-/// Writes a log. Its rows are collected in a temporary file until the facts of the header are known.
+/// Writes a log. Its rows are in a temporary file until the facts of the header are known.
 class ContactLogWriter {
  public:
   ContactLogWriter();

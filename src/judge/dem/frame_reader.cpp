@@ -46,8 +46,7 @@ int facets_of(const std::string& word, const std::string& deck) {
   return static_cast<int>(*facets);
 }
 
-// Binary dumps of LAMMPS: `dump custom FILE.bin`, revision 2 of its format (since 2021), which names its
-// columns.
+// Binary dumps of LAMMPS: `dump custom FILE.bin`, revision 2 (since 2021), which names its columns.
 
 constexpr int most_columns = 1000;
 constexpr int longest_text = 100'000;  // names of all columns together [bytes]
@@ -86,7 +85,7 @@ class Bytes {
   const std::string& name_;
 };
 
-/// Reads and checks the format. The older one, without column names, begins with the step, 0 or more.
+/// Reads the format. The older one, without column names, begins with the step, 0 or more.
 void read_format(Bytes& in) {
   const auto length = in.take<std::int64_t>();
   if (length >= 0 || in.text(static_cast<int>(-std::max<std::int64_t>(length, -longest_text))) != magic)
@@ -268,7 +267,7 @@ void FrameReader::finish(std::vector<FrameRow> rows, double time, Frame& frame) 
   std::vector<long> ids;
   frame.balls.clear();
   for (const auto& row : rows) {
-    // Beyond the speed in any mill: the code has become unstable. The bound also keeps squares finite.
+    // Beyond the speed in any mill, the code has become unstable; squares stay finite.
     constexpr double fastest = 1e6;
     const auto& s = row.state;
     const double sizes = row.mass.value_or(1) + row.radius.value_or(1);

@@ -1,5 +1,4 @@
-// Frames of DEM codes: the text of LAMMPS's and LIGGGHTS's `dump custom`, which YADE's decks write too, or a
-// table.
+// Frames of DEM codes: the `dump custom` of LAMMPS and LIGGGHTS, or a table.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Finds the parameter of the mill or vessel with which the walls are where balls left their flights.
+// Finds the number of the mill or vessel with which the walls are where balls left their flights.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -82,9 +82,8 @@ class Geometry {
                      (m.wall == moved ? outward : 0));
     return gaps;
   }
-  /// Deviation of the walls [m]: the largest of the medians of single walls, since a mistake may move one
-  /// wall alone. The interval between frames blurs positions symmetrically, so that the median of signed gaps
-  /// is known better.
+  /// Deviation of the walls [m]: the largest of the medians of single walls, of which a mistake may move one.
+  /// Frames blur positions symmetrically: the median of signed gaps is known better.
   double of(const std::vector<double>& gaps) const {
     if (gaps.empty()) return INFINITY;
     std::vector<std::vector<double>> by_wall(static_cast<std::size_t>(nominal_.walls));

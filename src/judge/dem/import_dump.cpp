@@ -36,7 +36,7 @@ std::vector<double> ratios_of(std::vector<double> dump,
   return dump;
 }
 
-/// Transforms a ball from the axes of a dump to those of the case; a mirror image reverses the spin.
+/// Turns a ball from the axes of a dump to those of the case; a mirror image reverses the spin.
 void put_in_axes(BallState& ball, const identify::Axes& axes) {
   ball.position = axes.of(ball.position);
   ball.velocity = axes.of(ball.velocity);

@@ -44,7 +44,7 @@ Imported import_dump(const casefile::CaseSpec& spec, const ImportOptions& option
 
 std::string table(const Imported& imported);
 
-/// "x z -y": the case's X is the dump's x, its Y the dump's z, its Z the dump's -y. @throws InputError
+/// "x z -y": the case's X, Y and Z are the dump's x, z and -y. @throws InputError
 identify::Axes axes_from(const std::string& text);
 
 }  // namespace edmill::dem

@@ -1,5 +1,4 @@
-// Assumptions about the code that wrote a log: its case, equations and conventions, for the whole log or for
-// a part of it.
+// Assumptions about the code that wrote a log: ways in which it may differ from its case.
 #pragma once
 
 #include <array>
@@ -51,8 +50,7 @@ struct LogChange {
 
 using audit::Terms;
 
-// Parts of a log to which a cause may be restricted: one wall, one ball, one kind of partner, one branch of
-// the law.
+// Parts of a log to which a cause may be restricted: a wall, a ball, a branch of the law.
 
 /// The event and the body of a row.
 struct RowPlace {
@@ -107,7 +105,7 @@ struct Assumed {
   std::optional<model::Case<double>> built() const;
   /// The case's file with these values.
   casefile::CaseSpec case_file() const;
-  /// True if a case file can express the assumptions, apart from the log's conventions: an audit can test it.
+  /// True if a case file can express all but the log's conventions: an audit can test it.
   bool is_case() const { return restricted.empty() && terms == Terms{}; }
 };
 
@@ -153,7 +151,7 @@ struct Assumption {
   bool is_fitted() const { return mistake.empty(); }
   bool is_periodic() const { return is_speed || cycle > 0; }
   std::string name() const { return mistake.empty() ? key : key + ": " + mistake; }
-  /// True if both cannot be combined: they have the same key, or the other does not exist for such a mill.
+  /// True if both cannot be combined: they have one key, or such a mill does not have the other.
   bool excludes(const Assumption& other) const {
     return key == other.key || (of_motion && (other.of_motion || other.key.starts_with("mill.")));
   }
@@ -162,8 +160,8 @@ struct Assumption {
     set(base, x);
     return base;
   }
-  /// Trial values to start fits from. They cover several orders of magnitude for a number, and for a term
-  /// also its reversal and absence; one cycle for a phase; for a speed they are close enough to miss no turn.
+  /// Trial values to start fits from. They cover orders of magnitude of a number, the reversal and absence of
+  /// a term, one cycle of a phase; those of a speed miss no turn.
   /// @param end  time of the last event that is used [s]
   std::vector<double> trial_values(double end) const;
 };
@@ -185,7 +183,7 @@ auto fitted(auto& of) {
 /// All numbers of the mill, the vessel, gravity, the contact laws and the balls.
 std::vector<Assumption> numbers_of(const Assumed& nominal);
 
-/// An assumption that applies to a part of the log only. @param choices  number of parts that were tried
+/// An assumption about a part of the log only. @param choices  number of parts that were tried
 Assumption restricted_to(const SharedSubset& part, const Assumption& parameter, std::size_t choices);
 
 /// Mistakes other than wrong numbers that a log with these columns can reveal: orders, signs,
@@ -193,8 +191,7 @@ Assumption restricted_to(const SharedSubset& part, const Assumption& parameter, 
 std::vector<Assumption> mistakes_of(const Assumed& nominal, const std::vector<Assumption>& parameters,
                                     const audit::Available& has);
 
-/// "reversed", "left out", "doubled" or "halved" if the interval of a factor is narrow and contains such a
-/// value; otherwise empty.
+/// "reversed", "left out", "doubled" or "halved" if the narrow interval of a factor contains it; else empty.
 std::string word_for(double factor, double half_width);
 /// "100.500 +- 0.001 mm", or "100 mm": in the usual unit of its dimension.
 std::string value_text(Dimension dimension, double value, double half_width = 0);

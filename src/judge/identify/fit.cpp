@@ -102,8 +102,7 @@ double cauchy_cost(const Eigen::VectorXd& rows) {
 }
 
 /// Sets the intervals: three standard deviations for noise of the size of the residuals, plus the effect of a
-/// shift of all rows by that size, each in its worst direction, since the rounding of a log shifts rows of a
-/// kind together.
+/// shift of all rows by that size in the worst directions: rounding shifts rows of a kind together.
 void set_half_widths(const Eigen::MatrixXd& j, const Eigen::VectorXd& rows, Hypothesis& tried) {
   const auto weights = weights_of(rows, 1);
   double sum = 0, total = 0;
@@ -139,8 +138,8 @@ void assume_wall_velocity(const model::Mill<double>& mill, const Terms& terms, L
 
 /// Rows of an event for an assumed model, with assumed terms of the equations.
 /// @param change  assumed deviations of the log from its conventions
-std::vector<audit::Row> LogResiduals::rows_of(std::size_t k, const model::Case<double>& model,
-                                              const LogChange& change, const Terms& terms) const {
+audit::Rows LogResiduals::rows_of(std::size_t k, const model::Case<double>& model, const LogChange& change,
+                                  const Terms& terms) const {
   LoggedEvent copy, copy_of_earlier;
   const auto event_at = [&, is_changed = !(change == LogChange{})](std::size_t place,
                                                                    LoggedEvent& own) -> const LoggedEvent& {
@@ -158,8 +157,8 @@ std::vector<audit::Row> LogResiduals::rows_of(std::size_t k, const model::Case<d
   impact.in_stall = in_stall_[k];
   impact.arm = terms.arm;
   if (event.with_wall && placed) assume_wall_velocity(model.mill, terms, impact);
-  std::vector<audit::Row> rows;
-  if (placed) rows.push_back(equations.of_touch(event, audit::gap_of(event, model, frame)));
+  audit::Rows rows;
+  if (placed) equations.of_touch(event, audit::gap_of(event, model, frame), rows);
   equations.of_impact(impact, rows);
   for (std::size_t body = 0; body < impact.count(); ++body) {
     const Before& begin = before_[k][body];

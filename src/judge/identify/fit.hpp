@@ -1,4 +1,4 @@
-// Residuals of logged impacts and flights with respect to a model, and their robust least-squares fit.
+// Residuals of logged impacts and flights with respect to a model, and their robust fit.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,7 +26,7 @@ struct Residual {
 
 /// Residuals of the equations that an audit checks, divided by their tolerances: gaps of bodies in contact,
 /// states after an impact, energies and speeds in their columns, the ends of flights. The set of rows depends
-/// only on the columns of the log, so that a fit has the same rows for all values.
+/// only on the log's columns: a fit has the same for all values.
 class LogResiduals {
  public:
   /// @param nominal  case that the tolerances are computed from
@@ -42,8 +42,8 @@ class LogResiduals {
     long event = -1;
     std::size_t body = 0;
   };
-  std::vector<audit::Row> rows_of(std::size_t event, const model::Case<double>& model,
-                                  const LogChange& change, const Terms& terms) const;
+  audit::Rows rows_of(std::size_t event, const model::Case<double>& model, const LogChange& change,
+                      const Terms& terms) const;
   Branches branches_of(const audit::LoggedEvent& event) const;
 
   const audit::EventsAtHand& log_;
@@ -121,12 +121,11 @@ inline double misfit(const Residuals& sample, const Assumed& assumed) {
 }
 
 /// Least squares by Eigen's Levenberg and Marquardt (that of MINPACK), repeated with Cauchy weights whose
-/// scale shrinks from the initial residuals down to the tolerance, so that rows with other causes lose their
-/// weight.
+/// scale shrinks from the initial residuals to the tolerance: rows with other causes lose their weight.
 /// @param tried  starting values on input, the fitted values and their intervals on output
 void fit(const Residuals& sample, Hypothesis& tried);
 
-/// Derivatives of the rows with respect to a number, at the base; empty if they do not depend on it.
+/// Derivatives of the rows by a number, at the base; empty if they do not depend on it.
 /// @param rows  at the base
 Eigen::VectorXd sensitivity(const Residuals& sample, const Assumed& base, const Eigen::VectorXd& rows,
                             const Assumption& number);

@@ -47,7 +47,7 @@ bool has_number_of_case(const Hypothesis& tried) {
   });
 }
 
-/// Selects what may differ in a part of the log: terms, and numbers of the contact laws, each law once.
+/// What may differ in a part of the log: terms, and numbers of the contact laws, each law once.
 std::vector<Assumption> of_parts(const std::vector<Assumption>& numbers) {
   std::set<std::string> common;
   const auto last = [](const std::string& key) { return key.substr(key.rfind('.') + 1); };
@@ -147,7 +147,7 @@ class Evidence {
     return best_fitted(std::move(tried));
   }
 
-  /// Fits with the final sample and audits with the result. @return whether the hypothesis is accepted
+  /// Fits with the final sample and audits with the result. @return whether it is accepted
   bool accept(Hypothesis& tried) const {
     if (!(score_of_case_ - tried.score >= strong_evidence)) return false;
     if (vanished(whole(), tried.assumed()) < 0.5) return false;  // the final fit cannot make up for that
@@ -171,11 +171,11 @@ class Evidence {
   struct Explained {
     std::set<std::size_t> rows{}, events{};
   };
-  /// Rows explained by one of several mistakes; empty unless it explains nine tenths of those it changes.
+  /// Rows explained by one of several mistakes; empty unless these are nine tenths of those it changes.
   Explained explained_by(const Hypothesis& tried) const {
     if (!(score_of_case_ - tried.score >= strong_evidence) || has_number_of_case(tried)) return {};
     const Eigen::VectorXd before = all_.rows(nominal_), with = all_.rows(tried.assumed());
-    // Rows of one kind that stay violated may have another mistake, if none of that kind is explained.
+    // Rows of a kind that stay violated may have another mistake, if none of the kind is explained.
     std::array<std::uint64_t, audit::row_kinds> vanished{}, left{};
     std::uint64_t contradicting = 0;
     Explained explained;
@@ -224,7 +224,7 @@ class Evidence {
     return best_of(std::move(order), most);
   }
 
-  /// Numbers ranked by how much they should improve `base`, by a linear fit of the rows and trial values.
+  /// Numbers by how much they should improve `base`: by a linear fit of the rows and trial values.
   std::vector<Assumption> best_numbers(const Assumed& base, const std::vector<Assumption>& numbers,
                                        std::size_t most) const {
     auto best = by_sensitivity(early_or_whole(base), base, numbers, {}, most);
@@ -259,12 +259,12 @@ class Evidence {
  private:
   const Residuals& early() const { return windows_.front(); }
   const Residuals& whole() const { return windows_.back(); }
-  /// The first span, in which a wrong speed has no large effect yet; the whole log if it has few violations.
+  /// The first span, where a wrong speed has little effect yet; the whole if it has few violations.
   const Residuals& early_or_whole(const Assumed& base) const {
     return count_violated(early().rows(base)) > 12 ? early() : whole();
   }
 
-  /// Numbers ranked by a linear fit of the rows of the log or of parts that do not contain all its effect.
+  /// Numbers ranked by a linear fit of the rows, or of those in parts without all of their effect.
   std::vector<Assumption> by_sensitivity(const Residuals& sample, const Assumed& base,
                                          const std::vector<Assumption>& numbers,
                                          const std::vector<SharedSubset>& parts, std::size_t most) const {
@@ -302,7 +302,7 @@ class Evidence {
   }
 
   /// Fits hypotheses that differ in their starting values and returns the best one. If the speed of a motion
-  /// is fitted, the fits proceed over growing spans; otherwise they use the whole log at once.
+  /// is fitted, the spans grow; otherwise the whole log is used at once.
   Hypothesis best_fitted(std::vector<Hypothesis> list) const {
     for (auto& tried : list) {
       const bool from_early =
@@ -339,8 +339,8 @@ class Evidence {
     return violated > 0 ? static_cast<double>(vanished) / static_cast<double>(violated) : 0;
   }
 
-  /// Counts the violations that an audit finds with these assumptions, or the events with violated rows if no
-  /// case can express all of them.
+  /// Counts the violations that an audit finds, or the events with violated rows if no case can express the
+  /// assumptions.
   void count_violations(Hypothesis& tried) const {
     const auto assumed = tried.assumed();
     tried.of = violations_;
@@ -367,7 +367,7 @@ class Evidence {
   double period_;  ///< of the drive [s]
   LogResiduals residuals_;
   std::vector<SharedSubset> parts_;
-  /// Samples of growing spans, the last of the whole log: a motion's speed is fitted from the first on.
+  /// Samples of growing spans, up to the whole log: a motion's speed is fitted from the first on.
   std::vector<Residuals> windows_;
   Residuals few_, many_;  ///< of the whole log: for trials, and for a last fit
   Residuals all_;         ///< of every event
@@ -377,8 +377,8 @@ class Evidence {
 };
 
 /// A stage of the search: the best hypotheses of one size, each extended by one mistake, one number, or one
-/// number in a part of the log. Stages without parts extend hypotheses about the whole log. The numbers bound
-/// the time of a search; verification/plain/faults_test.py shows that its faults are found with them.
+/// number in a part of the log. Stages without parts extend hypotheses about the whole log. With these bounds
+/// of its time verification/plain/faults_test.py finds its faults.
 struct Stage {
   const char* name;                                     ///< null: reported with the previous stage
   std::size_t size, bases = 1;                          ///< size and number of the hypotheses that it extends
@@ -450,7 +450,7 @@ class Searcher {
  private:
   bool is_interrupted() const { return interrupt_ && interrupt_->load(std::memory_order_relaxed); }
 
-  /// Replays the log: impacts without positions can only be compared with a run from the initial state.
+  /// Replays the log: without positions, impacts are only comparable with a run from the initial state.
   void follow(Identification& result) const {
     // Runs cannot vary the terms of the equations.
     auto all = mistakes_;
@@ -524,7 +524,7 @@ class Searcher {
     return cause;
   }
 
-  /// The best accepted hypothesis. A larger one must explain at least half of what a smaller one leaves.
+  /// The best accepted hypothesis. A larger one must explain half of what a smaller one leaves.
   const Hypothesis& best() const {
     const auto* best = &accepted_.front();
     for (const auto& h : accepted_)
@@ -532,7 +532,7 @@ class Searcher {
     return *best;
   }
 
-  /// Reports the best cause, and as alternatives the other causes that are as good with as few assumptions.
+  /// Reports the best cause, and as alternatives those that are as good with as few assumptions.
   void report(Identification& result) const {
     if (accepted_.empty() && !result.interrupted) report_each(result);
     if (accepted_.empty()) return;
@@ -545,7 +545,7 @@ class Searcher {
         result.causes[0].alike.push_back(cause_of(other).text());
   }
 
-  /// For several mistakes: reports those that explain what they change and what no other one explains.
+  /// For several mistakes: reports those that explain what they change and no other explains.
   void report_each(Identification& result) const {
     std::set<std::size_t> explained;
     const auto violating = evidence_->violating_events(nominal_).size();

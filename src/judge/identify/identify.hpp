@@ -50,7 +50,7 @@ struct Cause {
   std::uint64_t explains = 0, of = 0;  ///< violations
   std::string others = {};             ///< kinds of the violations that it does not explain, if known
   double gain = 0;                     ///< improvement of Schwarz's criterion by the cause
-  /// For logs without states: impacts that a run with the cause reproduces, and could in spite of rounding.
+  /// For logs without states: impacts that a run reproduces, and could in spite of rounding.
   std::uint64_t follows = 0, could_follow = 0;
   std::vector<std::string> alike = {};  ///< other causes that this log cannot distinguish from it
 
@@ -71,8 +71,8 @@ struct SearchedFor {
 struct Identification {
   std::uint64_t events = 0, violations = 0;  ///< used in the search
   std::vector<Cause> causes;                 ///< the best first; empty where nothing explains the log
-  /// For logs without positions: number of impacts that a run of the case reproduces, and whether only
-  /// rounding limits it.
+  /// For logs without positions: impacts that a run of the case reproduces, and whether only rounding limits
+  /// them.
   std::optional<std::uint64_t> follows;
   bool follows_all = false;
   Search search = Search::all;
@@ -94,8 +94,7 @@ Identification identify(const casefile::CaseSpec& spec, const audit::Options& op
 /// Searches causes for a log without states: runs the case with other values, from its own initial state, and
 /// compares the impacts with those of the log. docs/audit.md, "Causes"
 /// @param is_interrupted  called between runs; true ends the search
-/// @return the number of impacts that the case reproduces, and the best cause that reproduces nine tenths of
-/// those that rounding allows
+/// @return how many the case reproduces, and the best cause that reproduces nine tenths of the possible
 Identification replay(const Assumed& nominal, const std::vector<Assumption>& assumptions,
                       const audit::EventsAtHand& log, const std::function<bool()>& is_interrupted);
 

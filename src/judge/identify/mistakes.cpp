@@ -189,8 +189,7 @@ void add_frames(const audit::Available& has, std::vector<Assumption>& list) {
         [formula](Assumed& a) { a.terms.wall_velocity_formula = formula; });
 }
 
-/// Adds wrong formulas for impacts: for bodies that separate at v_s, and formulas for equal balls used for
-/// unequal ones.
+/// Adds wrong formulas for impacts: for bodies that separate at v_s, and those for equal balls.
 void add_formulas(const Assumed& nominal, std::vector<Assumption>& list) {
   add(list, "limit of the friction (2.24')", "mu (1 + e_n) |g_n| in place of the impulse at v_s",
       [](Assumed& a) { a.terms.friction_of_restitution = true; });
@@ -206,7 +205,7 @@ void add_formulas(const Assumed& nominal, std::vector<Assumption>& list) {
         [form = form](Assumed& a) { a.terms.equal_balls = form; });
 }
 
-/// Adds exchanges of the numbers of two balls of different kinds. Equal balls cannot be distinguished.
+/// Adds exchanges of the numbers of two balls of different kinds.
 void add_exchanged_balls(const Assumed& nominal, std::vector<Assumption>& list) {
   constexpr int most = 40;
   const int count = static_cast<int>(nominal.balls.size());

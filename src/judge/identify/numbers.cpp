@@ -21,7 +21,7 @@ using model::Range;
 
 using std::numbers::pi;
 
-/// Appends the name of the axis to a key: "vessel.x" for axis 0; returns the key itself for axis -1.
+/// A key with the name of an axis, "vessel.x" for axis 0; the key itself for axis -1.
 std::string with_axis(const std::string& key, int axis) {
   return axis < 0 ? key : key + "." + std::string(1, "xyz"[axis]);
 }
@@ -38,7 +38,7 @@ Assumption number(std::string key, Dimension dimension, double value,
           .has_unit = size > 0};
 }
 
-/// Visits each number of a motion, a vessel or a law: f(parameter, number, axis), axis -1 for a scalar.
+/// Visits each number of a motion, vessel or law: f(parameter, number, axis), axis -1 for a scalar.
 template <class Part, class F>
 void each_number(Part& part, F&& f) {
   struct Visit {
@@ -61,7 +61,7 @@ void add_numbers(const std::string& section, const Assumed& nominal, Member memb
     if (!p.key) return;
     const bool drive = p.range == Range::drive;
     const double nominal_value = drive ? 2 * pi / q.to<double>() : q.to<double>();
-    // A number that is zero, such as the speed of a fixed part or a component of an axis, is not varied.
+    // A number that is zero, such as a component of an axis, is not varied.
     if (nominal_value == 0) return;
     const auto set = [member, own, drive](Assumed& a, double value) {
       std::size_t k = 0;
@@ -244,7 +244,7 @@ std::vector<double> decades(double from, double to) {
   return values;
 }
 
-/// A contact law that a code may use instead of the case's, with its fitted number. Add rows to the table.
+/// A contact law that a code may use instead of the case's, with its fitted number.
 struct OtherLaw {
   std::string_view model, number;
   Dimension dimension;
@@ -258,8 +258,8 @@ const OtherLaw other_laws[] = {
     {"viscoelastic", "dissipative_time", Dimension::time, 1e-7, decades(1e-8, 1e-4)},
     {"elastic-plastic", "yield_pressure", Dimension::pressure, 1e9, decades(1e8, 1e11)}};
 
-/// Default for a number of another law that the case does not give: -1 for min_tangential, and E* of steel,
-/// which affects the restitution only in combination with the fitted number. Nothing for other numbers.
+/// Default for a number of another law that the case does not give; E* is that of steel, and affects the
+/// restitution only in combination with the fitted number.
 std::optional<double> otherwise(std::string_view key) {
   if (key == "min_tangential") return -1;
   if (key == "effective_modulus") return 113e9;
@@ -289,7 +289,7 @@ std::vector<Entry> entries(Law law) {
   return list;
 }
 
-/// Replaces a law by another one with one given number; others of the same name are kept from the old law.
+/// Replaces a law by another one with one given number; those of the same name are kept.
 /// @return true if all numbers of the new law are known
 bool replace(Law& law, const OtherLaw& other, double value) {
   const auto own = entries(law);
@@ -373,7 +373,7 @@ void add_laws(const Assumed& nominal, std::vector<Assumption>& list) {
         list);
 }
 
-/// Adds the parameters of the balls [first, last). A parameter is scaled by the same factor for all of them.
+/// Adds the parameters of the balls [first, last), each scaled by one factor for all of them.
 void add_balls(const std::string& key, std::size_t first, std::size_t last, const casefile::BallSpec& spec,
                std::vector<Assumption>& list) {
   using Spec = casefile::BallSpec;

@@ -119,8 +119,7 @@ class Replay {
   }
 
   double period() const { return period_; }
-  /// True if the balls start at their nominal positions in the vessel frame, false if in the inertial frame;
-  /// codes do either.
+  /// Whether the balls start at their positions in the vessel frame or in the inertial one.
   bool in_vessel = false;
 
  private:

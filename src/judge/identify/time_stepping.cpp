@@ -19,7 +19,7 @@ using numerics::quantile;
 
 constexpr std::size_t least_number = 20;
 
-/// The finite values, if they are at least nine tenths of all and at least `least_number`; otherwise none.
+/// The finite values, if they are nine tenths of all or more and at least `least_number`; else none.
 std::vector<double> mostly_known(std::vector<double> values) {
   const auto all = values.size();
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
@@ -92,8 +92,8 @@ bool are_even(std::vector<double> delays, double step) {
 /// Delays of events [s], by the number of the wall, -1 for balls.
 using Delays = std::map<int, std::vector<double>>;
 
-/// The time step of a code that detects contacts at the first step after them; 0 if there is no sign of one.
-/// Such a code delays all contacts alike; a misplaced wall or a wrong ball delays its own contacts only.
+/// The time step of a code that detects contacts at the first step after them; 0 without a sign of one. It
+/// delays all contacts alike; a misplaced wall or a wrong ball delays its own only.
 double late_step(const Delays& delays) {
   std::vector<double> all;
   for (const auto& [partner, own] : delays) all.insert(all.end(), own.begin(), own.end());
@@ -109,7 +109,7 @@ double late_step(const Delays& delays) {
 /// Sentinel: the flight deviates, but not as a contact that lasts would make it.
 constexpr double no_duration = -1;
 
-/// An impact with its geometry, and the contact durations that the flights before and after it indicate.
+/// An impact with its geometry, and the durations that the flights before and after it indicate.
 struct LoggedContact {
   Vec normal{0, 0, 0}, carrier{0, 0, 0};  ///< velocity of the wall or centre of mass [m/s]
   double duration_from_begin = audit::unknown, duration_from_end = audit::unknown;
@@ -137,7 +137,7 @@ class Measurements {
   std::vector<LoggedContact> contacts;
   Delays delays;
   std::vector<double> first_order;  ///< the step that each flight implies [s]
-  /// For each flight that deviates only along its path, the logged duration minus the one of its path [s].
+  /// For each flight that deviates only along its path, the logged duration minus its own [s].
   std::vector<double> surplus;
 
  private:
@@ -196,7 +196,7 @@ class Measurements {
     if (large && !is_along(came.velocity_before, Vec(came.velocity_after - came.velocity_before)) &&
         !is_along(came.velocity_before, Vec(left.velocity_after - left.velocity_before)))
       surplus.push_back(surplus_of(off, came.velocity_before, g, noise));
-    // A first-order integrator has the right velocity, and deviates from the parabola along gravity only.
+    // A first-order integrator has the right velocity, and leaves the parabola along gravity only.
     const double g_size = audit::size(g);
     if (!(g_size > 0)) return;
     const Vec gained = came.velocity_before - (left.velocity_after + g * dt);
@@ -205,7 +205,7 @@ class Measurements {
     first_order.push_back(!large || 10 * rest <= std::abs(fall) ? 2 * fall / (g_size * dt) : audit::unknown);
   }
 
-  /// True if the vectors are parallel: finite contacts and time steps displace balls along the impulse.
+  /// True for parallel vectors: finite contacts and time steps displace balls along the impulse.
   static bool is_along(const Vec& one, const Vec& two) {
     return std::abs(audit::dot(one, two)) > 0.99 * audit::size(one) * audit::size(two);
   }
@@ -225,8 +225,7 @@ class Measurements {
   audit::Tolerances tolerances_;
 };
 
-/// Slope of ln(duration) over ln(speed): the median slope of pairs (Theil-Sen) that are half of the list
-/// apart.
+/// Slope of ln(duration) over ln(speed): the median of pairs (Theil-Sen) half of the list apart.
 double exponent_of(std::vector<std::pair<double, double>> points) {
   std::sort(points.begin(), points.end());
   std::vector<double> slopes;
@@ -269,8 +268,8 @@ std::optional<SoftContacts> soft_contacts(const std::vector<LoggedContact>& cont
                       .modulus = moduli.empty() ? audit::unknown : quantile(moduli, 0.5)};
 }
 
-/// The error of single times, if that alone explains the deviations of flights: as many flights are too short
-/// as too long. Between two times with errors e the error of a flight is the square root of 2 times e.
+/// The error of single times, if that alone explains the deviations of flights: as many are too short as too
+/// long. With errors e of its two times that of a flight is sqrt(2) e.
 std::optional<double> jitter_of(std::vector<double> surplus) {
   surplus = mostly_known(std::move(surplus));
   if (surplus.empty() || !(quantile(surplus, 0.25) < 0 && quantile(surplus, 0.75) > 0)) return std::nullopt;

@@ -1,5 +1,4 @@
-// Collision logs of edmill and of other codes, event by event: columns mapped, units converted to SI, in
-// order of time.
+// Collision logs of edmill and other codes: columns mapped, units converted, in order of time.
 #pragma once
 
 #include <array>
@@ -69,8 +68,8 @@ struct Available {
 struct LogConventions {
   std::vector<std::pair<std::string, std::string>> columns;  ///< our name, theirs with its unit: "t [ms]"
   int first_ball = 0;                                        ///< number of the first ball
-  /// Numbers of the walls by id in the column `partner`; 0, 1, 2, ... with a column partner_kind, else -1,
-  /// -2, -3, ...
+  /// Numbers of the walls by id in the column `partner`; 0, 1, ... with a column partner_kind, else -1, -2,
+  /// ...
   std::optional<std::vector<int>> walls;
 };
 
@@ -79,16 +78,16 @@ struct LogConventions {
 std::vector<int> parse_walls(const std::string& text, const model::Partners& partners,
                              const std::string& where);
 
-/// The log file of a path: the file itself, or collisions.csv, perhaps compressed, in the folder of a run.
+/// The log file of a path: the file itself, or collisions.csv, perhaps compressed, in a folder.
 std::filesystem::path log_in(const std::filesystem::path& place);
 
-/// Reads a log in bounded memory. It reads ahead by `window` events, so that a log that is slightly out of
-/// order gives its events in order of time. Columns may be in any order; unknown ones are skipped.
+/// Reads a log in bounded memory. It reads ahead by `window` events, so that those slightly out of order come
+/// in order of time. Columns may be in any order; unknown ones are skipped.
 class EventLog {
  public:
   static constexpr std::size_t window = 256;
 
-  /// Opens a log for an audit, which requires few columns; problems of single events are in the events.
+  /// Opens a log for an audit, which needs few columns; events have their own problems.
   /// @param place  a CSV file, or a folder that contains collisions.csv
   /// @param balls, walls  their numbers in the case
   /// @param beyond        a time of this magnitude or more is invalid [s]
@@ -100,7 +99,7 @@ class EventLog {
   /// partner_kind and approach_speed. States are not read; any numbers of bodies are accepted.
   explicit EventLog(const std::filesystem::path& place);
 
-  /// The next event; nothing at the end. Bad lines are skipped until there are ten of them or the file ends.
+  /// The next event; nothing at the end. Bad lines are skipped until there are ten or the file ends.
   /// @throws InputError with the bad lines: file, line, column, found, expected
   std::optional<LoggedEvent> next();
 
