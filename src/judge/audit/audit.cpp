@@ -162,8 +162,7 @@ class Auditor : Judge {
     return last.approach_speed == event.approach_speed && event.approach_speed > 0;
   }
 
-  /// Reports and corrects wrong ball numbers: the logged state is not at the end of the named ball's flight
-  /// but at the end of another ball's flight.
+  /// Reports and corrects wrong ball numbers: the logged state is at the end of another ball's flight.
   void find_wrong_balls(LoggedEvent& event) {
     for (std::size_t body = 0; body < event.count(); ++body) {
       if (!available_.body[body].position || !available_.body[body].velocity_before) continue;

@@ -36,8 +36,8 @@ ImpactTolerance Equations::of_impact(const LoggedImpact& impact, Rows& rows) con
   return {energy, by_wall == 0 || by_wall < scale};
 }
 
-/// Residuals of the logged states with respect to the contact law's outcome: for each body, or as in (2.23'),
-/// (2.28'), (2.35) and (2.24'). In the sums the logged normal impulse limits the friction.
+/// Residuals of the logged states with respect to the contact law's outcome: of each body, or as in (2.23'),
+/// (2.28'), (2.35) and (2.24'). There the logged impulse limits the friction.
 void Equations::of_states(const LoggedImpact& impact, const Speeds& speeds, double allowed,
                           Rows& rows) const {
   const auto& logged = impact.event->body;
@@ -81,8 +81,7 @@ void Equations::of_states(const LoggedImpact& impact, const Speeds& speeds, doub
   tangential.expected = due.restitution_tangential;
 }
 
-/// The dose is the wall work plus what the least separation speed supplies, minus what the balls gain.
-/// (2.36'), (A.82)
+/// The dose is the wall work plus what the least separation supplies, minus what balls gain. (2.36'), (A.82)
 void Equations::of_energies(const LoggedImpact& impact, const Speeds& speeds, double allowed,
                             Rows& rows) const {
   const LoggedEvent& event = *impact.event;

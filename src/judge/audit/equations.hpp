@@ -70,8 +70,7 @@ struct Tolerances {
   }
 };
 
-/// Whether an impact has friction, or none because of a stall (docs/theory.md, section 6); `either` if the
-/// log does not tell how long the preceding flights were.
+/// Whether an impact has friction, or none because of a stall (docs/theory.md, 6); `either` if unknown.
 enum class Friction { acts, rests, either };
 
 /// Bounds the number of consecutive impacts of each ball without time to move in between.
@@ -175,8 +174,8 @@ class Equations {
 
   /// The bodies of an event touch. @param gap  between them [m]
   void of_touch(const LoggedEvent& event, double gap, Rows& rows) const;
-  /// The contact law, conservation, and the values logged with an impact: by the states of its bodies, or
-  /// without them by the logged speeds.
+  /// The contact law, conservation, and the logged values: by the states of the bodies, or without them by
+  /// the logged speeds.
   ImpactTolerance of_impact(const LoggedImpact& impact, Rows& rows) const;
   /// Position, velocity and spin at the end of a flight. @param gravity  of the case [m/s^2]
   void of_flight(const LoggedFlight& flight, const Vec& gravity, Rows& rows) const;

@@ -13,8 +13,8 @@ struct BatchTimes {
   double until() const { return from + static_cast<double>(count) * length; }
 };
 
-/// Classes of a spectrum on a logarithmic scale, 16 an octave. Values up to `floor` share the first class:
-/// rounding noise around zero is not resolved.
+/// Classes of a spectrum on a logarithmic scale, 16 an octave. Values up to `floor`, noise around zero, share
+/// the first.
 class SpectrumClasses {
  public:
   static constexpr std::size_t count = 1 + 16 * 48;
@@ -58,7 +58,7 @@ using BatchValues = std::vector<double>;
 /// @pre the numbers are not all 0
 BatchValues ratio_values(const BatchValues& sums, const BatchValues& numbers);
 
-/// Largest distance of the distribution functions of two spectra, with a permutation test over batches.
+/// Largest distance of two distribution functions, with a permutation test over batches.
 struct SpectrumTest {
   double distance = 0;     ///< Kolmogorov's, over the bounds of the classes
   double limit = 0;        ///< exceeded in 5 % of the permutations

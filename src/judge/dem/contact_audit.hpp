@@ -30,7 +30,7 @@ struct Judged {
   std::string not_judged = {};  ///< the reason, other than too few contacts, if it is not judged
 
   bool known() const { return not_judged.empty() && found.known(); }
-  /// A value is open if too few contacts determine it, though with more than this share of the dose.
+  /// A value is open if too few contacts determine it, with more than this share of the dose.
   static constexpr double large_share = 0.05;
   bool is_open() const { return not_judged.empty() && !found.known() && dose_share > large_share; }
   bool agrees() const {

@@ -51,7 +51,7 @@ struct ContactComparison {
   compare::Verdict verdict = compare::Verdict::too_few;
 };
 
-/// @param options  A is a run, a log of collisions or of contacts, B a log of contacts, or the reverse
+/// @param options  A is a run or a log of collisions or contacts, B a log of contacts, or the reverse
 /// @throws InputError
 ContactComparison compare_contacts(const compare::ComparisonOptions& options);
 

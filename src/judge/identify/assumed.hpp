@@ -191,7 +191,7 @@ Assumption restricted_to(const SharedSubset& part, const Assumption& parameter, 
 std::vector<Assumption> mistakes_of(const Assumed& nominal, const std::vector<Assumption>& parameters,
                                     const audit::Available& has);
 
-/// "reversed", "left out", "doubled" or "halved" if the narrow interval of a factor contains it; else empty.
+/// "reversed", "left out", "doubled" or "halved" if a factor's narrow interval contains it; else "".
 std::string word_for(double factor, double half_width);
 /// "100.500 +- 0.001 mm", or "100 mm": in the usual unit of its dimension.
 std::string value_text(Dimension dimension, double value, double half_width = 0);

@@ -101,8 +101,8 @@ double cauchy_cost(const Eigen::VectorXd& rows) {
                          [](double sum, double r) { return sum + std::log1p(r * r); });
 }
 
-/// Sets the intervals: three standard deviations for noise of the size of the residuals, plus the effect of a
-/// shift of all rows by that size in the worst directions: rounding shifts rows of a kind together.
+/// Sets the intervals: three standard deviations for noise of the size of the residuals, plus the effect of
+/// the worst shift of all rows by that size: rounding shifts rows together.
 void set_half_widths(const Eigen::MatrixXd& j, const Eigen::VectorXd& rows, Hypothesis& tried) {
   const auto weights = weights_of(rows, 1);
   double sum = 0, total = 0;

@@ -113,15 +113,14 @@ struct Hypothesis {
 };
 
 /// 2 sum ln(1 + (r/s)^2) + 2 n ln s over the rows of a sample, with the median of |r| of each kind as s:
-/// minus twice the logarithm of Cauchy's likelihood. Outliers have little weight, and rows that fit better by
-/// orders of magnitude have much.
+/// minus twice the logarithm of Cauchy's likelihood. Outliers have little weight.
 double misfit(const Residuals& sample, const Eigen::VectorXd& rows);
 inline double misfit(const Residuals& sample, const Assumed& assumed) {
   return misfit(sample, sample.rows(assumed));
 }
 
-/// Least squares by Eigen's Levenberg and Marquardt (that of MINPACK), repeated with Cauchy weights whose
-/// scale shrinks from the initial residuals to the tolerance: rows with other causes lose their weight.
+/// Least squares by Eigen's Levenberg and Marquardt, repeated with Cauchy weights whose scale shrinks from
+/// the initial residuals to the tolerance: rows with other causes lose their weight.
 /// @param tried  starting values on input, the fitted values and their intervals on output
 void fit(const Residuals& sample, Hypothesis& tried);
 

@@ -97,8 +97,8 @@ class Evidence {
   double score_of_case() const { return score_of_case_; }
   std::size_t part_count() const { return parts_.size(); }
 
-  /// Draws new samples. Half of their events violate a row under one of these assumptions; the other half are
-  /// arbitrary events, evenly spread over a span.
+  /// Draws new samples. Half of their events violate a row under one of these assumptions; the others are
+  /// evenly spread.
   void draw_samples(const std::vector<Assumed>& bases) {
     std::set<std::size_t> violating;
     for (const auto& base : bases) violating.merge(violating_events(base));
@@ -171,7 +171,7 @@ class Evidence {
   struct Explained {
     std::set<std::size_t> rows{}, events{};
   };
-  /// Rows explained by one of several mistakes; empty unless these are nine tenths of those it changes.
+  /// Rows explained by one of several mistakes; none unless nine tenths of those it changes.
   Explained explained_by(const Hypothesis& tried) const {
     if (!(score_of_case_ - tried.score >= strong_evidence) || has_number_of_case(tried)) return {};
     const Eigen::VectorXd before = all_.rows(nominal_), with = all_.rows(tried.assumed());
@@ -232,8 +232,8 @@ class Evidence {
     return best;
   }
 
-  /// Numbers ranked by how much they should improve on `base` in a part of the log. Only parts with this
-  /// share of the rows violated with the base are considered.
+  /// Numbers by how much they should improve `base` in a part of the log with this share of the violated
+  /// rows.
   std::vector<Assumption> best_in_parts(const Assumed& base, const std::vector<Assumption>& numbers,
                                         std::size_t most, double share) const {
     const Eigen::VectorXd rows = whole().rows(base);
@@ -339,8 +339,7 @@ class Evidence {
     return violated > 0 ? static_cast<double>(vanished) / static_cast<double>(violated) : 0;
   }
 
-  /// Counts the violations that an audit finds, or the events with violated rows if no case can express the
-  /// assumptions.
+  /// Counts the violations of an audit, or the events with violated rows if no case can express all.
   void count_violations(Hypothesis& tried) const {
     const auto assumed = tried.assumed();
     tried.of = violations_;
@@ -450,7 +449,7 @@ class Searcher {
  private:
   bool is_interrupted() const { return interrupt_ && interrupt_->load(std::memory_order_relaxed); }
 
-  /// Replays the log: without positions, impacts are only comparable with a run from the initial state.
+  /// Replays the log: impacts without positions are compared with a run from the initial state.
   void follow(Identification& result) const {
     // Runs cannot vary the terms of the equations.
     auto all = mistakes_;

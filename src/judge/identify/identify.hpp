@@ -71,8 +71,7 @@ struct SearchedFor {
 struct Identification {
   std::uint64_t events = 0, violations = 0;  ///< used in the search
   std::vector<Cause> causes;                 ///< the best first; empty where nothing explains the log
-  /// For logs without positions: impacts that a run of the case reproduces, and whether only rounding limits
-  /// them.
+  /// For logs without positions: impacts that a run reproduces, and if only rounding limits it.
   std::optional<std::uint64_t> follows;
   bool follows_all = false;
   Search search = Search::all;
@@ -94,7 +93,7 @@ Identification identify(const casefile::CaseSpec& spec, const audit::Options& op
 /// Searches causes for a log without states: runs the case with other values, from its own initial state, and
 /// compares the impacts with those of the log. docs/audit.md, "Causes"
 /// @param is_interrupted  called between runs; true ends the search
-/// @return how many the case reproduces, and the best cause that reproduces nine tenths of the possible
+/// @return how many the case reproduces, and the best cause that reproduces nine tenths
 Identification replay(const Assumed& nominal, const std::vector<Assumption>& assumptions,
                       const audit::EventsAtHand& log, const std::function<bool()>& is_interrupted);
 

@@ -19,7 +19,7 @@ using numerics::quantile;
 
 constexpr std::size_t least_number = 20;
 
-/// The finite values, if they are nine tenths of all or more and at least `least_number`; else none.
+/// The finite values, if they are nine tenths of all and at least `least_number`; else none.
 std::vector<double> mostly_known(std::vector<double> values) {
   const auto all = values.size();
   std::erase_if(values, [](double value) { return !std::isfinite(value); });

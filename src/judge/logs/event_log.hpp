@@ -68,8 +68,8 @@ struct Available {
 struct LogConventions {
   std::vector<std::pair<std::string, std::string>> columns;  ///< our name, theirs with its unit: "t [ms]"
   int first_ball = 0;                                        ///< number of the first ball
-  /// Numbers of the walls by id in the column `partner`; 0, 1, ... with a column partner_kind, else -1, -2,
-  /// ...
+  /// Numbers of the walls by id in the column `partner`; else 0, 1, ..., or without a column partner_kind -1,
+  /// -2, ...
   std::optional<std::vector<int>> walls;
 };
 
@@ -99,7 +99,7 @@ class EventLog {
   /// partner_kind and approach_speed. States are not read; any numbers of bodies are accepted.
   explicit EventLog(const std::filesystem::path& place);
 
-  /// The next event; nothing at the end. Bad lines are skipped until there are ten or the file ends.
+  /// The next event; nothing at the end. Bad lines are skipped up to the tenth.
   /// @throws InputError with the bad lines: file, line, column, found, expected
   std::optional<LoggedEvent> next();
 
