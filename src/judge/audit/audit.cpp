@@ -32,7 +32,7 @@ class Auditor : Judge {
         flights_(*this),
         stalls_(case_.mill, case_.balls.size()),
         last_(case_.balls.size()),
-        with_wall_(static_cast<std::size_t>(case_.mill.wall_count())) {}
+        with_wall_(case_.mill.wall_count()) {}
 
   /// Starts the flights of all balls from their states at the beginning of the log.
   void begin(const std::vector<model::BallState<double>>& states, double time) {

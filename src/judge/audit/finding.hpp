@@ -50,14 +50,15 @@ inline constexpr std::array checks{
 };
 #undef EDMILL_CHECK
 inline constexpr std::size_t kind_count = kinds.size(), check_count = checks.size();
-inline const KindInfo& info(Kind kind) { return kinds[static_cast<std::size_t>(kind)]; }
+constexpr std::size_t at(auto number) { return static_cast<std::size_t>(number); }
+inline const KindInfo& info(Kind kind) { return kinds[at(kind)]; }
 /// The kind of violation that a check finds. @pre it finds only one kind
 constexpr Kind kind_of(Check check) {
   const auto first =
       std::find_if(kinds.begin(), kinds.end(), [&](const KindInfo& k) { return k.check == check; });
   return static_cast<Kind>(first - kinds.begin());
 }
-inline const CheckInfo& info(Check check) { return checks[static_cast<std::size_t>(check)]; }
+inline const CheckInfo& info(Check check) { return checks[at(check)]; }
 /// The checks for which `wanted` is true.
 std::vector<Check> checks_with(const auto& wanted) {
   std::vector<Check> list;
@@ -88,17 +89,17 @@ class Findings {
   explicit Findings(std::size_t examples) : examples_(examples) {}
 
   void add(const Finding& finding) {
-    Tally& tally = tallies_[static_cast<std::size_t>(finding.kind)];
+    Tally& tally = tallies_[at(finding.kind)];
     ++tally.count;
     if (*finding.note != '\0') ++tally.notes[finding.note];
     keep(tally, finding);
   }
-  void judged(Check check) { ++judged_[static_cast<std::size_t>(check)]; }
+  void judged(Check check) { ++judged_[at(check)]; }
   /// Counts a check that was not made because the tolerance is as large as the checked quantity.
-  void unresolved(Check check) { ++unresolved_[static_cast<std::size_t>(check)]; }
-  const Tally& of(Kind kind) const { return tallies_[static_cast<std::size_t>(kind)]; }
-  std::uint64_t judged_number(Check check) const { return judged_[static_cast<std::size_t>(check)]; }
-  std::uint64_t unresolved_number(Check check) const { return unresolved_[static_cast<std::size_t>(check)]; }
+  void unresolved(Check check) { ++unresolved_[at(check)]; }
+  const Tally& of(Kind kind) const { return tallies_[at(kind)]; }
+  std::uint64_t judged_number(Check check) const { return judged_[at(check)]; }
+  std::uint64_t unresolved_number(Check check) const { return unresolved_[at(check)]; }
   std::uint64_t total() const {
     return std::accumulate(tallies_.begin(), tallies_.end(), std::uint64_t{0},
                            [](std::uint64_t sum, const Tally& tally) { return sum + tally.count; });

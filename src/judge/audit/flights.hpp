@@ -61,7 +61,7 @@ class Flights : Judge {
         ladder_(case_.mill, smallest_radius(case_), 32.0),
         top_speed_(32),
         tracks_(case_.balls.size()),
-        flown_through_(static_cast<std::size_t>(case_.mill.wall_count())) {}
+        flown_through_(case_.mill.wall_count()) {}
 
   Track& of(int ball) { return tracks_[ball]; }
   const Track& of(int ball) const { return tracks_[ball]; }

@@ -39,6 +39,14 @@ struct Measured {
   std::optional<double> wall_velocity = {};      ///< factor that gives the case's restitution
 };
 
+/// A value of each contact of a list that is chosen.
+std::vector<double> values_of(const std::vector<Measured>& list, const auto& is_chosen, const auto& value) {
+  std::vector<double> values;
+  for (const auto& measured : list)
+    if (is_chosen(measured)) values.push_back(std::invoke(value, measured));
+  return values;
+}
+
 /// Relative velocity of two surfaces [m/s], along and across the unit normal to the ball.
 struct Surfaces {
   Vector normal;
@@ -193,8 +201,6 @@ struct Value {
   double due = 1;                         ///< expected for every contact
   double Measured::*law = nullptr;        ///< expected for each contact
   double Measured::*vanishing = nullptr;  ///< the result is extrapolated linearly to 0 of this
-
-  double due_of(const Measured& s) const { return law ? s.*law : due; }
 };
 
 const Value restitution{
@@ -217,12 +223,10 @@ class Clear {
  public:
   explicit Clear(const std::vector<Measured>& list) {
     if (list.empty()) return;
-    std::vector<double> speeds, disturbed;
-    for (const auto& measured : list) speeds.push_back(measured.approach);
-    least_approach_ = numerics::quantile(std::move(speeds), 0.9) / 8;
-    for (const auto& measured : list)
-      if (measured.approach >= least_approach_) disturbed.push_back(disturbance(measured));
-    most_ = std::clamp(numerics::quantile(std::move(disturbed), 0.5), 0.1, 1.0);
+    const auto any = [](const Measured&) { return true; };
+    least_approach_ = numerics::quantile(values_of(list, any, &Measured::approach), 0.9) / 8;
+    const auto fast = [&](const Measured& s) { return s.approach >= least_approach_; };
+    most_ = std::clamp(numerics::quantile(values_of(list, fast, disturbance), 0.5), 0.1, 1.0);
   }
 
   bool operator()(const Measured& s) const {
@@ -243,27 +247,23 @@ constexpr double spread_allowed = 0.007;
 /// @param number  of values judged together, for the width of the interval
 Judged judged(const Value& value, const std::string& where, const std::vector<Measured>& list,
               const Clear& is_clear, double number, double all_dose) {
-  std::vector<double> off, expected, pressed, turned, depth, vanishing;
   Judged j{
       .name = fmt::format("{} {}", value.name, where), .equation = value.equation, .allowed = value.allowed};
-  for (const auto& measured : list)
-    if (const auto& found = measured.*value.found) {
-      if (all_dose > 0) j.dose_share += std::abs(measured.dose) / all_dose;
-      if (!is_clear(measured)) continue;
-      pressed.push_back(std::abs(measured.pressed));
-      turned.push_back(measured.turned);
-      depth.push_back(measured.depth);
-      expected.push_back(value.due_of(measured));
-      off.push_back(*found - expected.back());
-      if (value.vanishing) vanishing.push_back(measured.*value.vanishing);
-    }
+  for (const auto& s : list)
+    if (all_dose > 0 && s.*value.found) j.dose_share += std::abs(s.dose) / all_dose;
+  const auto values = [&](const auto& of) {
+    return values_of(
+        list, [&](const Measured& s) { return s.*value.found && is_clear(s); }, of);
+  };
+  const auto median = [&](const auto& of) { return median_of(values(of)).value; };
+  const auto due = [&](const Measured& s) { return value.law ? s.*value.law : value.due; };
+  const auto off = values([&](const Measured& s) { return *(s.*value.found) - due(s); });
   j.spread = (numerics::quantile(off, 0.75) - numerics::quantile(off, 0.25)) / 2;
-  j.found =
-      value.vanishing ? numerics::median_at_zero(vanishing, off, number) : median_of(std::move(off), number);
-  j.expected = median_of(std::move(expected)).value;
-  j.allowed += value.by_pressing * median_of(std::move(pressed)).value +
-               value.by_turning * median_of(std::move(turned)).value +
-               value.by_depth * median_of(std::move(depth)).value;
+  j.found = value.vanishing ? numerics::median_at_zero(values(value.vanishing), off, number)
+                            : median_of(off, number);
+  j.expected = median(due);
+  j.allowed += value.by_pressing * median([](const Measured& s) { return std::abs(s.pressed); }) +
+               value.by_turning * median(&Measured::turned) + value.by_depth * median(&Measured::depth);
   for (double* end : {&j.found.value, &j.found.low, &j.found.high}) *end += j.expected;
   return j;
 }
@@ -335,16 +335,16 @@ void judge_wall_velocity(const std::vector<Measured>& walls, ContactAudit& audit
     const auto e = std::find_if(audit.judged.begin(), audit.judged.end(),
                                 [&](const auto& j) { return j.name == "restitution " + part; });
     if (!velocity.known() || e == audit.judged.end()) continue;
-    std::vector<double> changes, approaches, wall_speeds;
-    for (const auto& s : list) {
-      if (!is_clear(s) || !s.restitution) continue;
-      changes.push_back((*s.restitution - s.law_restitution) * s.approach);
-      approaches.push_back(s.approach);
-      wall_speeds.push_back((1 + s.law_restitution) * s.wall_speed);
-    }
+    const auto is_chosen = [&](const Measured& s) { return s.restitution && is_clear(s); };
+    const auto changes = values_of(
+        list, is_chosen, [](const Measured& s) { return (*s.restitution - s.law_restitution) * s.approach; });
+    const auto left_by = [&](const auto& of) {
+      return numerics::mean_left_by(values_of(list, is_chosen, of), changes);
+    };
     const double margin = all ? 1 : 1.25;  // one wall has few contacts
     const bool is_velocity =
-        margin * numerics::mean_left_by(wall_speeds, changes) < numerics::mean_left_by(approaches, changes);
+        margin * left_by([](const Measured& s) { return (1 + s.law_restitution) * s.wall_speed; }) <
+        left_by(&Measured::approach);
     if (is_velocity && !e->agrees()) velocity.allowed = 0;
     if (!is_velocity && !(velocity.agrees() && e->agrees()))
       velocity.not_judged = "it would follow from the restitution";
@@ -406,10 +406,10 @@ std::vector<SlipBin> slips_of(const std::vector<Measured>& walls, const std::vec
     const double high = low < 1 ? low + 0.25 : low * 1.25;
     const auto of = [&](const std::vector<Measured>& list, const auto& value) {
       const auto& is_clear = &list == &walls ? of_these_walls : of_these_balls;
-      std::vector<double> values;
-      for (const auto& s : list)
-        if (is_clear(s) && ratio(s) >= low && ratio(s) < high) values.push_back(std::invoke(value, s));
-      return median_of(std::move(values));
+      const auto in_bin = [&](const Measured& s) {
+        return is_clear(s) && ratio(s) >= low && ratio(s) < high;
+      };
+      return median_of(values_of(list, in_bin, value));
     };
     SlipBin bin{0, of(walls, &Measured::slip_left), of(balls, &Measured::slip_left)};
     bin.ratio = of(bin.of_walls.count >= bin.of_balls.count ? walls : balls, ratio).value;

@@ -29,7 +29,7 @@ std::optional<double> crossing(const auto& gap, double low, double high, bool fa
   for (int round = 0; round < 4; ++round) {
     std::array<double, tried + 1> places, values;
     for (int k = 0; k <= tried; ++k) {
-      const auto place = static_cast<std::size_t>(k);
+      const auto place = k;
       places[place] = low + (high - low) * k / tried;
       values[place] = gap(places[place]);
     }
@@ -133,14 +133,14 @@ void ContactFinder::add(Frame next) {
       open = static_cast<int>(stretches_.size());
       stretches_.push_back({ball, now - 1, now, groups_++});
     } else if (!flies[ball]) {
-      auto& stretch = stretches_[static_cast<std::size_t>(open)];
+      auto& stretch = stretches_[open];
       stretch.last = now;
       if (now - stretch.first >= longest_stretch) ended.push_back(ball);
     } else if (open >= 0) {
       ended.push_back(ball);
     }
   }
-  for (const std::size_t ball : ended) close(stretches_[static_cast<std::size_t>(open_of_[ball])]);
+  for (const std::size_t ball : ended) close(stretches_[open_of_[ball]]);
   if (!ended.empty()) settle();
   find_jumps();
   watch_overlaps(flies);
@@ -199,7 +199,7 @@ void ContactFinder::watch_overlaps(const std::vector<bool>& flies) {
   for (auto* list : {&present, &overlaps_})
     for (auto& [bodies, overlap] : *list)
       for (std::size_t k = 0; k < 2; ++k)
-        overlap.flies[k] = overlap.flies[k] && bodies[k] >= 0 && flies[static_cast<std::size_t>(bodies[k])];
+        overlap.flies[k] = overlap.flies[k] && bodies[k] >= 0 && flies[bodies[k]];
   for (const auto& [bodies, overlap] : overlaps_) end_overlap(bodies, overlap);
   overlaps_ = std::move(present);
 }
@@ -209,7 +209,7 @@ void ContactFinder::watch_overlaps(const std::vector<bool>& flies) {
 /// may be noise of the frames. A ball whose centre is outside is reported even if its velocity changes, since
 /// it may meet other bodies there.
 void ContactFinder::end_overlap(const BodyPair& bodies, const Overlap& overlap) {
-  const double radius = vessel_.ball(static_cast<std::size_t>(bodies[0])).radius;
+  const double radius = vessel_.ball(bodies[0]).radius;
   const double deepest = std::clamp(overlap.growth * frames_.contact_time, 1e-3 * radius, radius / 5);
   const bool flies_on = overlap.depth > deepest && (overlap.flies[0] || overlap.flies[1]);
   if (!flies_on && overlap.depth < radius) return;
@@ -220,7 +220,7 @@ void ContactFinder::end_overlap(const BodyPair& bodies, const Overlap& overlap) 
   contact.ball = bodies[0];
   contact.bodies = bodies[1] < 0 ? 1 : 2;
   contact.partner = bodies[1] < 0 ? -1 - bodies[1] : bodies[1];
-  contact.before = contact.after = window_.back().balls[static_cast<std::size_t>(bodies[0])];
+  contact.before = contact.after = window_.back().balls[bodies[0]];
   found_(contact);
 }
 
@@ -291,7 +291,7 @@ void ContactFinder::settle() {
 /// Walls that a ball overlaps during a stretch, listed once per encounter.
 std::vector<int> ContactFinder::walls_met(const Stretch& s) const {
   std::vector<int> met;
-  std::vector<bool> inside(static_cast<std::size_t>(vessel_.walls()));
+  std::vector<bool> inside(vessel_.walls());
   const auto see = [&](const auto& gap_from) {
     for (int wall = 0; wall < vessel_.walls(); ++wall) {
       const bool under = gap_from(wall) < 0;
@@ -369,16 +369,16 @@ double ContactFinder::work_of_bodies(const Stretch& s, const std::vector<int>& w
     const auto pose = vessel_.at(to.time);
     Eigen::MatrixXd normals(3, std::ssize(walls));
     for (std::size_t w = 0; w < walls.size(); ++w)
-      normals.col(static_cast<Eigen::Index>(w)) = vessel_.normal(pose, s.ball, walls[w], ball.position);
+      normals.col(w) = vessel_.normal(pose, s.ball, walls[w], ball.position);
     const Vector push =
         (ball.velocity - from.balls[s.ball].velocity - frames_.gravity * (to.time - from.time)) *
         vessel_.ball(s.ball).mass;
     const Eigen::VectorXd parts = normals.colPivHouseholderQr().solve(push);
     for (std::size_t w = 0; w < walls.size(); ++w) {
-      const Vector n = normals.col(static_cast<Eigen::Index>(w));
+      const Vector n = normals.col(w);
       const Vector faster = vessel_.wall_velocity(pose, walls[w], ball.position) -
                             vessel_.wall_velocity(pose, 0, ball.position);
-      work += std::max(0.0, parts[static_cast<Eigen::Index>(w)]) * dot<double>(n, faster);
+      work += std::max(0.0, parts[w]) * dot<double>(n, faster);
     }
   }
   return work;

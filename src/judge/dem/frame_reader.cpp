@@ -68,7 +68,7 @@ class Bytes {
   }
   std::string text(int length) {
     if (length < 0 || length > longest_text) fail(fmt::format("a text of {} bytes", length), "a short one");
-    std::string value(static_cast<std::size_t>(length), ' ');
+    std::string value(length, ' ');
     read(value.data(), value.size());
     return value;
   }
@@ -213,7 +213,7 @@ void FrameReader::set_columns(const std::vector<std::string>& columns) {
          "all of id x y z vx vy vz omegax omegay omegaz");
   for (std::size_t k = 0; k < 3; ++k) {
     const bool is_scaled = places_[x + k] < 0;
-    const auto& place = names_[static_cast<std::size_t>(places_[(is_scaled ? scaled_x : x) + k])];
+    const auto& place = names_[places_[(is_scaled ? scaled_x : x) + k]];
     if (place.ends_with('u')) places_[image_x + k] = -1;  // unwrapped already
     if (is_tilted_ && (is_scaled || places_[image_x + k] >= 0))
       fail(fmt::format("the column {} of a triclinic box", is_scaled ? place : names[image_x + k][0]),
@@ -236,13 +236,13 @@ FrameReader::FrameRow FrameReader::row() const {
 }
 
 FrameReader::FrameRow FrameReader::row_of(const std::vector<double>& values) const {
-  const auto at = [&](std::size_t what) { return values[static_cast<std::size_t>(places_[what])]; };
+  const auto at = [&](std::size_t what) { return values[places_[what]]; };
   if (!(std::abs(at(id)) < 1e15)) fail(fmt::format("ball {}", at(id)), "the number of a ball");
   const double length = units_.length, time = units_.time;
   FrameRow row;
   row.id = static_cast<long>(at(id));
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto axis = static_cast<Eigen::Index>(k);
+    const auto axis = k;
     row.state.position[axis] =
         length * (places_[x + k] >= 0 ? at(x + k) : low_[k] + size_[k] * at(scaled_x + k));
     if (places_[image_x + k] >= 0) row.state.position[axis] += length * size_[k] * at(image_x + k);
@@ -321,7 +321,7 @@ bool FrameReader::next_of_binary(Frame& frame) try {
   const auto units = in.text(in.take<std::int32_t>());
   const auto time = in.take<char>() != 0 ? std::optional(in.take<double>()) : std::nullopt;
   const auto titles = in.text(in.take<std::int32_t>());
-  const auto values = read_values(in, count_ * static_cast<std::size_t>(columns));
+  const auto values = read_values(in, count_ * columns);
   ++line_number_;  // of the frame
   if (!units.empty()) format_.units = units;
   set_columns(words(titles));

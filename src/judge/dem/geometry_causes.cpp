@@ -16,8 +16,7 @@ using identify::Assumption;
 
 /// A ball that leaves its flight at a wall.
 struct Meeting {
-  std::size_t ball;
-  int wall;
+  int ball, wall;
   double time;  ///< in the middle between the frames [s]
   Vector position;
 };
@@ -35,7 +34,7 @@ class Geometry {
     const auto built = nominal_.built();
     if (!built) return;
     const MovingVessel vessel(built->mill, built->balls, facets_);
-    reaches_of_walls_.resize(static_cast<std::size_t>(nominal_.walls));
+    reaches_of_walls_.resize(nominal_.walls);
     std::vector<double> reaches;
     for (const auto& c : contacts) {
       const double t = c.free_until + frames.interval / 2;
@@ -48,20 +47,18 @@ class Geometry {
       int wall = -1;
       for (int w = 0; w < vessel.walls(); ++w) {
         // A body has faces along the walls, too: those that are far away are not meant.
-        const auto ball = static_cast<std::size_t>(c.ball);
-        if (vessel.has_bodies() && vessel.gap(pose, ball, w, state.position) > vessel.ball(ball).radius)
+        if (vessel.has_bodies() && vessel.gap(pose, c.ball, w, state.position) > vessel.ball(c.ball).radius)
           continue;
-        if (const double along = dot<double>(
-                vessel.normal(pose, static_cast<std::size_t>(c.ball), w, state.position), impulse);
+        if (const double along = dot<double>(vessel.normal(pose, c.ball, w, state.position), impulse);
             along > best) {
           best = along;
           wall = w;
         }
       }
       if (wall < 0) continue;
-      meetings_.push_back({static_cast<std::size_t>(c.ball), wall, t, state.position});
+      meetings_.push_back({c.ball, wall, t, state.position});
       reaches.push_back(norm<double>(impulse) / 1.5 * frames.interval / 2);
-      reaches_of_walls_[static_cast<std::size_t>(wall)].push_back(reaches.back());
+      reaches_of_walls_[wall].push_back(reaches.back());
     }
     resolution = median_of(reaches).value;
     distance = of(gaps(nominal_));
@@ -86,9 +83,8 @@ class Geometry {
   /// Frames blur positions symmetrically: the median of signed gaps is known better.
   double of(const std::vector<double>& gaps) const {
     if (gaps.empty()) return INFINITY;
-    std::vector<std::vector<double>> by_wall(static_cast<std::size_t>(nominal_.walls));
-    for (std::size_t k = 0; k < gaps.size(); ++k)
-      by_wall[static_cast<std::size_t>(meetings_[k].wall)].push_back(gaps[k]);
+    std::vector<std::vector<double>> by_wall(nominal_.walls);
+    for (std::size_t k = 0; k < gaps.size(); ++k) by_wall[meetings_[k].wall].push_back(gaps[k]);
     double largest = 0;
     for (std::size_t wall = 0; wall < by_wall.size(); ++wall) {
       auto& own = by_wall[wall];

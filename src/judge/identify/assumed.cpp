@@ -121,7 +121,7 @@ std::vector<BallGroup> ball_groups(const casefile::CaseSpec& spec) {
   for (std::size_t k = 0; k < spec.balls.size(); ++k, ++next)
     groups.push_back({"ball." + std::to_string(k), next, next + 1, &spec.balls[k]});
   for (std::size_t k = 0; k < spec.batches.size(); ++k) {
-    const auto count = static_cast<std::size_t>(spec.batches[k].count);
+    const std::size_t count = spec.batches[k].count;
     groups.push_back({"balls." + std::to_string(k), next, next + count, &spec.batches[k]});
     next += count;
   }
@@ -150,7 +150,7 @@ std::vector<SharedSubset> subsets_of(const casefile::CaseSpec& spec, const model
   const auto at_walls = [&](const std::string& name, const auto& is_one) {
     std::vector<bool> at;
     for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) at.push_back(is_one(wall));
-    const auto number = static_cast<std::size_t>(std::count(at.begin(), at.end(), true));
+    const std::size_t number = std::count(at.begin(), at.end(), true);
     if (number > 1 && number < at.size())
       of_impacts("at " + name,
                  [at](const LoggedEvent& e, std::size_t) { return e.with_wall && at[e.partner]; });

@@ -163,7 +163,7 @@ audit::Rows LogResiduals::rows_of(std::size_t k, const model::Case<double>& mode
   for (std::size_t body = 0; body < impact.count(); ++body) {
     const Before& begin = before_[k][body];
     if (begin.event < 0) continue;
-    const LoggedEvent& earlier = event_at(static_cast<std::size_t>(begin.event), copy_of_earlier);
+    const LoggedEvent& earlier = event_at(begin.event, copy_of_earlier);
     equations.of_flight({earlier.body[begin.body], event.body[body], log_.available.body[begin.body],
                          log_.available.body[body], earlier.time, event.time,
                          model.balls[event.ball_at(body)].radius, static_cast<int>(body)},
@@ -223,7 +223,7 @@ Residuals::Residuals(const LogResiduals& log, const std::vector<std::size_t>& ev
     for (const auto& row : log.rows_of(k, log.nominal_, {}, {})) {
       const bool known = row.allowed > 0 && std::isfinite(row.allowed);
       const bool of_flight = row.equation == audit::Check::flight || row.equation == audit::Check::spin_kept;
-      of_case_.insert(of_case_.end(), static_cast<std::size_t>(row.count),
+      of_case_.insert(of_case_.end(), row.count,
                       {known ? row.allowed : 1.0, row.kind, {k, row.body, of_flight}});
     }
     chosen_.push_back(k);
@@ -253,7 +253,7 @@ Eigen::VectorXd Residuals::rows(const Assumed& assumed) const {
 }
 
 Eigen::VectorXd Residuals::of_whole(const Assumed& assumed) const {
-  Eigen::VectorXd values = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(count()), out_of_range);
+  Eigen::VectorXd values = Eigen::VectorXd::Constant(count(), out_of_range);
   const auto model = assumed.built();
   if (!model) return values;
   std::size_t place = 0;

@@ -120,7 +120,7 @@ void add_bodies(const Assumed& nominal, std::vector<Assumption>& list) {
   std::size_t first = 0;
   for (std::size_t entry = 0; first < bodies.size(); ++entry) {
     const auto is_copy = [where = bodies[first].where](const auto& other) { return other.where == where; };
-    const auto end = first + static_cast<std::size_t>(std::count_if(bodies.begin(), bodies.end(), is_copy));
+    const std::size_t end = first + std::count_if(bodies.begin(), bodies.end(), is_copy);
     const auto key = fmt::format("body.{}", entry);
     const auto add = [&](const std::string& name, Dimension dimension, const Quantity& value, auto set) {
       list.push_back(number(key + "." + name, dimension, value.to<double>(), [=](Assumed& a, double x) {
@@ -385,7 +385,7 @@ void add_balls(const std::string& key, std::size_t first, std::size_t last, cons
     std::size_t next = explicit_ones;
     for (auto& batch : a.spec.batches) {
       if (next >= first && next < last) batch.*member = exactly(x);
-      next += static_cast<std::size_t>(batch.count);
+      next += batch.count;
     }
   };
   const double diameter = spec.diameter.to<double>(), density = spec.density.to<double>();

@@ -86,7 +86,7 @@ class Replay {
       return a.same_bodies(b) && std::abs(a.time - b.time) < same_time * period_;
     };
     const auto differing = std::mismatch(one.begin(), one.end(), two.begin(), two.end(), same);
-    return static_cast<std::size_t>(differing.first - one.begin());
+    return differing.first - one.begin();
   }
   std::size_t follows(const std::vector<Impact>& list) const { return common(list, log_); }
 
@@ -102,7 +102,7 @@ class Replay {
       if (!log_[k].with_wall) of_ball[log_[k].partner].push_back(k);
     }
     for (const auto& impact : list) {
-      const auto ball = static_cast<std::size_t>(impact.ball);
+      const std::size_t ball = impact.ball;
       if (seen[ball] >= depth || next[ball] >= of_ball[ball].size()) continue;
       const std::size_t k = of_ball[ball][next[ball]];
       if (!log_[k].same_bodies(impact)) {  // the partner differs: skip the later impacts of this ball
