@@ -25,7 +25,7 @@ int other_of(const LoggedEvent& event, std::size_t body) {
 class Auditor : Judge {
  public:
   /// @param result  has the columns and the tolerances, and gets what is found
-  Auditor(const model::Case<double>& the_case, Audit& result)
+  Auditor(const Case& the_case, Audit& result)
       : Judge{the_case, result.available, result.tolerances, result.findings},
         result_(result),
         equations_(available_, tolerances_),
@@ -308,7 +308,7 @@ class Auditor : Judge {
 
 /// Audits a sequence of events.
 /// @param next  returns the next event in order of time, or nothing at the end
-Audit audit_events(const model::Case<double>& the_case, const std::vector<model::BallState<double>>* states,
+Audit audit_events(const Case& the_case, const std::vector<model::BallState<double>>* states,
                    const Options& options, const std::string& file, const Available& available,
                    const auto& next) {
   Audit result;
@@ -344,7 +344,7 @@ Audit audit_events(const model::Case<double>& the_case, const std::vector<model:
   return result;
 }
 
-logs::EventLog open_log(const model::Case<double>& the_case, const Options& options) {
+logs::EventLog open_log(const Case& the_case, const Options& options) {
   return {options.log, options.conventions, static_cast<int>(the_case.balls.size()),
           the_case.mill.wall_count(), 1e15 * the_case.mill.motion.period()};
 }
@@ -369,7 +369,7 @@ std::string_view name_of(Verdict verdict) {
   return std::array{"clean", "violations", "too_few"}.at(static_cast<std::size_t>(verdict));
 }
 
-Tolerances tolerances_of(const model::Case<double>& the_case, const Options& options) {
+Tolerances tolerances_of(const Case& the_case, const Options& options) {
   Tolerances tolerances;
   tolerances.relative = options.tolerance;
   tolerances.reach = the_case.mill.motion.reach(the_case.mill.vessel.reach());
@@ -379,14 +379,14 @@ Tolerances tolerances_of(const model::Case<double>& the_case, const Options& opt
   return tolerances;
 }
 
-Audit audit(const model::Case<double>& the_case, const std::vector<model::BallState<double>>& states,
+Audit audit(const Case& the_case, const std::vector<model::BallState<double>>& states,
             const Options& options) {
   auto log = open_log(the_case, options);
   return audit_events(the_case, options.from_start ? &states : nullptr, options, log.file(), log.available(),
                       [&] { return log.next(); });
 }
 
-EventsAtHand read_events(const model::Case<double>& the_case, const Options& options, std::size_t most) {
+EventsAtHand read_events(const Case& the_case, const Options& options, std::size_t most) {
   auto log = open_log(the_case, options);
   EventsAtHand result{log.file(), log.available(), {}};
   for (std::optional<LoggedEvent> event; result.events.size() < most && (event = log.next());)
@@ -394,7 +394,7 @@ EventsAtHand read_events(const model::Case<double>& the_case, const Options& opt
   return result;
 }
 
-Audit audit(const model::Case<double>& the_case, const EventsAtHand& log, const Options& options) {
+Audit audit(const Case& the_case, const EventsAtHand& log, const Options& options) {
   std::size_t k = 0;
   return audit_events(the_case, nullptr, options, log.file, log.available,
                       [&] { return k < log.events.size() ? std::optional(log.events[k++]) : std::nullopt; });

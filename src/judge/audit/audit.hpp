@@ -60,7 +60,7 @@ struct Audit {
 
 /// @param the_case, states  of the case; the states are its initial ones
 /// @throws InputError with the problems of the log and of the options for it
-Audit audit(const model::Case<double>& the_case, const std::vector<model::BallState<double>>& states,
+Audit audit(const Case& the_case, const std::vector<model::BallState<double>>& states,
             const Options& options);
 
 /// Events already read from a log, in order of time.
@@ -70,11 +70,11 @@ struct EventsAtHand {
   std::vector<LoggedEvent> events;
 };
 /// Reads the first events of a log, `most` at the most. @throws InputError
-EventsAtHand read_events(const model::Case<double>& the_case, const Options& options, std::size_t most);
+EventsAtHand read_events(const Case& the_case, const Options& options, std::size_t most);
 /// Audits events already read; `options.log` and `options.from_start` are ignored.
-Audit audit(const model::Case<double>& the_case, const EventsAtHand& log, const Options& options);
+Audit audit(const Case& the_case, const EventsAtHand& log, const Options& options);
 /// Tolerances of gaps and speeds.
-Tolerances tolerances_of(const model::Case<double>& the_case, const Options& options);
+Tolerances tolerances_of(const Case& the_case, const Options& options);
 
 /// Fraction of the checks made that found a violation of this kind; nan if none were made.
 double share_of(const Audit& audit, Kind kind);

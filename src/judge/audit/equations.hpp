@@ -21,7 +21,7 @@ struct WallRates {
   double acceleration = 0;  ///< of any [m/s^2]
   double turning = 0;       ///< of the vessel [rad/s]
 
-  static WallRates of(const model::Mill<double>& mill) {
+  static WallRates of(const Mill& mill) {
     const auto& motion = mill.motion;
     const double vessel = mill.vessel.reach();
     // Among the points within r of the centre, some move at r times the angular speed or faster.
@@ -76,7 +76,7 @@ enum class Friction { acts, rests, either };
 /// Bounds the number of consecutive impacts of each ball without time to move in between.
 class StallHistory {
  public:
-  StallHistory(const model::Mill<double>& mill, std::size_t balls)
+  StallHistory(const Mill& mill, std::size_t balls)
       : stall_(mill.stall), balls_(balls, Ball{unknown, 0, stall_.impacts}) {}
 
   /// Starts all flights at `time`; the log is complete from then on.

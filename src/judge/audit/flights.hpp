@@ -16,7 +16,7 @@ namespace edmill::audit {
 
 /// Data that all checks of a log share.
 struct Judge {
-  const model::Case<double>& case_;
+  const Case& case_;
   const Available& available_;
   Tolerances tolerances_;
   Findings& findings_;
@@ -138,7 +138,7 @@ class Flights : Judge {
   static constexpr int samples = 32;             ///< of a flight
 
   /// Half of the smallest sum of two radii; the search reduces the sums by no more than half.
-  static double smallest_radius(const model::Case<double>& c) {
+  static double smallest_radius(const Case& c) {
     const auto smaller = [](const auto& a, const auto& b) { return a.radius < b.radius; };
     return std::min_element(c.balls.begin(), c.balls.end(), smaller)->radius;
   }

@@ -76,7 +76,7 @@ double bend_of(const auto& room, int wall, const Vec& place, double step) {
 
 /// Calls f(frame, room, number) with the vessel or body of a wall, and its number there.
 template <class F>
-auto with_wall(const model::Mill<double>& mill, int wall, const VesselFrame& vessel, double radius, F&& f) {
+auto with_wall(const Mill& mill, int wall, const VesselFrame& vessel, double radius, F&& f) {
   const auto* body = mill.body_of(wall);
   if (!body) return f(vessel, mill.vessel.inset(radius), wall);
   return f(plain_frame(body->motion, body->motion.pose(vessel.when)), body->shape.inset(radius), 0);
@@ -84,7 +84,7 @@ auto with_wall(const model::Mill<double>& mill, int wall, const VesselFrame& ves
 
 }  // namespace
 
-VesselFrame vessel_at(const model::Mill<double>& mill, double time, bool as_printed) {
+VesselFrame vessel_at(const Mill& mill, double time, bool as_printed) {
   const auto when = DriveClock<double>(mill.motion.period()).at(time);
   auto frame = frame_of(mill.motion, mill.motion.pose(when), as_printed);
   frame.when = when;
@@ -94,15 +94,14 @@ VesselFrame vessel_at(const model::Mill<double>& mill, double time, bool as_prin
   return frame;
 }
 
-double wall_gap(const VesselFrame& frame, const model::Case<double>& the_case, int wall, int ball,
-                const Vec& position) {
+double wall_gap(const VesselFrame& frame, const Case& the_case, int wall, int ball, const Vec& position) {
   return with_wall(the_case.mill, wall, frame, the_case.balls[ball].radius,
                    [&](const VesselFrame& own, const auto& room, int number) {
                      return -room.overlap(number, inside(own, position)) - own.of_wall(number).value;
                    });
 }
 
-double gap_of(const LoggedEvent& event, const model::Case<double>& the_case, const VesselFrame& frame) {
+double gap_of(const LoggedEvent& event, const Case& the_case, const VesselFrame& frame) {
   const auto& [one, two] = event.body;
   if (event.with_wall) return wall_gap(frame, the_case, event.partner, event.ball, one.position);
   return size(Vec(one.position - two.position)) - the_case.balls[event.ball].radius -
@@ -135,8 +134,8 @@ const std::array<WallVelocity, 10> wall_velocities = {{
      }},
 }};
 
-void LoggedImpact::set_wall_velocity(const WallVelocity& formula, const model::Mill<double>& mill,
-                                     const VesselFrame& nested, const VesselFrame& printed) {
+void LoggedImpact::set_wall_velocity(const WallVelocity& formula, const Mill& mill, const VesselFrame& nested,
+                                     const VesselFrame& printed) {
   const Vec& ball_centre = event->body[0].position;
   const Vec contact = ball_centre - normal * ball[0].radius;
   if (const auto* body = mill.body_of(event->partner)) {
@@ -148,8 +147,8 @@ void LoggedImpact::set_wall_velocity(const WallVelocity& formula, const model::M
   }
 }
 
-LoggedImpact impact_of(const LoggedEvent& event, const model::Case<double>& the_case,
-                       const VesselFrame& frame, bool placed) {
+LoggedImpact impact_of(const LoggedEvent& event, const Case& the_case, const VesselFrame& frame,
+                       bool placed) {
   const auto& mill = the_case.mill;
   LoggedImpact impact;
   impact.event = &event;

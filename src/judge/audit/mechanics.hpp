@@ -12,6 +12,8 @@
 namespace edmill::audit {
 
 using Vec = Vec3<double>;
+using Case = model::Case<double>;
+using Mill = model::Mill<double>;
 using logs::Available, logs::BodyState, logs::LoggedEvent, logs::unknown;
 
 EIGEN_ALWAYS_INLINE double dot(const Vec& a, const Vec& b) { return a.dot(b); }
@@ -35,13 +37,12 @@ struct VesselFrame {
 
 /// The vessel at a time [s]. The rotation of the nested motion is R_z(theta) R_x(gamma), (2.7').
 /// @param as_printed  the nested motion's is R_x(gamma) R_z(theta), as (2.14) is printed
-VesselFrame vessel_at(const model::Mill<double>& mill, double time, bool as_printed);
+VesselFrame vessel_at(const Mill& mill, double time, bool as_printed);
 
 /// Gap of a ball to a wall [m]; negative for an overlap. (2.17'), (2.19'), (2.21)
-double wall_gap(const VesselFrame& frame, const model::Case<double>& the_case, int wall, int ball,
-                const Vec& position);
+double wall_gap(const VesselFrame& frame, const Case& the_case, int wall, int ball, const Vec& position);
 /// Gap of the bodies of an event [m].
-double gap_of(const LoggedEvent& event, const model::Case<double>& the_case, const VesselFrame& frame);
+double gap_of(const LoggedEvent& event, const Case& the_case, const VesselFrame& frame);
 /// The frames of the vessel, the contact point P, and the ball's centre.
 struct WallPoint {
   const VesselFrame &nested, &printed;
@@ -99,8 +100,8 @@ struct LoggedImpact {
 
   /// Sets the wall velocity by a code's formula, plus the motion of the wall within the vessel.
   /// @param nested, printed  of the vessel
-  void set_wall_velocity(const WallVelocity& formula, const model::Mill<double>& mill,
-                         const VesselFrame& nested, const VesselFrame& printed);
+  void set_wall_velocity(const WallVelocity& formula, const Mill& mill, const VesselFrame& nested,
+                         const VesselFrame& printed);
   bool with_wall() const { return event->with_wall; }
   std::size_t count() const { return event->count(); }  ///< of balls
   Vec before() const;                                   ///< relative velocity of the contact points. (2.27)
@@ -129,8 +130,7 @@ struct LoggedImpact {
 
 /// The impact of an event, with the right velocity of the wall.
 /// @param placed  the log has the positions of the bodies; otherwise the normal is arbitrary
-LoggedImpact impact_of(const LoggedEvent& event, const model::Case<double>& the_case,
-                       const VesselFrame& frame, bool placed);
+LoggedImpact impact_of(const LoggedEvent& event, const Case& the_case, const VesselFrame& frame, bool placed);
 
 /// Result of the contact law: the states after an impact, and e_t.
 struct Outcome {

@@ -54,7 +54,7 @@ struct Surfaces {
   Vector along;
 
   Surfaces(const Vector& n, const Vector& velocity)
-      : normal(n), separation(dot<double>(velocity, n)), along(velocity - n * separation) {}
+      : normal(n), separation(dot(velocity, n)), along(velocity - n * separation) {}
 };
 
 /// The bodies of a contact in the case.
@@ -76,10 +76,8 @@ Measured measured_by(const Contact& c, const Vector& gravity, const Bodies& bodi
   const Surfaces touch = at(c.begin, c.before, c.partner_before), leave = at(c.end, c.after, c.partner_after),
                  flown_on = at(c.end, on(c.before), on(c.partner_before)),
                  flown_back = at(c.begin, back(c.after), back(c.partner_after));
-  Measured measured{.parts = bodies.parts,
-                    .dose = c.dose,
-                    .approach = -touch.separation,
-                    .slip = norm<double>(touch.along)};
+  Measured measured{
+      .parts = bodies.parts, .dose = c.dose, .approach = -touch.separation, .slip = norm(touch.along)};
   if (!(measured.approach > 0)) return measured;
   bool has_friction = false;
   measured.law_restitution = bodies.law.restitution(measured.approach, bodies.sizes);
@@ -93,22 +91,20 @@ Measured measured_by(const Contact& c, const Vector& gravity, const Bodies& bodi
                last = (flown_back.separation - leave.separation) / (2 * measured.approach),
                early = (3 * first + last) / 4, late = (first + 3 * last) / 4;
   measured.pressed = early + late;
-  measured.turned = norm<double>(Vector(leave.normal - touch.normal));
+  measured.turned = norm(leave.normal - touch.normal);
   measured.depth = 0.34 * duration * measured.approach / bodies.ball.radius;
   const double separation = leave.separation / measured.approach, e = measured.law_restitution;
   // Before the closest distance a force adds to the approach, afterwards it brakes; equal forces before
   // and after have the effect press_effect(e).
   measured.restitution = separation + (2 * decks::press_effect(e) + e) * late - e * early;
   const Vector left = leave.along - (flown_on.along - touch.along);
-  if (measured.slip > 0)
-    measured.slip_left = dot<double>(left, touch.along) / (measured.slip * measured.slip);
-  const Vector both = touch.normal + leave.normal, normal = both / norm<double>(both);
+  if (measured.slip > 0) measured.slip_left = dot(left, touch.along) / (measured.slip * measured.slip);
+  const Vector both = touch.normal + leave.normal, normal = both / norm(both);
   const Vector change = c.after.velocity - c.before.velocity - gravity * duration,
-               along = change - normal * dot<double>(change, normal),
-               due = cross<double>(normal, along) / (-bodies.ball.reduced_inertia * bodies.ball.radius);
-  const double friction = norm<double>(along) / dot<double>(change, normal);
-  if (friction > 0.05)
-    measured.spin_change = dot<double>(Vector(c.after.spin - c.before.spin), due) / dot<double>(due, due);
+               along = change - normal * dot(change, normal),
+               due = cross(normal, along) / (-bodies.ball.reduced_inertia * bodies.ball.radius);
+  const double friction = norm(along) / dot(change, normal);
+  if (friction > 0.05) measured.spin_change = dot(c.after.spin - c.before.spin, due) / dot(due, due);
   if (!has_friction) return measured;
   // Slip above which the case's contact slides throughout.
   const double least =
@@ -126,8 +122,7 @@ class SingleContacts {
  public:
   /// The mill and the vessel must outlive it.
   /// @param gravity  in which the balls fly [m/s^2]
-  SingleContacts(const casefile::CaseSpec& spec, const model::Mill<double>& mill, const MovingVessel& vessel,
-                 const Vector& gravity)
+  SingleContacts(const CaseSpec& spec, const Mill& mill, const MovingVessel& vessel, const Vector& gravity)
       : mill_(mill), vessel_(vessel), gravity_(gravity), partners_(casefile::partners_of(spec)) {
     for (const auto& group : identify::ball_groups(spec))
       for (std::size_t k = group.first; k < group.last; ++k) kinds_.push_back(group.key);
@@ -146,11 +141,11 @@ class SingleContacts {
     auto measured = measured_by(c, gravity_, bodies, [&](double time, const BallState& i, const BallState&) {
       const auto pose = vessel_.at(time);
       const Vector n = vessel_.normal(pose, ball, c.partner, i.position), arm = n * -b.radius;
-      return Surfaces(n, i.velocity + cross<double>(i.spin, arm) -
-                             vessel_.wall_velocity(pose, c.partner, i.position + arm));
+      return Surfaces(
+          n, i.velocity + cross(i.spin, arm) - vessel_.wall_velocity(pose, c.partner, i.position + arm));
     });
-    measured.wall_speed = dot<double>(vessel_.wall_velocity(middle, c.partner, c.before.position),
-                                      vessel_.normal(middle, ball, c.partner, c.before.position));
+    measured.wall_speed = dot(vessel_.wall_velocity(middle, c.partner, c.before.position),
+                              vessel_.normal(middle, ball, c.partner, c.before.position));
     const double change = (1 + measured.law_restitution) * measured.wall_speed;
     if (measured.restitution && std::abs(measured.wall_speed) > 0.3 * measured.approach)
       measured.wall_velocity =
@@ -170,9 +165,8 @@ class SingleContacts {
         {effective, a.radius, b.radius},
         1 + effective / (a.mass * a.reduced_inertia) + effective / (b.mass * b.reduced_inertia)};
     return measured_by(c, gravity_, bodies, [&](double, const BallState& i, const BallState& j) {
-      const Vector apart = i.position - j.position, n = apart / norm<double>(apart);
-      return Surfaces(
-          n, i.velocity - j.velocity - cross<double>(Vector(i.spin * a.radius + j.spin * b.radius), n));
+      const Vector apart = i.position - j.position, n = apart / norm(apart);
+      return Surfaces(n, i.velocity - j.velocity - cross(i.spin * a.radius + j.spin * b.radius, n));
     });
   }
 
@@ -186,7 +180,7 @@ class SingleContacts {
     return parts;
   }
 
-  const model::Mill<double>& mill_;
+  const Mill& mill_;
   const MovingVessel& vessel_;
   Vector gravity_;
   model::Partners partners_;
@@ -366,7 +360,7 @@ void judge_wall_velocity(const std::vector<Measured>& walls, ContactAudit& audit
 constexpr const char* unexplained_dose = "dose with no wall or ball";
 
 /// Facts about the whole log.
-void judge_facts(const model::Mill<double>& mill, ContactAudit& audit) {
+void judge_facts(const Mill& mill, ContactAudit& audit) {
   const auto& facts = audit.facts;
   const auto add = [&](const std::string& name, double found, double half_width, double expected,
                        double allowed, Judged::Of of = Judged::Of::log, const char* unit = "") {
@@ -379,7 +373,7 @@ void judge_facts(const model::Mill<double>& mill, ContactAudit& audit) {
   };
   for (Eigen::Index k = 0; k < 3; ++k)
     add(fmt::format("gravity along {}", "XYZ"[k]), facts.statistics.gravity[k],
-        facts.statistics.gravity_half_width[k], mill.gravity[k], 1e-3 * norm<double>(mill.gravity) + 1e-3,
+        facts.statistics.gravity_half_width[k], mill.gravity[k], 1e-3 * norm(mill.gravity) + 1e-3,
         Judged::Of::log, "m/s^2");
   const double size = facts.radius_factor > 0 ? facts.radius_factor : 1;
   add("density over the case's", facts.mass_factor / (size * size * size), 0, 1, 1e-6);
@@ -436,7 +430,7 @@ bool ContactAudit::wall_velocity_differs() const {
                      [](const Judged& j) { return j.equation == wall_velocity.equation && !j.agrees(); });
 }
 
-ContactAudit audit_contacts(const casefile::CaseSpec& spec, const std::string& file,
+ContactAudit audit_contacts(const CaseSpec& spec, const std::string& file,
                             const std::atomic<bool>* interrupt) {
   ContactLogReader log(file);
   const auto built = casefile::build_case<double>(spec);
@@ -499,10 +493,10 @@ ContactAudit audit_contacts(const casefile::CaseSpec& spec, const std::string& f
   const auto is_known = [](const Judged& j) { return j.equation == restitution.equation && j.known(); };
   if (!std::all_of(audit.judged.begin(), audit.judged.end(), [](const auto& j) { return j.agrees(); }) ||
       !audit.walls_met())
-    audit.verdict = compare::Verdict::differ;
+    audit.verdict = Verdict::differ;
   else if (!audit.interrupted && std::any_of(audit.judged.begin(), audit.judged.end(), is_known) &&
            std::none_of(audit.judged.begin(), audit.judged.end(), [](const auto& j) { return j.is_open(); }))
-    audit.verdict = compare::Verdict::agree;
+    audit.verdict = Verdict::agree;
   return audit;
 }
 

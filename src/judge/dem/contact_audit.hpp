@@ -12,7 +12,10 @@
 
 namespace edmill::dem {
 
+using casefile::CaseSpec;
+using compare::Verdict;
 using numerics::Median, numerics::median_of;
+using Mill = model::Mill<double>;
 
 /// One value of the code against that of the case.
 struct Judged {
@@ -55,7 +58,7 @@ struct SlipBin {
 struct ContactAudit {
   std::string case_name, log_name;
   ContactLogFacts facts;
-  compare::Verdict verdict = compare::Verdict::too_few;
+  Verdict verdict = Verdict::too_few;
   ByClass<std::uint64_t> counts{};
   double magnitude = 0;  ///< sum of |dose| over all contacts [J]
   std::uint64_t missed_at_walls = 0, missed_between_balls = 0;
@@ -74,8 +77,7 @@ struct ContactAudit {
 };
 
 /// @throws InputError when the log cannot be read or is of other balls
-ContactAudit audit_contacts(const casefile::CaseSpec& spec, const std::string& log,
-                            const std::atomic<bool>* interrupt);
+ContactAudit audit_contacts(const CaseSpec& spec, const std::string& log, const std::atomic<bool>* interrupt);
 
 std::string table(const ContactAudit& audit);
 std::string to_json(const ContactAudit& audit);
@@ -86,7 +88,7 @@ std::string to_junit(const ContactAudit& audit);
 /// Finds the distance from the walls at which balls leave their flights, and the numbers of mill and vessel
 /// with which it vanishes, best first.
 /// @param contacts  of single balls
-void judge_places(const casefile::CaseSpec& spec, const std::vector<Contact>& contacts,
+void judge_places(const CaseSpec& spec, const std::vector<Contact>& contacts,
                   const std::atomic<bool>* interrupt, ContactAudit& audit);
 
 }  // namespace edmill::dem

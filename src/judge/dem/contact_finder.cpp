@@ -20,8 +20,7 @@ constexpr int tried = 32;
 
 /// Change of a ball's velocity between two frames, without that by gravity [m/s].
 double change_of(const Frame& from, const Frame& to, std::size_t ball, const Vector& gravity) {
-  return norm<double>(
-      Vector(to.balls[ball].velocity - from.balls[ball].velocity - gravity * (to.time - from.time)));
+  return norm(Vector(to.balls[ball].velocity - from.balls[ball].velocity - gravity * (to.time - from.time)));
 }
 
 /// Time at which a gap first falls to zero, or last rises from it; nothing if it does not.
@@ -92,8 +91,7 @@ FrameStatistics statistics_of(const std::vector<Frame>& frames, const Vector& ex
       const auto &a = frames[k - 1].balls[i], &b = frames[k].balls[i];
       const Vector due = (a.velocity + b.velocity) * ((frames[k].time - frames[k - 1].time) / 2),
                    way = b.position - a.position;
-      if (const double square = dot<double>(due, due); square > 0)
-        ways.push_back(dot<double>(way, due) / square);
+      if (const double square = dot(due, due); square > 0) ways.push_back(dot(way, due) / square);
     }
   s.way_factor = numerics::median_of(std::move(ways)).value;
   std::sort(changes.begin(), changes.end());
@@ -154,8 +152,8 @@ void ContactFinder::find_jumps() {
   const double dt = to.time - from.time;
   for (std::size_t ball = 0; ball < open_of_.size(); ++ball) {
     const auto &a = from.balls[ball], &b = to.balls[ball];
-    const double way = norm<double>(Vector(b.position - a.position));
-    const double fastest = norm<double>(a.velocity) + norm<double>(b.velocity);
+    const double way = norm(b.position - a.position);
+    const double fastest = norm(a.velocity) + norm(b.velocity);
     if (way <= fastest * dt + vessel_.ball(ball).radius / 10) continue;
     found_({.kind = ContactClass::jump,
             .begin = from.time,
@@ -194,7 +192,7 @@ void ContactFinder::watch_overlaps(const std::vector<bool>& flies) {
       const Vector apart = now.balls[*two].position - now.balls[*one].position;
       if (apart[0] > vessel_.ball(*one).radius + largest_radius_) break;
       const double touch = vessel_.ball(*one).radius + vessel_.ball(*two).radius;
-      watch({std::min(*one, *two), std::max(*one, *two)}, touch - norm<double>(apart));
+      watch({std::min(*one, *two), std::max(*one, *two)}, touch - norm(apart));
     }
   for (auto* list : {&present, &overlaps_})
     for (auto& [bodies, overlap] : *list)
@@ -248,8 +246,8 @@ bool ContactFinder::come_near(const Stretch& one, const Stretch& other) const {
   double nearest = std::numeric_limits<double>::infinity(), fastest = 0;
   for (std::size_t k = low; k <= high; ++k) {
     const auto &i = frame(k).balls[one.ball], &j = frame(k).balls[other.ball];
-    nearest = std::min(nearest, norm<double>(Vector(i.position - j.position)));
-    fastest = std::max(fastest, norm<double>(Vector(i.velocity - j.velocity)));
+    nearest = std::min(nearest, norm(i.position - j.position));
+    fastest = std::max(fastest, norm(i.velocity - j.velocity));
   }
   if (nearest <= touch) return true;
   const double whole = frame(high).time - frame(low).time;
@@ -259,7 +257,7 @@ bool ContactFinder::come_near(const Stretch& one, const Stretch& other) const {
     const auto &i = frame(from).balls[one.ball], &j = frame(from).balls[other.ball];
     for (int k = 0; k <= tried; ++k) {
       const Vector apart = i.position - j.position + (i.velocity - j.velocity) * (step * k / tried);
-      if (norm<double>(apart) <= touch) return true;
+      if (norm(apart) <= touch) return true;
     }
     return false;
   };
@@ -378,7 +376,7 @@ double ContactFinder::work_of_bodies(const Stretch& s, const std::vector<int>& w
       const Vector n = normals.col(w);
       const Vector faster = vessel_.wall_velocity(pose, walls[w], ball.position) -
                             vessel_.wall_velocity(pose, 0, ball.position);
-      work += std::max(0.0, parts[w]) * dot<double>(n, faster);
+      work += std::max(0.0, parts[w]) * dot(n, faster);
     }
   }
   return work;
@@ -392,8 +390,7 @@ bool ContactFinder::make_single(const std::vector<Stretch>& group, int wall, Con
       const auto own = flown(known.balls[a.ball], frames_.gravity, t - known.time).position;
       if (wall >= 0) return vessel_.gap(vessel_.at(t), a.ball, wall, own);
       const auto other = flown(known.balls[group[1].ball], frames_.gravity, t - known.time).position;
-      return norm<double>(Vector(own - other)) - vessel_.ball(a.ball).radius -
-             vessel_.ball(group[1].ball).radius;
+      return norm(own - other) - vessel_.ball(a.ball).radius - vessel_.ball(group[1].ball).radius;
     };
   };
   const double longest = to.time - from.time;
@@ -449,7 +446,7 @@ void ContactFinder::report(std::vector<Stretch> group) {
   if (group.size() == 1) {
     const auto met = walls_met(group[0]);
     // A change this small is due to rounded numbers in the dump, not to a contact.
-    const double change = norm<double>(impulse(group[0])) / vessel_.ball(group[0].ball).mass;
+    const double change = norm(impulse(group[0])) / vessel_.ball(group[0].ball).mass;
     if (met.empty() && change < std::max(50 * frames_.kick, 1e-3)) return;
     if (met.empty())
       contact.kind = ContactClass::unexplained;
@@ -463,8 +460,7 @@ void ContactFinder::report(std::vector<Stretch> group) {
   } else if (group.size() == 2) {
     const auto &a = group[0], &b = group[1];
     const Vector of_a = impulse(a), of_b = impulse(b);
-    const bool alone = a.first == b.first && a.last == b.last &&
-                       norm<double>(Vector(of_a + of_b)) < 0.01 * norm<double>(of_a);
+    const bool alone = a.first == b.first && a.last == b.last && norm(of_a + of_b) < 0.01 * norm(of_a);
     if (alone) contact.partner = static_cast<int>(b.ball);
     if (alone && lasts) contact.kind = ContactClass::lasting;
     if (alone && !lasts && make_single(group, -1, contact)) contact.kind = ContactClass::pair;

@@ -86,7 +86,7 @@ std::string sentence(const ContactComparison& c) {
   return "dose rate of B over that of A: " + with_interval(c.ratio, c.half_width);
 }
 
-const char* word_for(compare::Verdict verdict) {
+const char* word_for(Verdict verdict) {
   return std::array{"agree", "differ", "too few"}.at(static_cast<std::size_t>(verdict));
 }
 
@@ -94,8 +94,8 @@ constexpr double widest = 0.05;  ///< half-width with which rates may be said to
 
 std::string verdict_of(const ContactComparison& c) {
   const auto bound = c.within ? fmt::format(" within {:g} %", 100 * *c.within) : std::string();
-  if (c.verdict == compare::Verdict::agree) return "the dose rates agree" + bound;
-  if (c.verdict == compare::Verdict::differ)
+  if (c.verdict == Verdict::agree) return "the dose rates agree" + bound;
+  if (c.verdict == Verdict::differ)
     return "the dose rates differ" + (c.within ? " by more than" + bound.substr(7) : "");
   return fmt::format("too few data: the ratio is known to ± {:.2g} %, {}", 100 * c.half_width,
                      c.within
@@ -104,7 +104,6 @@ std::string verdict_of(const ContactComparison& c) {
 }
 
 void judge(ContactComparison& c) {
-  using compare::Verdict;
   const auto &a = c.a, &b = c.b;
   c.ratio = b.dose_rate / a.dose_rate;
   c.half_width = c.ratio * std::hypot(a.half_width / a.dose_rate, b.half_width / b.dose_rate);
@@ -205,7 +204,6 @@ std::string to_json(const ContactComparison& c) { return io::JsonFields::of(Comp
 std::string contact_comparison_keys() { return io::KeyTable::of(ComparisonFields{{}}); }
 
 std::string to_junit(const ContactComparison& c) {
-  using compare::Verdict;
   return compare::junit_text("edmill compare",
                              {{.name = "dose rate",
                                .problem = c.verdict == Verdict::differ ? sentence(c) : "",

@@ -12,6 +12,8 @@
 
 namespace edmill::dem {
 
+using compare::Verdict;
+
 /// A dose rate with its interval, from batches of equal duration, which may be correlated.
 class DoseRate {
  public:
@@ -48,7 +50,7 @@ struct ContactComparison {
   double ratio = 1, half_width = 0;   ///< of B's dose rate over A's
   /// With `within`, the ratio agrees if its interval lies inside the allowed range and differs if outside.
   /// Without it, it agrees if its interval contains 1 and its half-width is at most 5 %.
-  compare::Verdict verdict = compare::Verdict::too_few;
+  Verdict verdict = Verdict::too_few;
 };
 
 /// @param options  A is a run or a log of collisions or contacts, B a log of contacts, or the reverse

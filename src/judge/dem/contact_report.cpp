@@ -135,8 +135,7 @@ std::string to_junit(const ContactAudit& a) {
   if (!a.walls_met()) moved = "balls leave their flights away from the walls of the case";
   for (const auto& c : a.causes) moved += fmt::format("; with {}: {}", c.key, c.text);
   cases.push_back({"places of the walls", moved});
-  cases.push_back(
-      {"enough contacts", a.verdict != compare::Verdict::too_few ? "" : "too few contacts to judge"});
+  cases.push_back({"enough contacts", a.verdict != Verdict::too_few ? "" : "too few contacts to judge"});
   return compare::junit_text("edmill audit of " + a.log_name, cases);
 }
 

@@ -271,7 +271,7 @@ void FrameReader::finish(std::vector<FrameRow> rows, double time, Frame& frame) 
     constexpr double fastest = 1e6;
     const auto& s = row.state;
     const double sizes = row.mass.value_or(1) + row.radius.value_or(1);
-    if (!(norm<double>(s.velocity) < fastest && std::isfinite(s.position.sum() + s.spin.sum() + sizes)))
+    if (!(norm(s.velocity) < fastest && std::isfinite(s.position.sum() + s.spin.sum() + sizes)))
       fail(fmt::format("ball {} with a velocity of {:.4g}, {:.4g}, {:.4g} m/s at {:.6g} s", row.id,
                        s.velocity[0], s.velocity[1], s.velocity[2], time),
            "finite values and less than 1e6 m/s: the code has become unstable");

@@ -11,6 +11,12 @@
 
 namespace edmill::dem {
 
+using Vector = Vec3<double>;
+
+inline double dot(const Vector& a, const Vector& b) { return edmill::dot<double>(a, b); }
+inline Vector cross(const Vector& a, const Vector& b) { return edmill::cross<double>(a, b); }
+inline double norm(const Vector& a) { return edmill::norm<double>(a); }
+
 /// Facts about a dump that may be missing from the file.
 struct DumpFormat {
   std::optional<double> time_step;  ///< [s]; of files without times

@@ -28,7 +28,7 @@ struct Candidate : Assumption {
 
 class Geometry {
  public:
-  Geometry(const casefile::CaseSpec& spec, const std::vector<Contact>& contacts, const ContactLogFacts& log)
+  Geometry(const CaseSpec& spec, const std::vector<Contact>& contacts, const ContactLogFacts& log)
       : nominal_(identify::assumed_of(spec)), facets_(log.facets) {
     const auto& frames = log.statistics;
     const auto built = nominal_.built();
@@ -43,21 +43,20 @@ class Geometry {
       const double lasted = c.kind == ContactClass::wall ? c.end - c.begin : c.free_from - c.free_until;
       const Vector impulse = c.after.velocity - c.before.velocity - frames.gravity * lasted;
       const auto pose = vessel.at(t);
-      double best = 0.5 * norm<double>(impulse);
+      double best = 0.5 * norm(impulse);
       int wall = -1;
       for (int w = 0; w < vessel.walls(); ++w) {
         // A body has faces along the walls, too: those that are far away are not meant.
         if (vessel.has_bodies() && vessel.gap(pose, c.ball, w, state.position) > vessel.ball(c.ball).radius)
           continue;
-        if (const double along = dot<double>(vessel.normal(pose, c.ball, w, state.position), impulse);
-            along > best) {
+        if (const double along = dot(vessel.normal(pose, c.ball, w, state.position), impulse); along > best) {
           best = along;
           wall = w;
         }
       }
       if (wall < 0) continue;
       meetings_.push_back({c.ball, wall, t, state.position});
-      reaches.push_back(norm<double>(impulse) / 1.5 * frames.interval / 2);
+      reaches.push_back(norm(impulse) / 1.5 * frames.interval / 2);
       reaches_of_walls_[wall].push_back(reaches.back());
     }
     resolution = median_of(reaches).value;
@@ -196,7 +195,7 @@ void add_phases(const Assumed& nominal, std::vector<Candidate>& list) {
   }
 }
 
-void add_walls(const casefile::CaseSpec& spec, std::vector<Candidate>& list) {
+void add_walls(const CaseSpec& spec, std::vector<Candidate>& list) {
   const auto partners = casefile::partners_of(spec);
   const std::vector<double> starts{-1e-3, -3e-4, -1e-4, 1e-4, 3e-4, 1e-3};
   for (int wall = 0; wall < partners.walls(); ++wall)
@@ -210,7 +209,7 @@ void add_walls(const casefile::CaseSpec& spec, std::vector<Candidate>& list) {
 
 }  // namespace
 
-void judge_places(const casefile::CaseSpec& spec, const std::vector<Contact>& contacts,
+void judge_places(const CaseSpec& spec, const std::vector<Contact>& contacts,
                   const std::atomic<bool>* interrupt, ContactAudit& audit) {
   const Geometry geometry(spec, contacts, audit.facts);
   if (!geometry.known()) return;

@@ -45,7 +45,7 @@ void put_in_axes(BallState& ball, const identify::Axes& axes) {
 
 }  // namespace
 
-Imported import_dump(const casefile::CaseSpec& spec, const ImportOptions& options) {
+Imported import_dump(const CaseSpec& spec, const ImportOptions& options) {
   io::NamedFile file(options.log);
   const auto built = casefile::build_case<double>(spec);
   const auto& balls = built.the_case.balls;

@@ -12,6 +12,8 @@
 
 namespace edmill::dem {
 
+using casefile::CaseSpec;
+
 struct ImportOptions {
   std::string dump, log;             ///< files to read and to write
   std::string deck;                  ///< deck that made the dump: time step, units, frame; optional
@@ -40,7 +42,7 @@ struct Imported {
 
 /// Writes the log of contacts. Memory does not depend on the length of a dump of frames.
 /// @throws InputError when it cannot be read, lacks what is needed or has other balls than the case
-Imported import_dump(const casefile::CaseSpec& spec, const ImportOptions& options);
+Imported import_dump(const CaseSpec& spec, const ImportOptions& options);
 
 std::string table(const Imported& imported);
 

@@ -11,8 +11,8 @@
 
 namespace edmill::identify {
 
-Vec3<double> Axes::of(const Vec3<double>& v) const {
-  Vec3<double> turned;
+Vec Axes::of(const Vec& v) const {
+  Vec turned;
   for (std::size_t k = 0; k < 3; ++k) turned[k] = sign[k] * v[from[k]];
   return turned;
 }
@@ -20,18 +20,15 @@ Vec3<double> Axes::of(const Vec3<double>& v) const {
 namespace {
 
 /// Transforms the vectors of an event from another frame to that of the laboratory.
-void to_laboratory(audit::LoggedEvent& event, LogFrame from, const model::Mill<double>& mill) {
+void to_laboratory(LoggedEvent& event, LogFrame from, const Mill& mill) {
   const auto frame = audit::vessel_at(mill, event.time, false);
-  const auto turned = [&](const Vec3<double>& v) {
-    return Vec3<double>(frame.x * v[0] + frame.y * v[1] + frame.z * v[2]);
-  };
+  const auto turned = [&](const Vec& v) { return Vec(frame.x * v[0] + frame.y * v[1] + frame.z * v[2]); };
   const bool moves = from == LogFrame::vessel;
   for (auto& body : event.body) {
     body.position = turned(body.position);
     if (moves) body.position += frame.centre;
-    const Vec3<double> of_vessel =
-        moves ? audit::wall_velocities[0].at({frame, frame, body.position, body.position})
-              : Vec3<double>(0, 0, 0);
+    const Vec of_vessel =
+        moves ? audit::wall_velocities[0].at({frame, frame, body.position, body.position}) : Vec(0, 0, 0);
     for (auto* v : {&body.velocity_before, &body.velocity_after}) *v = turned(*v) + of_vessel;
     for (auto* w : {&body.spin_before, &body.spin_after}) {
       *w = turned(*w);
@@ -41,7 +38,7 @@ void to_laboratory(audit::LoggedEvent& event, LogFrame from, const model::Mill<d
 }
 
 /// True if a ball with a number in [first, end) takes part in an impact.
-bool takes_part(const audit::LoggedEvent& event, std::size_t first, std::size_t end) {
+bool takes_part(const LoggedEvent& event, std::size_t first, std::size_t end) {
   const auto is_one = [&](int ball) {
     return ball >= static_cast<int>(first) && ball < static_cast<int>(end);
   };
@@ -50,7 +47,7 @@ bool takes_part(const audit::LoggedEvent& event, std::size_t first, std::size_t 
 
 }  // namespace
 
-void LogChange::apply(audit::LoggedEvent& event, const model::Mill<double>& mill) const {
+void LogChange::apply(LoggedEvent& event, const Mill& mill) const {
   event.time = event.time * time + delay;
   event.milling_dose *= energies;
   event.wall_work *= energies;
@@ -78,7 +75,7 @@ void LogChange::apply(audit::LoggedEvent& event, const model::Mill<double>& mill
   if (!event.with_wall) renamed(event.partner);
 }
 
-casefile::CaseSpec Assumed::case_file() const {
+CaseSpec Assumed::case_file() const {
   if (phases.empty() || !casefile::problems_of(spec).empty()) return spec;
   auto joints = casefile::joints_of(spec.mill);
   if (joints.size() != this->joints) return spec;  // a mistake has replaced the mill
@@ -87,15 +84,15 @@ casefile::CaseSpec Assumed::case_file() const {
     auto& angle = place[1] < joint.swings.size() ? joint.swings[place[1]].phase : joint.angle;
     angle = exactly(angle.to<double>() + more / (2 * std::numbers::pi));
   }
-  casefile::CaseSpec changed = spec;
-  changed.mill = model::Chain<casefile::Quantity>{{std::move(joints), casefile::period_of(spec.mill)}};
+  CaseSpec changed = spec;
+  changed.mill = model::Chain<Quantity>{{std::move(joints), casefile::period_of(spec.mill)}};
   return changed;
 }
 
-std::optional<model::Case<double>> Assumed::built() const {
+std::optional<Case> Assumed::built() const {
   const auto file = case_file();
   if (!casefile::problems_of(file).empty()) return std::nullopt;
-  model::Case<double> result;
+  Case result;
   result.mill = casefile::build_mill<double>(file);
   result.balls = balls;
   const auto& vessel = result.mill.vessel;
@@ -105,17 +102,17 @@ std::optional<model::Case<double>> Assumed::built() const {
   return result;
 }
 
-Assumed assumed_of(const casefile::CaseSpec& spec) {
+Assumed assumed_of(const CaseSpec& spec) {
   const auto built = casefile::build_case<double>(spec).the_case;
   return {spec, built.balls, {}, built.mill.wall_count(), casefile::joints_of(spec.mill).size()};
 }
 
-casefile::Quantity exactly(double value) {
+Quantity exactly(double value) {
   // A case cannot contain nan or infinity. 0 is used instead: it is refused or fits as badly.
-  return casefile::Quantity::exactly(std::isfinite(value) ? value : 0.0);
+  return Quantity::exactly(std::isfinite(value) ? value : 0.0);
 }
 
-std::vector<BallGroup> ball_groups(const casefile::CaseSpec& spec) {
+std::vector<BallGroup> ball_groups(const CaseSpec& spec) {
   std::vector<BallGroup> groups;
   std::size_t next = 0;
   for (std::size_t k = 0; k < spec.balls.size(); ++k, ++next)
@@ -128,10 +125,9 @@ std::vector<BallGroup> ball_groups(const casefile::CaseSpec& spec) {
   return groups;
 }
 
-std::vector<SharedSubset> subsets_of(const casefile::CaseSpec& spec, const model::Case<double>& the_case,
-                                     const std::vector<audit::LoggedEvent>& events,
+std::vector<SharedSubset> subsets_of(const CaseSpec& spec, const Case& the_case,
+                                     const std::vector<LoggedEvent>& events,
                                      const std::vector<Branches>& branches) {
-  using audit::LoggedEvent;
   std::vector<SharedSubset> list;
   const auto add = [&](std::string name, bool of_flights, std::function<bool(const RowPlace&)> contains) {
     list.push_back(std::make_shared<Subset>(Subset{std::move(name), std::move(contains), of_flights}));

@@ -16,12 +16,16 @@
 
 namespace edmill::identify {
 
+using audit::Case, audit::LoggedEvent, audit::LoggedImpact, audit::Mill, audit::Terms, audit::Vec, audit::dot,
+    audit::size, audit::unknown;
+using casefile::CaseSpec, casefile::Quantity;
+
 /// Axes of vectors, permuted and turned: component k is sign[k] times component from[k] of the log.
 struct Axes {
   std::array<int, 3> from{0, 1, 2}, sign{1, 1, 1};
 
   bool operator==(const Axes&) const = default;
-  Vec3<double> of(const Vec3<double>& v) const;
+  Vec of(const Vec& v) const;
   /// 1, or -1 for a mirror image of the axes.
   int handedness() const { return ((from[1] - from[0] + 3) % 3 == 1 ? 1 : -1) * sign[0] * sign[1] * sign[2]; }
 };
@@ -45,10 +49,8 @@ struct LogChange {
 
   bool operator==(const LogChange&) const = default;
   /// @param mill  gives the vessel frame, if the log uses it
-  void apply(audit::LoggedEvent& event, const model::Mill<double>& mill) const;
+  void apply(LoggedEvent& event, const Mill& mill) const;
 };
-
-using audit::Terms;
 
 // Parts of a log to which a cause may be restricted: a wall, a ball, a branch of the law.
 
@@ -74,8 +76,8 @@ struct Subset {
 using SharedSubset = std::shared_ptr<const Subset>;
 
 /// @param branches  by event; both must outlive the subsets
-std::vector<SharedSubset> subsets_of(const casefile::CaseSpec& spec, const model::Case<double>& the_case,
-                                     const std::vector<audit::LoggedEvent>& events,
+std::vector<SharedSubset> subsets_of(const CaseSpec& spec, const Case& the_case,
+                                     const std::vector<LoggedEvent>& events,
                                      const std::vector<Branches>& branches);
 
 struct Assumed;
@@ -89,7 +91,7 @@ struct Restricted {
 /// Values that may explain a log. The balls are those of the built case; the mill follows from the file's
 /// exact quantities, so that every mill, vessel and law is varied by its own parameters.
 struct Assumed {
-  casefile::CaseSpec spec;
+  CaseSpec spec;
   std::vector<model::BallProperties<double>> balls;
   LogChange log;
   int walls;               ///< number of walls of the case, and so of the log
@@ -102,18 +104,18 @@ struct Assumed {
 
   /// Builds the case with these values. Returns nothing if the log cannot be of such a mill: its file would
   /// be refused, a ball does not fit into the vessel, or the vessel has other walls.
-  std::optional<model::Case<double>> built() const;
+  std::optional<Case> built() const;
   /// The case's file with these values.
-  casefile::CaseSpec case_file() const;
+  CaseSpec case_file() const;
   /// True if a case file can express all but the log's conventions: an audit can test it.
   bool is_case() const { return restricted.empty() && terms == Terms{}; }
 };
 
 /// @pre the spec can be built
-Assumed assumed_of(const casefile::CaseSpec& spec);
+Assumed assumed_of(const CaseSpec& spec);
 
 /// The number as an exact quantity.
-casefile::Quantity exactly(double value);
+Quantity exactly(double value);
 
 /// Balls of each entry of the case, [first, last): explicit balls, then batches.
 struct BallGroup {
@@ -121,7 +123,7 @@ struct BallGroup {
   std::size_t first, last;
   const casefile::BallSpec* spec;
 };
-std::vector<BallGroup> ball_groups(const casefile::CaseSpec& spec);
+std::vector<BallGroup> ball_groups(const CaseSpec& spec);
 
 /// A row of the table: a number with another value, which is fitted, or a mistake.
 struct Assumption {
@@ -166,6 +168,8 @@ struct Assumption {
   std::vector<double> trial_values(double end) const;
 };
 
+using Assumptions = std::vector<Assumption>;
+
 /// An assumption with its fitted value; 1 for a mistake.
 struct Found {
   Assumption what;
@@ -181,15 +185,14 @@ auto fitted(auto& of) {
 }
 
 /// All numbers of the mill, the vessel, gravity, the contact laws and the balls.
-std::vector<Assumption> numbers_of(const Assumed& nominal);
+Assumptions numbers_of(const Assumed& nominal);
 
 /// An assumption about a part of the log only. @param choices  number of parts that were tried
 Assumption restricted_to(const SharedSubset& part, const Assumption& parameter, std::size_t choices);
 
 /// Mistakes other than wrong numbers that a log with these columns can reveal: orders, signs,
 /// directions, units, and the meaning of columns.
-std::vector<Assumption> mistakes_of(const Assumed& nominal, const std::vector<Assumption>& parameters,
-                                    const audit::Available& has);
+Assumptions mistakes_of(const Assumed& nominal, const Assumptions& parameters, const audit::Available& has);
 
 /// "reversed", "left out", "doubled" or "halved" if a factor's narrow interval contains it; else "".
 std::string word_for(double factor, double half_width);

@@ -15,9 +15,6 @@
 
 namespace edmill::identify {
 
-using audit::LoggedEvent;
-using audit::LoggedImpact;
-
 namespace {
 
 constexpr double out_of_range = 1e15;
@@ -34,7 +31,7 @@ double median_size(std::vector<double> values) {
 }
 
 /// Scales of the Cauchy weights, from the size of the initial residuals down to the tolerance.
-std::vector<double> scales_for(const Eigen::VectorXd& rows) {
+std::vector<double> scales_for(const VectorXd& rows) {
   std::vector<double> off;
   std::copy_if(rows.begin(), rows.end(), std::back_inserter(off), [](double r) { return std::abs(r) > 1; });
   const double largest = std::max(1.0, median_size(std::move(off)));
@@ -52,35 +49,35 @@ double possible_step(const Assumed& assumed, const Assumption& p, double value, 
 /// The interface through which Eigen evaluates weighted rows and their derivatives.
 struct Problem {
   using Scalar = double;
-  using InputType = Eigen::VectorXd;
-  using ValueType = Eigen::VectorXd;
+  using InputType = VectorXd;
+  using ValueType = VectorXd;
   using JacobianType = Eigen::MatrixXd;
   enum { InputsAtCompileTime = Eigen::Dynamic, ValuesAtCompileTime = Eigen::Dynamic };
 
   const Residuals& sample;
   const Hypothesis& tried;
-  Eigen::VectorXd roots{};  ///< square roots of the weights
+  VectorXd roots{};  ///< square roots of the weights
 
   int inputs() const { return static_cast<int>(fitted(tried).size()); }
   int values() const { return static_cast<int>(sample.count()); }
   /// @param x  the numbers, each in its unit of a fit
-  Hypothesis at(const Eigen::VectorXd& x) const {
+  Hypothesis at(const VectorXd& x) const {
     Hypothesis moved = tried;
     for (Eigen::Index k = 0; auto& number : fitted(moved)) number.value = x[k++] * number.what.change;
     return moved;
   }
-  int operator()(const Eigen::VectorXd& x, Eigen::VectorXd& out) const {
+  int operator()(const VectorXd& x, VectorXd& out) const {
     out = roots.cwiseProduct(sample.rows(at(x).assumed()));
     return 0;
   }
-  int df(const Eigen::VectorXd& x, Eigen::MatrixXd& out) const {
+  int df(const VectorXd& x, Eigen::MatrixXd& out) const {
     out = roots.asDiagonal() * derivatives(at(x));
     return 0;
   }
   /// Finite differences, with a step for which neither rounding nor curvature matters.
   Eigen::MatrixXd derivatives(Hypothesis moved) const {
     Eigen::MatrixXd columns(values(), inputs());
-    const Eigen::VectorXd here = sample.rows(moved.assumed());
+    const VectorXd here = sample.rows(moved.assumed());
     for (Eigen::Index k = 0; auto& [what, value, half_width] : fitted(moved)) {
       const double step = possible_step(moved.assumed(), what, value, 1e-7);
       const double before = std::exchange(value, value + step * what.change);
@@ -91,19 +88,19 @@ struct Problem {
   }
 };
 
-Eigen::VectorXd weights_of(const Eigen::VectorXd& rows, double scale) {
+VectorXd weights_of(const VectorXd& rows, double scale) {
   return (1 + rows.array().square() / (scale * scale)).inverse();
 }
 
 /// The cost function that iterations with weights of scale 1 minimise.
-double cauchy_cost(const Eigen::VectorXd& rows) {
+double cauchy_cost(const VectorXd& rows) {
   return std::accumulate(rows.begin(), rows.end(), 0.0,
                          [](double sum, double r) { return sum + std::log1p(r * r); });
 }
 
 /// Sets the intervals: three standard deviations for noise of the size of the residuals, plus the effect of
 /// the worst shift of all rows by that size: rounding shifts rows together.
-void set_half_widths(const Eigen::MatrixXd& j, const Eigen::VectorXd& rows, Hypothesis& tried) {
+void set_half_widths(const Eigen::MatrixXd& j, const VectorXd& rows, Hypothesis& tried) {
   const auto weights = weights_of(rows, 1);
   double sum = 0, total = 0;
   for (Eigen::Index i = 0; i < weights.size(); ++i) {
@@ -125,7 +122,7 @@ void set_half_widths(const Eigen::MatrixXd& j, const Eigen::VectorXd& rows, Hypo
 }
 
 /// Replaces the wall velocity of an impact by that of a code with these terms.
-void assume_wall_velocity(const model::Mill<double>& mill, const Terms& terms, LoggedImpact& impact) {
+void assume_wall_velocity(const Mill& mill, const Terms& terms, LoggedImpact& impact) {
   if (terms.wall_velocity_delay != 0 || terms.wall_velocity_formula != 0) {
     const double time = impact.event->time - terms.wall_velocity_delay;
     impact.set_wall_velocity(audit::wall_velocities[terms.wall_velocity_formula], mill,
@@ -138,7 +135,7 @@ void assume_wall_velocity(const model::Mill<double>& mill, const Terms& terms, L
 
 /// Rows of an event for an assumed model, with assumed terms of the equations.
 /// @param change  assumed deviations of the log from its conventions
-audit::Rows LogResiduals::rows_of(std::size_t k, const model::Case<double>& model, const LogChange& change,
+audit::Rows LogResiduals::rows_of(std::size_t k, const Case& model, const LogChange& change,
                                   const Terms& terms) const {
   LoggedEvent copy, copy_of_earlier;
   const auto event_at = [&, is_changed = !(change == LogChange{})](std::size_t place,
@@ -173,8 +170,7 @@ audit::Rows LogResiduals::rows_of(std::size_t k, const model::Case<double>& mode
   return rows;
 }
 
-LogResiduals::LogResiduals(const audit::EventsAtHand& log, const audit::Tolerances& tolerances,
-                           const model::Case<double>& nominal)
+LogResiduals::LogResiduals(const EventsAtHand& log, const audit::Tolerances& tolerances, const Case& nominal)
     : log_(log),
       tolerances_(tolerances),
       before_(log.events.size()),
@@ -230,7 +226,7 @@ Residuals::Residuals(const LogResiduals& log, const std::vector<std::size_t>& ev
   }
 }
 
-Eigen::VectorXd Residuals::rows(const Assumed& assumed) const {
+VectorXd Residuals::rows(const Assumed& assumed) const {
   if (assumed.restricted.empty()) return of_whole(assumed);
   Assumed whole = assumed;
   whole.restricted.clear();
@@ -245,15 +241,15 @@ Eigen::VectorXd Residuals::rows(const Assumed& assumed) const {
     Assumed here = whole;
     for (std::size_t r = 0; r < assumed.restricted.size(); ++r)
       if (set >> r & 1) assumed.restricted[r].make(here);
-    const Eigen::VectorXd own = of_whole(here);
+    const VectorXd own = of_whole(here);
     for (std::size_t k = 0; k < count(); ++k)
       if (set_of[k] == set) values[k] = own[k];
   }
   return values;
 }
 
-Eigen::VectorXd Residuals::of_whole(const Assumed& assumed) const {
-  Eigen::VectorXd values = Eigen::VectorXd::Constant(count(), out_of_range);
+VectorXd Residuals::of_whole(const Assumed& assumed) const {
+  VectorXd values = VectorXd::Constant(count(), out_of_range);
   const auto model = assumed.built();
   if (!model) return values;
   std::size_t place = 0;
@@ -265,7 +261,7 @@ Eigen::VectorXd Residuals::of_whole(const Assumed& assumed) const {
   return values;
 }
 
-double misfit(const Residuals& sample, const Eigen::VectorXd& rows) {
+double misfit(const Residuals& sample, const VectorXd& rows) {
   std::array<std::vector<double>, audit::row_kinds> of_kind;
   for (std::size_t k = 0; k < sample.count(); ++k)
     of_kind[static_cast<std::size_t>(sample.of_case()[k].kind)].push_back(rows[k]);
@@ -279,7 +275,7 @@ double misfit(const Residuals& sample, const Eigen::VectorXd& rows) {
 
 void fit(const Residuals& sample, Hypothesis& tried) {
   Problem problem{sample, tried};
-  Eigen::VectorXd x(problem.inputs());
+  VectorXd x(problem.inputs());
   for (Eigen::Index k = 0; const auto& number : fitted(tried)) x[k++] = number.value / number.what.change;
   auto rows = sample.rows(tried.assumed());
   const auto scales = scales_for(rows);
@@ -289,7 +285,7 @@ void fit(const Residuals& sample, Hypothesis& tried) {
     problem.roots = weights_of(rows, scales[std::min(round, scales.size() - 1)]).cwiseSqrt();
     Eigen::LevenbergMarquardt<Problem> solver(problem);
     solver.parameters.xtol = solver.parameters.ftol = 1e-15;
-    Eigen::VectorXd now = x;
+    VectorXd now = x;
     auto status = solver.minimizeInit(now);
     for (int step = 0; step < 3 && status <= Eigen::LevenbergMarquardtSpace::Running; ++step)
       status = solver.minimizeOneStep(now);
@@ -310,24 +306,24 @@ void fit(const Residuals& sample, Hypothesis& tried) {
   set_half_widths(problem.derivatives(tried), rows, tried);
 }
 
-Eigen::VectorXd sensitivity(const Residuals& sample, const Assumed& base, const Eigen::VectorXd& rows,
-                            const Assumption& number) {
+VectorXd sensitivity(const Residuals& sample, const Assumed& base, const VectorXd& rows,
+                     const Assumption& number) {
   // A restitution or least separation speed of 0 may need a large step to have any effect.
   for (const double length : {1e-6, 1.0}) {
     if (!number.is_of_case() || (length == 1 && number.value != 0)) break;
     const double step = possible_step(base, number, number.value, length);
-    const Eigen::VectorXd moved = sample.rows(number.on(base, number.value + step * number.change)) - rows;
-    const Eigen::VectorXd slope = (moved.array().abs() > rounding_of_rows).select(moved / step, 0);
+    const VectorXd moved = sample.rows(number.on(base, number.value + step * number.change)) - rows;
+    const VectorXd slope = (moved.array().abs() > rounding_of_rows).select(moved / step, 0);
     if (!slope.isZero(0)) return slope;
   }
   return {};
 }
 
-double linear_misfit(const Residuals& sample, const Eigen::VectorXd& rows, const Eigen::VectorXd& slope) {
-  Eigen::VectorXd left = rows;
+double linear_misfit(const Residuals& sample, const VectorXd& rows, const VectorXd& slope) {
+  VectorXd left = rows;
   const auto scales = scales_for(rows);
   for (std::size_t round = 0; round < scales.size() + 2; ++round) {
-    const Eigen::VectorXd weighted =
+    const VectorXd weighted =
         weights_of(left, scales[std::min(round, scales.size() - 1)]).cwiseProduct(slope);
     const double change = -weighted.dot(rows) / weighted.dot(slope);
     if (!std::isfinite(change)) break;

@@ -17,6 +17,9 @@
 
 namespace edmill::identify {
 
+using audit::EventsAtHand;
+using Eigen::VectorXd;
+
 /// A component of a row for the unmodified case, with its tolerance in the audit.
 struct Residual {
   double allowed;
@@ -30,8 +33,7 @@ struct Residual {
 class LogResiduals {
  public:
   /// @param nominal  case that the tolerances are computed from
-  LogResiduals(const audit::EventsAtHand& log, const audit::Tolerances& tolerances,
-               const model::Case<double>& nominal);
+  LogResiduals(const EventsAtHand& log, const audit::Tolerances& tolerances, const Case& nominal);
 
   /// For each event, the branches of the case's contact law.
   const std::vector<Branches>& branches() const { return branches_; }
@@ -42,16 +44,16 @@ class LogResiduals {
     long event = -1;
     std::size_t body = 0;
   };
-  audit::Rows rows_of(std::size_t event, const model::Case<double>& model, const LogChange& change,
+  audit::Rows rows_of(std::size_t event, const Case& model, const LogChange& change,
                       const Terms& terms) const;
-  Branches branches_of(const audit::LoggedEvent& event) const;
+  Branches branches_of(const LoggedEvent& event) const;
 
-  const audit::EventsAtHand& log_;
+  const EventsAtHand& log_;
   audit::Tolerances tolerances_;
   std::vector<std::array<Before, 2>> before_;  ///< the impact at which the flight of each body began
   std::vector<bool> in_stall_;                 ///< for each event: frictionless
   std::vector<Branches> branches_;
-  const model::Case<double>& nominal_;
+  const Case& nominal_;
 };
 
 /// The rows of a sample of events and of the flights that end with them. `log` must outlive it.
@@ -64,10 +66,10 @@ class Residuals {
   const std::vector<Residual>& of_case() const { return of_case_; }
   /// @return for each row its residual divided by the tolerance for the unmodified case; a large number if
   /// it is not finite, and for all rows if the assumed case is impossible
-  Eigen::VectorXd rows(const Assumed& assumed) const;
+  VectorXd rows(const Assumed& assumed) const;
 
  private:
-  Eigen::VectorXd of_whole(const Assumed& assumed) const;
+  VectorXd of_whole(const Assumed& assumed) const;
 
   const LogResiduals* log_;
   std::vector<std::size_t> chosen_;
@@ -114,7 +116,7 @@ struct Hypothesis {
 
 /// 2 sum ln(1 + (r/s)^2) + 2 n ln s over the rows of a sample, with the median of |r| of each kind as s:
 /// minus twice the logarithm of Cauchy's likelihood. Outliers have little weight.
-double misfit(const Residuals& sample, const Eigen::VectorXd& rows);
+double misfit(const Residuals& sample, const VectorXd& rows);
 inline double misfit(const Residuals& sample, const Assumed& assumed) {
   return misfit(sample, sample.rows(assumed));
 }
@@ -126,11 +128,11 @@ void fit(const Residuals& sample, Hypothesis& tried);
 
 /// Derivatives of the rows by a number, at the base; empty if they do not depend on it.
 /// @param rows  at the base
-Eigen::VectorXd sensitivity(const Residuals& sample, const Assumed& base, const Eigen::VectorXd& rows,
-                            const Assumption& number);
+VectorXd sensitivity(const Residuals& sample, const Assumed& base, const VectorXd& rows,
+                     const Assumption& number);
 
 /// Misfit after the best change of a number, if the rows are linear in it.
 /// @param slope  derivative of the rows with respect to the number
-double linear_misfit(const Residuals& sample, const Eigen::VectorXd& rows, const Eigen::VectorXd& slope);
+double linear_misfit(const Residuals& sample, const VectorXd& rows, const VectorXd& slope);
 
 }  // namespace edmill::identify

@@ -33,7 +33,7 @@ std::vector<Item> best_of(std::vector<std::pair<double, Item>> order, std::size_
 
 bool is_violated(double row) { return std::abs(row) > 1; }
 
-std::uint64_t count_violated(const Eigen::VectorXd& rows) {
+std::uint64_t count_violated(const VectorXd& rows) {
   return static_cast<std::uint64_t>(std::count_if(rows.begin(), rows.end(), is_violated));
 }
 
@@ -48,13 +48,13 @@ bool has_number_of_case(const Hypothesis& tried) {
 }
 
 /// What may differ in a part of the log: terms, and numbers of the contact laws, each law once.
-std::vector<Assumption> of_parts(const std::vector<Assumption>& numbers) {
+Assumptions of_parts(const Assumptions& numbers) {
   std::set<std::string> common;
   const auto last = [](const std::string& key) { return key.substr(key.rfind('.') + 1); };
   const auto of_both = [](const std::string& key) { return std::count(key.begin(), key.end(), '.') == 1; };
   for (const auto& p : numbers)
     if (p.key.starts_with("contact.") && of_both(p.key)) common.insert(last(p.key));
-  std::vector<Assumption> list;
+  Assumptions list;
   for (const auto& p : numbers)
     if (!p.equation.empty() ||
         (p.key.starts_with("contact") && (of_both(p.key) || !common.contains(last(p.key)))))
@@ -73,7 +73,7 @@ class Evidence {
  public:
   /// All arguments except the_case must outlive it. @pre the log has events
   /// @param violations  number that an audit of the unmodified case finds
-  Evidence(const audit::EventsAtHand& log, const audit::Options& options, const model::Case<double>& the_case,
+  Evidence(const EventsAtHand& log, const audit::Options& options, const Case& the_case,
            const Assumed& nominal, std::uint64_t violations)
       : log_(log),
         options_(options),
@@ -174,7 +174,7 @@ class Evidence {
   /// Rows explained by one of several mistakes; none unless nine tenths of those it changes.
   Explained explained_by(const Hypothesis& tried) const {
     if (!(score_of_case_ - tried.score >= strong_evidence) || has_number_of_case(tried)) return {};
-    const Eigen::VectorXd before = all_.rows(nominal_), with = all_.rows(tried.assumed());
+    const VectorXd before = all_.rows(nominal_), with = all_.rows(tried.assumed());
     // Rows of a kind that stay violated may have another mistake, if none of the kind is explained.
     std::array<std::uint64_t, audit::row_kinds> vanished{}, left{};
     std::uint64_t contradicting = 0;
@@ -201,7 +201,7 @@ class Evidence {
   }
 
   std::set<std::size_t> violating_events(const Assumed& assumed) const {
-    const Eigen::VectorXd rows = all_.rows(assumed);
+    const VectorXd rows = all_.rows(assumed);
     std::set<std::size_t> events;
     for (std::size_t k = 0; k < all_.count(); ++k)
       if (is_violated(rows[k])) events.insert(all_.of_case()[k].at.event);
@@ -210,8 +210,7 @@ class Evidence {
 
   /// Assumptions that improve the fit on top of `base` with one of their trial values, best first. This finds
   /// mistakes, and numbers that matter only far from their nominal value.
-  std::vector<Assumption> by_trial_values(const Assumed& base, const std::vector<Assumption>& list,
-                                          std::size_t most) const {
+  Assumptions by_trial_values(const Assumed& base, const Assumptions& list, std::size_t most) const {
     const double enough = misfit(few_, base) - strong_evidence;
     std::vector<std::pair<double, Assumption>> order;
     for (const auto& p : list) {
@@ -225,8 +224,7 @@ class Evidence {
   }
 
   /// Numbers by how much they should improve `base`: by a linear fit of the rows and trial values.
-  std::vector<Assumption> best_numbers(const Assumed& base, const std::vector<Assumption>& numbers,
-                                       std::size_t most) const {
+  Assumptions best_numbers(const Assumed& base, const Assumptions& numbers, std::size_t most) const {
     auto best = by_sensitivity(early_or_whole(base), base, numbers, {}, most);
     for (auto& p : by_trial_values(base, numbers, most / 2)) best.push_back(std::move(p));
     return best;
@@ -234,9 +232,9 @@ class Evidence {
 
   /// Numbers by how much they should improve `base` in a part of the log with this share of the violated
   /// rows.
-  std::vector<Assumption> best_in_parts(const Assumed& base, const std::vector<Assumption>& numbers,
-                                        std::size_t most, double share) const {
-    const Eigen::VectorXd rows = whole().rows(base);
+  Assumptions best_in_parts(const Assumed& base, const Assumptions& numbers, std::size_t most,
+                            double share) const {
+    const VectorXd rows = whole().rows(base);
     std::vector<SharedSubset> parts;
     for (const auto& part : parts_) {
       std::uint64_t inside = 0;
@@ -248,7 +246,7 @@ class Evidence {
     if (parts.empty()) return {};
     const auto of_these = of_parts(numbers);
     auto best = by_sensitivity(whole(), base, of_these, parts, most);
-    std::vector<Assumption> restricted;
+    Assumptions restricted;
     for (const auto& p : by_trial_values(base, of_these, 4))
       for (const auto& part : parts)
         if (fits(*part, p)) restricted.push_back(restricted_to(part, p, parts_.size()));
@@ -265,18 +263,17 @@ class Evidence {
   }
 
   /// Numbers ranked by a linear fit of the rows, or of those in parts without all of their effect.
-  std::vector<Assumption> by_sensitivity(const Residuals& sample, const Assumed& base,
-                                         const std::vector<Assumption>& numbers,
-                                         const std::vector<SharedSubset>& parts, std::size_t most) const {
-    const Eigen::VectorXd rows = sample.rows(base);
+  Assumptions by_sensitivity(const Residuals& sample, const Assumed& base, const Assumptions& numbers,
+                             const std::vector<SharedSubset>& parts, std::size_t most) const {
+    const VectorXd rows = sample.rows(base);
     std::vector<std::pair<double, Assumption>> order;
     for (const auto& p : numbers) {
-      const Eigen::VectorXd slope = sensitivity(sample, base, rows, p);
+      const VectorXd slope = sensitivity(sample, base, rows, p);
       if (slope.size() == 0) continue;
       if (parts.empty()) order.emplace_back(linear_misfit(sample, rows, slope), p);
       for (const auto& part : parts) {
         if (!fits(*part, p)) continue;
-        Eigen::VectorXd inside = slope;
+        VectorXd inside = slope;
         for (std::size_t k = 0; k < sample.count(); ++k)
           if (!part->contains(sample.of_case()[k].at)) inside[k] = 0;
         if (inside == slope || inside.isZero(0)) continue;
@@ -329,7 +326,7 @@ class Evidence {
 
   /// Fraction of the violated rows of a sample that a cause explains.
   double vanished(const Residuals& sample, const Assumed& assumed) const {
-    const Eigen::VectorXd before = sample.rows(nominal_), with = sample.rows(assumed);
+    const VectorXd before = sample.rows(nominal_), with = sample.rows(assumed);
     std::uint64_t violated = 0, vanished = 0;
     for (std::size_t k = 0; k < sample.count(); ++k) {
       if (!is_violated(before[k])) continue;
@@ -351,7 +348,7 @@ class Evidence {
     }
     tried.left = std::numeric_limits<std::uint64_t>::max();
     if (const auto built = assumed.built()) {
-      audit::EventsAtHand changed = log_;
+      EventsAtHand changed = log_;
       for (auto& event : changed.events) assumed.log.apply(event, built->mill);
       const auto found = audit::audit(*built, changed, options_).findings;
       tried.left = found.total();
@@ -360,7 +357,7 @@ class Evidence {
     }
   }
 
-  const audit::EventsAtHand& log_;
+  const EventsAtHand& log_;
   const audit::Options& options_;
   const Assumed& nominal_;
   double period_;  ///< of the drive [s]
@@ -394,7 +391,7 @@ constexpr Stage stages[] = {
 
 class Searcher {
  public:
-  Searcher(const casefile::CaseSpec& spec, audit::Options options, Search search, Progress progress)
+  Searcher(const CaseSpec& spec, audit::Options options, Search search, Progress progress)
       : search_(search),
         progress_(std::move(progress)),
         nominal_(assumed_of(spec)),
@@ -410,8 +407,8 @@ class Searcher {
     mistakes_ = mistakes_of(nominal_, numbers_, log_.available);
   }
 
-  const audit::EventsAtHand& log() const { return log_; }
-  const model::Case<double>& the_case() const { return the_case_; }
+  const EventsAtHand& log() const { return log_; }
+  const Case& the_case() const { return the_case_; }
 
   Identification run() {
     Identification result;
@@ -482,7 +479,7 @@ class Searcher {
     for (const auto& base : best_of_size(stage.size, stage.bases, stage.in_parts > 0)) {
       const auto assumed = base.assumed();
       auto names = base.names();
-      const auto add = [&](const std::vector<Assumption>& list) {
+      const auto add = [&](const Assumptions& list) {
         for (const auto& p : list)
           if (!is_interrupted() && base.allows(p) && names.insert(p.name()).second)
             more.push_back(evidence_->with(base, p));
@@ -563,10 +560,10 @@ class Searcher {
   Search search_;
   Progress progress_;
   Assumed nominal_;
-  model::Case<double> the_case_;
+  Case the_case_;
   audit::Options options_;
-  audit::EventsAtHand log_;
-  std::vector<Assumption> numbers_, mistakes_;
+  EventsAtHand log_;
+  Assumptions numbers_, mistakes_;
   std::optional<Evidence> evidence_;
   std::vector<Hypothesis> tried_, accepted_;
   const std::atomic<bool>* interrupt_ = nullptr;
@@ -575,7 +572,7 @@ class Searcher {
 
 }  // namespace
 
-Identification identify(const casefile::CaseSpec& spec, const audit::Options& options, Search search,
+Identification identify(const CaseSpec& spec, const audit::Options& options, Search search,
                         const Progress& progress) {
   Searcher searcher(spec, options, search, progress);
   auto result = searcher.run();

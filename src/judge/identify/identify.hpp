@@ -12,6 +12,8 @@
 
 namespace edmill::identify {
 
+using audit::EventsAtHand;
+
 // Signs of time steps and of soft contacts. docs/audit.md, "Codes with time steps"
 
 /// The end of a contact at which its line is logged.
@@ -39,8 +41,7 @@ struct TimeStepping {
 };
 
 /// @param log  in the case's order of times
-TimeStepping time_stepping(const audit::EventsAtHand& log, const model::Case<double>& the_case,
-                           const audit::Options& options);
+TimeStepping time_stepping(const EventsAtHand& log, const Case& the_case, const audit::Options& options);
 
 std::string table(const TimeStepping& found);
 
@@ -87,15 +88,15 @@ using Progress = std::function<void(const std::string& stage)>;
 /// Searches the first events of a log.
 /// @param options  of the audit; its log is read again
 /// @throws InputError
-Identification identify(const casefile::CaseSpec& spec, const audit::Options& options,
-                        Search search = Search::all, const Progress& progress = {});
+Identification identify(const CaseSpec& spec, const audit::Options& options, Search search = Search::all,
+                        const Progress& progress = {});
 
 /// Searches causes for a log without states: runs the case with other values, from its own initial state, and
 /// compares the impacts with those of the log. docs/audit.md, "Causes"
 /// @param is_interrupted  called between runs; true ends the search
 /// @return how many the case reproduces, and the best cause that reproduces nine tenths
-Identification replay(const Assumed& nominal, const std::vector<Assumption>& assumptions,
-                      const audit::EventsAtHand& log, const std::function<bool()>& is_interrupted);
+Identification replay(const Assumed& nominal, const Assumptions& assumptions, const EventsAtHand& log,
+                      const std::function<bool()>& is_interrupted);
 
 /// Lines for the report of an audit.
 std::string table(const Identification& found);

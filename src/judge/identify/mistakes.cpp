@@ -12,7 +12,6 @@ namespace edmill::identify {
 
 namespace {
 
-using casefile::Quantity;
 using Joints = std::vector<model::Joint<Quantity>>;
 
 using std::numbers::pi;
@@ -34,15 +33,14 @@ Joints reversed(Joints joints) {
   return joints;
 }
 
-void add(std::vector<Assumption>& list, std::string key, std::string text,
-         std::function<void(Assumed&)> make) {
+void add(Assumptions& list, std::string key, std::string text, std::function<void(Assumed&)> make) {
   list.push_back({.key = std::move(key),
                   .set = [make = std::move(make)](Assumed& a, double) { make(a); },
                   .first_values = {1},
                   .mistake = std::move(text)});
 }
 
-void add_motions(const Assumed& nominal, std::vector<Assumption>& list) {
+void add_motions(const Assumed& nominal, Assumptions& list) {
   const Joints joints = casefile::joints_of(nominal.spec.mill);
   const auto add_joints = [&](const char* what, const char* text, const Joints& others) {
     add(list, fmt::format("mill, {}", what), text, [others](Assumed& a) { put_chain(a, others); });
@@ -92,7 +90,7 @@ constexpr Factor factors[] = {
     {Factor::On::diameter, 2, "2: the diameter taken for the radius"},
     {Factor::On::diameter, 0.5, "1/2: the radius taken for the diameter"}};
 
-void add_factors(const std::vector<Assumption>& numbers, std::vector<Assumption>& list) {
+void add_factors(const Assumptions& numbers, Assumptions& list) {
   for (const auto& p : numbers)
     for (const auto& factor : factors) {
       if (!p.has_unit || p.dimension == Dimension::none || !factor.changes(p)) continue;
@@ -105,7 +103,7 @@ void add_factors(const std::vector<Assumption>& numbers, std::vector<Assumption>
     }
 }
 
-void add_units(const audit::Available& has, std::vector<Assumption>& list) {
+void add_units(const audit::Available& has, Assumptions& list) {
   const auto& ball = has.body[0];
   const auto add_unit = [&](const char* columns, double LogChange::*member, double factor, std::string text) {
     add(list, fmt::format("the log's {}", columns), std::move(text),
@@ -135,7 +133,7 @@ void add_units(const audit::Available& has, std::vector<Assumption>& list) {
 }
 
 /// Adds axes in another order or direction.
-void add_axes(const audit::Available& has, std::vector<Assumption>& list) {
+void add_axes(const audit::Available& has, Assumptions& list) {
   const auto& ball = has.body[0];
   struct Vectors {
     bool logged;
@@ -171,7 +169,7 @@ void add_axes(const audit::Available& has, std::vector<Assumption>& list) {
 }
 
 /// Adds mistakes in the contents of columns.
-void add_frames(const audit::Available& has, std::vector<Assumption>& list) {
+void add_frames(const audit::Available& has, Assumptions& list) {
   const auto& [ball, partner] = has.body;
   if (partner.velocity_before || partner.velocity_after)
     add(list, "the log's columns of the partner", "the states of ball and partner exchanged",
@@ -190,7 +188,7 @@ void add_frames(const audit::Available& has, std::vector<Assumption>& list) {
 }
 
 /// Adds wrong formulas for impacts: for bodies that separate at v_s, and those for equal balls.
-void add_formulas(const Assumed& nominal, std::vector<Assumption>& list) {
+void add_formulas(const Assumed& nominal, Assumptions& list) {
   add(list, "limit of the friction (2.24')", "mu (1 + e_n) |g_n| in place of the impulse at v_s",
       [](Assumed& a) { a.terms.friction_of_restitution = true; });
   using Form = Terms::EqualBalls;
@@ -206,7 +204,7 @@ void add_formulas(const Assumed& nominal, std::vector<Assumption>& list) {
 }
 
 /// Adds exchanges of the numbers of two balls of different kinds.
-void add_exchanged_balls(const Assumed& nominal, std::vector<Assumption>& list) {
+void add_exchanged_balls(const Assumed& nominal, Assumptions& list) {
   constexpr int most = 40;
   const int count = static_cast<int>(nominal.balls.size());
   if (count > most) return;
@@ -221,9 +219,8 @@ void add_exchanged_balls(const Assumed& nominal, std::vector<Assumption>& list) 
 
 }  // namespace
 
-std::vector<Assumption> mistakes_of(const Assumed& nominal, const std::vector<Assumption>& parameters,
-                                    const audit::Available& has) {
-  std::vector<Assumption> list;
+Assumptions mistakes_of(const Assumed& nominal, const Assumptions& parameters, const audit::Available& has) {
+  Assumptions list;
   add_motions(nominal, list);
   add_units(has, list);
   add_axes(has, list);

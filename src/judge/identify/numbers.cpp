@@ -16,7 +16,6 @@ namespace edmill::identify {
 
 namespace {
 
-using casefile::Quantity;
 using model::Range;
 
 using std::numbers::pi;
@@ -52,8 +51,7 @@ void each_number(Part& part, F&& f) {
 }
 
 template <class Member>
-void add_numbers(const std::string& section, const Assumed& nominal, Member member,
-                 std::vector<Assumption>& list) {
+void add_numbers(const std::string& section, const Assumed& nominal, Member member, Assumptions& list) {
   auto part = nominal.spec.*member;
   std::size_t place = 0;
   each_number(part, [&](const model::Parameter& p, Quantity& q, int axis) {
@@ -80,7 +78,7 @@ void add_numbers(const std::string& section, const Assumed& nominal, Member memb
 /// joint more, a constant rotation before the first that rotates.
 void add_joints(const std::string& section, Assumed nominal,
                 const std::function<std::vector<std::vector<model::Joint<Quantity>>*>(Assumed&)>& chains,
-                std::vector<Assumption>& list) {
+                Assumptions& list) {
   const auto joints = *chains(nominal).front();
   const auto first_turn = std::find_if(joints.begin(), joints.end(), [](const auto& j) { return j.rotates; });
   for (std::size_t j = 0; j < joints.size(); ++j) {
@@ -115,7 +113,7 @@ void add_joints(const std::string& section, Assumed nominal,
 }
 
 /// Adds the numbers of the bodies in the vessel, of all copies of a body together.
-void add_bodies(const Assumed& nominal, std::vector<Assumption>& list) {
+void add_bodies(const Assumed& nominal, Assumptions& list) {
   const auto& bodies = nominal.spec.bodies;
   std::size_t first = 0;
   for (std::size_t entry = 0; first < bodies.size(); ++entry) {
@@ -161,10 +159,10 @@ std::string axis_text(const model::Joint<Quantity>& joint) {
   return fmt::format("({:g}, {:g}, {:g})", a[0], a[1], a[2]);
 }
 
-void add_phases(const Assumed& nominal, std::vector<Assumption>& list) {
+void add_phases(const Assumed& nominal, Assumptions& list) {
   const bool chain = std::holds_alternative<model::Chain<Quantity>>(nominal.spec.mill);
   const auto joints = casefile::joints_of(nominal.spec.mill);
-  std::vector<Assumption> phases;
+  Assumptions phases;
   const auto add = [&](std::size_t j, std::size_t place, std::string key, const Quantity& turns) {
     const double value = chain ? 2 * pi * turns.to<double>() : 0;
     auto p = number(std::move(key), Dimension::angle, value, [=](Assumed& a, double x) {
@@ -193,15 +191,15 @@ void add_phases(const Assumed& nominal, std::vector<Assumption>& list) {
   for (auto& p : phases) list.push_back(std::move(p));
 }
 
-Vec3<double> gravity_of(const Assumed& a) {
+Vec gravity_of(const Assumed& a) {
   const auto& g = a.spec.gravity;
   return {g[0].to<double>(), g[1].to<double>(), g[2].to<double>()};
 }
 
-void add_gravity(const Assumed& nominal, std::vector<Assumption>& list) {
-  const Vec3<double> g = gravity_of(nominal);
+void add_gravity(const Assumed& nominal, Assumptions& list) {
+  const Vec g = gravity_of(nominal);
   const double size = norm<double>(g);
-  const auto put = [](Assumed& a, const Vec3<double>& to) {
+  const auto put = [](Assumed& a, const Vec& to) {
     for (int k = 0; k < 3; ++k) a.spec.gravity[k] = exactly(to[k]);
   };
   if (size == 0) {
@@ -213,9 +211,9 @@ void add_gravity(const Assumed& nominal, std::vector<Assumption>& list) {
     return;
   }
   list.push_back(number("run.gravity", Dimension::acceleration, size, [=](Assumed& a, double x) {
-    Vec3<double> now = gravity_of(a);
+    Vec now = gravity_of(a);
     if (norm<double>(now) == 0) now = g;
-    put(a, Vec3<double>(now * (x / norm<double>(now))));
+    put(a, Vec(now * (x / norm<double>(now))));
   }));
   // Two tilts of the direction, towards the two axes that are closest to perpendicular to it.
   std::array<int, 3> axes = {0, 1, 2};
@@ -225,7 +223,7 @@ void add_gravity(const Assumed& nominal, std::vector<Assumption>& list) {
     const int axis = axes[tilt];
     auto p = number(with_axis("run.gravity, tilted towards", axis), Dimension::angle, 0,
                     [=](Assumed& a, double x) {
-                      Vec3<double> now = gravity_of(a);
+                      Vec now = gravity_of(a);
                       const double c = std::cos(x), s = std::sin(x), side = g[along] < 0 ? -1 : 1;
                       const double u = now[axis], v = now[along] * side;
                       now[axis] = c * u + s * v;
@@ -313,7 +311,7 @@ struct Section {
 };
 
 /// Adds the numbers of a section that are equal in all of its laws.
-void add_numbers_of(const Section& section, Assumed nominal, std::vector<Assumption>& list) {
+void add_numbers_of(const Section& section, Assumed nominal, Assumptions& list) {
   const auto laws = section.laws(nominal);
   const auto own = entries(*laws.front()), others = entries(*laws.back());
   if (own.size() != others.size()) return;  // tables with other points
@@ -335,7 +333,7 @@ void add_numbers_of(const Section& section, Assumed nominal, std::vector<Assumpt
   }
 }
 
-void add_other_laws(const Section& section, Assumed nominal, std::vector<Assumption>& list) {
+void add_other_laws(const Section& section, Assumed nominal, Assumptions& list) {
   const Law& law = *section.laws(nominal).front();
   for (const auto& other : other_laws) {
     Law tried = law;
@@ -355,7 +353,7 @@ void add_other_laws(const Section& section, Assumed nominal, std::vector<Assumpt
 }
 
 /// Adds the numbers of the contact laws, and one number of each law that a code may use instead.
-void add_laws(const Assumed& nominal, std::vector<Assumption>& list) {
+void add_laws(const Assumed& nominal, Assumptions& list) {
   using Laws = std::vector<Law*>;
   const auto& spec = nominal.spec;
   std::vector<Section> sections;
@@ -375,7 +373,7 @@ void add_laws(const Assumed& nominal, std::vector<Assumption>& list) {
 
 /// Adds the parameters of the balls [first, last), each scaled by one factor for all of them.
 void add_balls(const std::string& key, std::size_t first, std::size_t last, const casefile::BallSpec& spec,
-               std::vector<Assumption>& list) {
+               Assumptions& list) {
   using Spec = casefile::BallSpec;
   // Changes the balls themselves, whose diameters may differ, and their entries in the case.
   const auto each = [first, last](Assumed& a, Quantity Spec::*member, double x, auto&& change) {
@@ -406,7 +404,7 @@ void add_balls(const std::string& key, std::size_t first, std::size_t last, cons
                         }));
 }
 
-void add_all_balls(const Assumed& nominal, std::vector<Assumption>& list) {
+void add_all_balls(const Assumed& nominal, Assumptions& list) {
   const auto groups = ball_groups(nominal.spec);
   if (groups.empty()) return;
   constexpr std::size_t most_groups = 8;
@@ -457,7 +455,7 @@ constexpr TermRow term_rows[] = {
     {"age of the velocities before impacts", "(2.1)", &Terms::age_of_velocities, Dimension::time, true}};
 
 /// Adds the factors and shifts of the terms of the equations.
-void add_terms(std::vector<Assumption>& list) {
+void add_terms(Assumptions& list) {
   for (const auto& row : term_rows) {
     const bool is_factor = row.shift == Dimension::none;
     const double change = is_factor ? 1.0 : row.shift == Dimension::time ? 1e-5 : 1e-4;
@@ -519,15 +517,15 @@ std::vector<double> Assumption::trial_values(double end) const {
   return values;
 }
 
-std::vector<Assumption> numbers_of(const Assumed& nominal) {
-  std::vector<Assumption> list;
+Assumptions numbers_of(const Assumed& nominal) {
+  Assumptions list;
   if (std::holds_alternative<model::Chain<Quantity>>(nominal.spec.mill))
     add_joints(
         "mill", nominal,
         [](Assumed& a) { return std::vector{&std::get<model::Chain<Quantity>>(a.spec.mill).given.list}; },
         list);
   else
-    add_numbers("mill", nominal, &casefile::CaseSpec::mill, list);
+    add_numbers("mill", nominal, &CaseSpec::mill, list);
   if (!std::holds_alternative<model::StillMill<Quantity>>(nominal.spec.mill)) {
     const double period = casefile::period_of(nominal.spec.mill).to<double>();
     list.push_back(
@@ -537,7 +535,7 @@ std::vector<Assumption> numbers_of(const Assumed& nominal) {
     add_phases(nominal, list);
   }
   if (!std::holds_alternative<model::Polyhedron<Quantity>>(nominal.spec.vessel))
-    add_numbers("vessel", nominal, &casefile::CaseSpec::vessel, list);
+    add_numbers("vessel", nominal, &CaseSpec::vessel, list);
   add_bodies(nominal, list);
   add_gravity(nominal, list);
   add_laws(nominal, list);

@@ -17,7 +17,7 @@ using Impact = model::ImpactRecord<double>;
 
 class Replay {
  public:
-  Replay(const Assumed& nominal, const audit::EventsAtHand& log) {
+  Replay(const Assumed& nominal, const EventsAtHand& log) {
     const auto initial = casefile::build_case<double>(nominal.spec);
     states_ = initial.states;
     const auto& mill = initial.the_case.mill;
@@ -37,7 +37,7 @@ class Replay {
 
   /// The first impacts of the case with these values, from the initial state of the nominal one.
   std::vector<Impact> impacts(const Assumed& assumed, std::size_t count) const {
-    casefile::CaseSpec spec = assumed.case_file();
+    CaseSpec spec = assumed.case_file();
     spec.batches.clear();
     spec.balls.clear();
     if (!spec.initial_state.empty()) spec.initial_time = exactly(start_);
@@ -58,7 +58,7 @@ class Replay {
       ball.density = exactly(own.mass / (volume * own.radius * own.radius * own.radius));
       ball.reduced_inertia = exactly(own.reduced_inertia);
       ball.material = own.material;
-      const Vec3<double> place = in_vessel ? mill.motion.to_inertial(pose, places_[k]) : states_[k].position;
+      const Vec place = in_vessel ? mill.motion.to_inertial(pose, places_[k]) : states_[k].position;
       for (int axis = 0; axis < 3; ++axis) {
         ball.position[axis] = exactly(place[axis]);
         ball.velocity[axis] = exactly(states_[k].velocity[axis]);
@@ -124,7 +124,7 @@ class Replay {
 
  private:
   std::vector<model::BallState<double>> states_;
-  std::vector<Vec3<double>> places_;  ///< in the vessel [m]
+  std::vector<Vec> places_;  ///< in the vessel [m]
   std::vector<Impact> log_;
   double period_, start_;
 };
@@ -172,8 +172,8 @@ std::pair<double, double> fitted_value(const Replay& replay, const Assumed& nomi
 
 }  // namespace
 
-Identification replay(const Assumed& nominal, const std::vector<Assumption>& assumptions,
-                      const audit::EventsAtHand& log, const std::function<bool()>& is_interrupted) {
+Identification replay(const Assumed& nominal, const Assumptions& assumptions, const EventsAtHand& log,
+                      const std::function<bool()>& is_interrupted) {
   Replay runs(nominal, log);
   Identification result;
   if (runs.count() < 20) {

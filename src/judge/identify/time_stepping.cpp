@@ -13,8 +13,6 @@ namespace edmill::identify {
 
 namespace {
 
-using audit::LoggedEvent;
-using audit::Vec;
 using numerics::quantile;
 
 constexpr std::size_t least_number = 20;
@@ -112,14 +110,13 @@ constexpr double no_duration = -1;
 /// An impact with its geometry, and the durations that the flights before and after it indicate.
 struct LoggedContact {
   Vec normal{0, 0, 0}, carrier{0, 0, 0};  ///< velocity of the wall or centre of mass [m/s]
-  double duration_from_begin = audit::unknown, duration_from_end = audit::unknown;
-  double approach = audit::unknown, effective_mass = 0, effective_radius = 0;
+  double duration_from_begin = unknown, duration_from_end = unknown;
+  double approach = unknown, effective_mass = 0, effective_radius = 0;
 };
 
 class Measurements {
  public:
-  Measurements(const audit::EventsAtHand& log, const model::Case<double>& the_case,
-               const audit::Tolerances& tolerances)
+  Measurements(const EventsAtHand& log, const Case& the_case, const audit::Tolerances& tolerances)
       : contacts(log.events.size()), log_(log), case_(the_case), tolerances_(tolerances) {
     std::vector<long> last(the_case.balls.size(), -1);
     for (std::size_t k = 0; k < log.events.size(); ++k) {
@@ -164,7 +161,7 @@ class Measurements {
             : Vec((one.velocity_before * ball.mass + met * other.mass) * (1 / (ball.mass + other.mass)));
     const bool late = gap < -tolerances_.touch(event.time, event.with_wall);
     // The delay of a grazing contact cannot be determined.
-    if (contact.approach > audit::size(one.velocity_before) / 10)
+    if (contact.approach > size(one.velocity_before) / 10)
       delays[event.with_wall ? event.partner : -1].push_back(late ? -gap / contact.approach : 0);
   }
 
@@ -177,19 +174,19 @@ class Measurements {
     if (!(dt > 0)) return;
     const Vec& g = case_.mill.gravity;
     const Vec off = came.position - (left.position + (left.velocity_after + g * (dt / 2)) * dt);
-    const double noise = tolerances_.position(end.time, audit::size(left.velocity_after) * dt,
-                                              audit::size(left.velocity_after));
+    const double noise =
+        tolerances_.position(end.time, size(left.velocity_after) * dt, size(left.velocity_after));
     auto &first = contacts[from], &second = contacts[to];
     // A late departure displaces the ball by the delay times its velocity at the end of the flight.
-    const double leaving = audit::dot(Vec(left.velocity_after + g * dt - first.carrier), first.normal);
-    const double coming = audit::dot(Vec(came.velocity_before - second.carrier), second.normal);
-    const bool large = audit::size(off) > 3 * noise;
+    const double leaving = dot(Vec(left.velocity_after + g * dt - first.carrier), first.normal);
+    const double coming = dot(Vec(came.velocity_before - second.carrier), second.normal);
+    const bool large = size(off) > 3 * noise;
     // The ball leaves later than logged, or arrives earlier than logged. While bodies are in contact the
     // force between them moves the ball off its parabola, along the impulse.
     const auto duration = [&](const audit::BodyState& body, const Vec& normal, double speed) {
       const Vec impulse = body.velocity_after - body.velocity_before;
-      const Vec across = off - impulse * (audit::dot(off, impulse) / audit::dot(impulse, impulse));
-      return 3 * audit::size(across) < audit::size(off) ? -audit::dot(off, normal) / speed : no_duration;
+      const Vec across = off - impulse * (dot(off, impulse) / dot(impulse, impulse));
+      return 3 * size(across) < size(off) ? -dot(off, normal) / speed : no_duration;
     };
     if (large && std::abs(leaving) > 0.05) first.duration_from_begin = duration(left, first.normal, leaving);
     if (large && std::abs(coming) > 0.05) second.duration_from_end = duration(came, second.normal, coming);
@@ -197,31 +194,29 @@ class Measurements {
         !is_along(came.velocity_before, Vec(left.velocity_after - left.velocity_before)))
       surplus.push_back(surplus_of(off, came.velocity_before, g, noise));
     // A first-order integrator has the right velocity, and leaves the parabola along gravity only.
-    const double g_size = audit::size(g);
+    const double g_size = size(g);
     if (!(g_size > 0)) return;
     const Vec gained = came.velocity_before - (left.velocity_after + g * dt);
-    const double fall = audit::dot(off, g) / g_size;
-    const double rest = std::max(audit::size(Vec(off - g * (fall / g_size))), audit::size(gained) * dt);
-    first_order.push_back(!large || 10 * rest <= std::abs(fall) ? 2 * fall / (g_size * dt) : audit::unknown);
+    const double fall = dot(off, g) / g_size;
+    const double rest = std::max(size(Vec(off - g * (fall / g_size))), size(gained) * dt);
+    first_order.push_back(!large || 10 * rest <= std::abs(fall) ? 2 * fall / (g_size * dt) : unknown);
   }
 
   /// True for parallel vectors: finite contacts and time steps displace balls along the impulse.
   static bool is_along(const Vec& one, const Vec& two) {
-    return std::abs(audit::dot(one, two)) > 0.99 * audit::size(one) * audit::size(two);
+    return std::abs(dot(one, two)) > 0.99 * size(one) * size(two);
   }
   /// Time by which a ball is late on its path [s]; unknown if it deviates from the path as well.
   static double surplus_of(const Vec& off, const Vec& velocity, const Vec& g, double noise) {
-    const auto along = [&](const Vec& way) {
-      return -audit::dot(way, velocity) / audit::dot(velocity, velocity);
-    };
+    const auto along = [&](const Vec& way) { return -dot(way, velocity) / dot(velocity, velocity); };
     double time = along(off);
     time = along(Vec(off + g * (time * time / 2)));
-    const double rest = audit::size(Vec(off + (velocity + g * (time / 2)) * time));
-    return audit::vanishes(audit::size(off), rest, noise) ? time : audit::unknown;
+    const double rest = size(Vec(off + (velocity + g * (time / 2)) * time));
+    return audit::vanishes(size(off), rest, noise) ? time : unknown;
   }
 
-  const audit::EventsAtHand& log_;
-  const model::Case<double>& case_;
+  const EventsAtHand& log_;
+  const Case& case_;
   audit::Tolerances tolerances_;
 };
 
@@ -234,7 +229,7 @@ double exponent_of(std::vector<std::pair<double, double>> points) {
     const double dx = points[k + apart].first - points[k].first;
     if (dx > 0.1) slopes.push_back((points[k + apart].second - points[k].second) / dx);
   }
-  return slopes.size() < least_number / 2 ? audit::unknown : quantile(slopes, 0.5);
+  return slopes.size() < least_number / 2 ? unknown : quantile(slopes, 0.5);
 }
 
 std::optional<SoftContacts> soft_contacts(const std::vector<LoggedContact>& contacts, LoggedAt at) {
@@ -265,7 +260,7 @@ std::optional<SoftContacts> soft_contacts(const std::vector<LoggedContact>& cont
                       .contacts = durations.size(),
                       .exponent = exponent_of(std::move(points)),
                       .spring = quantile(springs, 0.5),
-                      .modulus = moduli.empty() ? audit::unknown : quantile(moduli, 0.5)};
+                      .modulus = moduli.empty() ? unknown : quantile(moduli, 0.5)};
 }
 
 /// The error of single times, if that alone explains the deviations of flights: as many are too short as too
@@ -280,8 +275,7 @@ std::optional<double> jitter_of(std::vector<double> surplus) {
 
 }  // namespace
 
-TimeStepping time_stepping(const audit::EventsAtHand& log, const model::Case<double>& the_case,
-                           const audit::Options& options) {
+TimeStepping time_stepping(const EventsAtHand& log, const Case& the_case, const audit::Options& options) {
   TimeStepping result;
   result.step = common_step(log.events);
   const auto& has = log.available;
