@@ -35,7 +35,7 @@ class Auditor : Judge {
         with_wall_(case_.mill.wall_count()) {}
 
   /// Starts the flights of all balls from their states at the beginning of the log.
-  void begin(const std::vector<model::BallState<double>>& states, double time) {
+  void begin(const BallStates& states, double time) {
     int ball = 0;
     for (const auto& [position, velocity, spin] : states)
       flights_.begin(ball++, time, {.position = position, .velocity_after = velocity, .spin_after = spin},
@@ -200,14 +200,14 @@ class Auditor : Judge {
     findings_.judged(Check::touch);
     const double gap = gap_of(event, case_, frame);
     if (std::abs(gap) <= allowed) return {};
-    if (event.with_wall && another_body_is_there(event, frame, allowed, std::abs(gap)))
+    if (event.with_wall && another_body_is_met(event, frame, allowed, std::abs(gap)))
       return {false, event.with_wall};  // the log lacks the state of the other ball, if it was one
     report(gap < 0 ? Kind::late_event : Kind::early_event, event, std::abs(gap), gap, 0);
     return {gap < 0, true};
   }
 
   /// Finds the body that is touched, at `off` from the logged one; the other checks use it.
-  bool another_body_is_there(LoggedEvent& event, const VesselFrame& frame, double allowed, double off) {
+  bool another_body_is_met(LoggedEvent& event, const VesselFrame& frame, double allowed, double off) {
     const double radius = radius_of(event.ball);
     const Vec& position = event.body[0].position;
     if (!(off > radius / 100)) return false;
@@ -308,17 +308,16 @@ class Auditor : Judge {
 
 /// Audits a sequence of events.
 /// @param next  returns the next event in order of time, or nothing at the end
-Audit audit_events(const Case& the_case, const std::vector<model::BallState<double>>* states,
-                   const Options& options, const std::string& file, const Available& available,
-                   const auto& next) {
+Audit audit_events(const Case& the_case, const BallStates* states, const Options& options,
+                   const std::string& file, const Available& available, const auto& next) {
   Audit result;
   result.findings = Findings(options.examples);
   result.tolerances = tolerances_of(the_case, options);
   result.log_name = file;
   result.available = available;
   Auditor auditor(the_case, result);
-  if (states)
-    auditor.begin(*states, DriveClock<double>(the_case.mill.motion.period()).seconds(the_case.initial_time));
+  const DriveClock<double> clock(the_case.mill.motion.period());
+  if (states) auditor.begin(*states, clock.seconds(the_case.initial_time));
   bool any_pairs = false;
   while (auto event = next()) {
     if (options.interrupt && options.interrupt->load(std::memory_order_relaxed)) {
@@ -379,8 +378,7 @@ Tolerances tolerances_of(const Case& the_case, const Options& options) {
   return tolerances;
 }
 
-Audit audit(const Case& the_case, const std::vector<model::BallState<double>>& states,
-            const Options& options) {
+Audit audit(const Case& the_case, const BallStates& states, const Options& options) {
   auto log = open_log(the_case, options);
   return audit_events(the_case, options.from_start ? &states : nullptr, options, log.file(), log.available(),
                       [&] { return log.next(); });

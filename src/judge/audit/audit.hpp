@@ -15,6 +15,8 @@
 
 namespace edmill::audit {
 
+using BallStates = std::vector<model::BallState<double>>;
+
 struct Options {
   std::filesystem::path log;  ///< a CSV file, or a folder of `edmill run`
   logs::LogConventions conventions;
@@ -60,8 +62,7 @@ struct Audit {
 
 /// @param the_case, states  of the case; the states are its initial ones
 /// @throws InputError with the problems of the log and of the options for it
-Audit audit(const Case& the_case, const std::vector<model::BallState<double>>& states,
-            const Options& options);
+Audit audit(const Case& the_case, const BallStates& states, const Options& options);
 
 /// Events already read from a log, in order of time.
 struct EventsAtHand {

@@ -19,10 +19,10 @@ std::string describe(const Finding& f) {
 }
 
 /// Lists the checks whose `number` is not 0: "touch (12), approach (7)".
-std::string list_of_checks(const Findings& findings, std::uint64_t (Findings::*number)(Check) const) {
+std::string list_of_checks(const Findings& findings, auto number) {
   std::vector<std::string> list;
-  for (const Check check : checks_with([&](Check c) { return (findings.*number)(c) > 0; }))
-    list.push_back(fmt::format("{} ({})", info(check).name, (findings.*number)(check)));
+  for (const Check check : checks_with([&](Check c) { return std::invoke(number, findings, c) > 0; }))
+    list.push_back(fmt::format("{} ({})", info(check).name, std::invoke(number, findings, check)));
   return fmt::format("{}", fmt::join(list, ", "));
 }
 

@@ -38,8 +38,7 @@ ImpactTolerance Equations::of_impact(const LoggedImpact& impact, Rows& rows) con
 
 /// Residuals of the logged states with respect to the contact law's outcome: of each body, or as in (2.23'),
 /// (2.28'), (2.35) and (2.24'). There the logged impulse limits the friction.
-void Equations::of_states(const LoggedImpact& impact, const Speeds& speeds, double allowed,
-                          Rows& rows) const {
+void Equations::of_states(const LoggedImpact& impact, Speeds speeds, double allowed, Rows& rows) const {
   const auto& logged = impact.event->body;
   const bool spins = has_.spins(impact.with_wall()), summed = !by_body_ || !spins;
   const auto due = outcome(impact, terms_, summed);
@@ -82,8 +81,7 @@ void Equations::of_states(const LoggedImpact& impact, const Speeds& speeds, doub
 }
 
 /// The dose is the wall work plus what the least separation supplies, minus what balls gain. (2.36'), (A.82)
-void Equations::of_energies(const LoggedImpact& impact, const Speeds& speeds, double allowed,
-                            Rows& rows) const {
+void Equations::of_energies(const LoggedImpact& impact, Speeds speeds, double allowed, Rows& rows) const {
   const LoggedEvent& event = *impact.event;
   const double work = work_of_wall(impact);
   if (has_.milling_dose) {

@@ -135,15 +135,13 @@ struct Row {
 
 /// Rows of which most have the kind of their check.
 struct Rows : std::vector<Row> {
-  /// Adds a row of one number.
-  void scalar(Check check, double difference, double allowed, double found, double expected) {
-    const Vec first{difference, 0, 0};
-    push_back({check, info(check).rows, -1, 1, first, std::abs(difference), allowed, found, expected});
+  void scalar(Check check, double off, double allowed, double found, double expected) {
+    push_back({check, info(check).rows, -1, 1, {off, 0, 0}, std::abs(off), allowed, found, expected});
   }
   Row& vector(Check check, auto body, const Vec& difference, double allowed) {
     const double off = audit::size(difference);
-    push_back({check, info(check).rows, static_cast<int>(body), 3, difference, off, allowed, off, 0});
-    return back();
+    const int of = static_cast<int>(body);
+    return *insert(end(), {check, info(check).rows, of, 3, difference, off, allowed, off, 0});
   }
 };
 
@@ -181,8 +179,8 @@ class Equations {
   void of_flight(const LoggedFlight& flight, const Vec& gravity, Rows& rows) const;
 
  private:
-  void of_states(const LoggedImpact& impact, const Speeds& speeds, double allowed, Rows& rows) const;
-  void of_energies(const LoggedImpact& impact, const Speeds& speeds, double allowed, Rows& rows) const;
+  void of_states(const LoggedImpact& impact, Speeds speeds, double allowed, Rows& rows) const;
+  void of_energies(const LoggedImpact& impact, Speeds speeds, double allowed, Rows& rows) const;
   void of_logged_speeds(const LoggedImpact& impact, Rows& rows) const;
 
   const Available& has_;

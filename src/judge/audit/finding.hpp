@@ -109,7 +109,7 @@ class Findings {
     std::vector<Kind> found;
     for (std::size_t k = 0; k < kind_count; ++k)
       if (tallies_[k].count > 0) found.push_back(static_cast<Kind>(k));
-    std::stable_sort(found.begin(), found.end(), [&](Kind a, Kind b) { return of(a).count > of(b).count; });
+    std::stable_sort(found.begin(), found.end(), [&](auto a, auto b) { return of(a).count > of(b).count; });
     return found;
   }
 

@@ -186,32 +186,32 @@ class Flights : Judge {
     return std::nullopt;
   }
 
-  std::optional<Encounter> first_ball(int ball, const Track& track, const FlightEnd& end, double slack) {
+  std::optional<Encounter> first_ball(int ball, const Track& own, const FlightEnd& end, double slack) {
     const double until = end.event->time;
     const double radius = radius_of(ball);
     const auto& pairs = ladder_.pairs();
-    const auto seen_at_start = pairs.state(track.flight, track.flight.start);
+    const auto seen_at_start = pairs.state(own.flight, own.flight.start);
     std::optional<Encounter> first;
     for (int other = 0; other < balls(); ++other) {
       const Track& theirs = of(other);
       if (other == ball || !theirs.state_known) continue;
-      const bool later = theirs.start > track.start;
-      const double from = later ? theirs.start : track.start;
+      const bool later = theirs.start > own.start;
+      const double from = later ? theirs.start : own.start;
       const double to = std::min(until, theirs.broken_from);
       if (from >= to) continue;
-      const auto& now = later ? theirs.flight.start : track.flight.start;
+      const auto& now = later ? theirs.flight.start : own.flight.start;
       const double sum = radius + radius_of(other);
       const Vec apart = position_at(ball, from) - position_at(other, from);
-      const Vec relative = velocity_of(track, from) - velocity_of(theirs, from);
+      const Vec relative = velocity_of(own, from) - velocity_of(theirs, from);
       // Gravity cancels: the distance changes only by the relative velocity.
       if (size(apart) > 1.001 * (sum + size(relative) * (to - from))) continue;
       // The position of the other ball has its own uncertainty of time.
       const double off = slack + 2 * rounding_of(until) * size(theirs.flight.velocity);
       if (off > sum / 2) continue;
-      const auto seen = later ? pairs.state(track.flight, now) : seen_at_start;
+      const auto seen = later ? pairs.state(own.flight, now) : seen_at_start;
       dynamics::PairAnswer<double> answer;
       try {
-        answer = ladder_.pair(seen, track.flight, theirs.flight, now, sum - off);
+        answer = ladder_.pair(seen, own.flight, theirs.flight, now, sum - off);
       } catch (const UndecidedError&) {
         ++undecided_;
       }
@@ -297,7 +297,7 @@ class Flights : Judge {
   /// @return the distance from the end of the flight, 0 when within the tolerances [m]
   double judge_end(int ball, const Track& track, const FlightEnd& end, bool report_it) {
     const auto& has = available_.body[end.body];
-    const auto judge_equation = [&](Check check, bool violated, double off, double found, const char* note) {
+    const auto judge_equation = [&](Check check, bool violated, double off, double found, auto note) {
       findings_.judged(check);
       if (!violated) return;
       Finding at_end{*end.event, kind_of(check), off, found, 0, note};
@@ -335,9 +335,9 @@ class Flights : Judge {
   /// Reports a missed impact. An impact with a wall is held until the ball's next line; an impact of two
   /// balls that only the partner's flight can confirm is held until the end of that flight.
   /// @param off  distance of the logged position from the end of the flight [m]
-  /// @param missed_at  set to the time of the impact if it is, or may still be, reported [s]
+  /// @param at  set to the time of the impact if it is, or may still be, reported [s]
   /// @return true if the impact is considered reported
-  bool report_missed(int ball, const Encounter& missed, const FlightEnd& end, double off, double& missed_at) {
+  bool report_missed(int ball, const Encounter& missed, const FlightEnd& end, double off, double& at) {
     const bool wall = missed.with_wall, flown_through = off == 0;
     const bool explained =
         !flown_through && (wall ? explained_by_walls(ball, end) : explained_by_ball(ball, missed, end));
@@ -366,7 +366,7 @@ class Flights : Judge {
     } else {
       return false;
     }
-    missed_at = missed.time;
+    at = missed.time;
     return wall || explained || !flown_through;
   }
 

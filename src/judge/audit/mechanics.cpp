@@ -56,9 +56,10 @@ Vec by_roll_about_X(const WallPoint& p) {
 /// The ball's contact point is at -R n from its centre, the partner's at +R n.
 Vec contact_velocity(const LoggedImpact& impact, Vec BodyState::*velocity, Vec BodyState::*spin) {
   const auto& [one, two] = impact.event->body;
-  const Vec own = one.*velocity - cross(one.*spin, impact.normal) * (impact.arm * impact.ball[0].radius);
+  const auto& [ball, partner] = impact.ball;
+  const Vec own = one.*velocity - cross(one.*spin, impact.normal) * (impact.arm * ball.radius);
   if (impact.with_wall()) return own - impact.wall_velocity;
-  return own - (two.*velocity + cross(two.*spin, impact.normal) * (impact.arm * impact.ball[1].radius));
+  return own - (two.*velocity + cross(two.*spin, impact.normal) * (impact.arm * partner.radius));
 }
 
 /// Rotation of a wall's normal per displacement of the ball [1/m]. @param step  displacement [m]
@@ -75,8 +76,7 @@ double bend_of(const auto& room, int wall, const Vec& place, double step) {
 }
 
 /// Calls f(frame, room, number) with the vessel or body of a wall, and its number there.
-template <class F>
-auto with_wall(const Mill& mill, int wall, const VesselFrame& vessel, double radius, F&& f) {
+auto with_wall(const Mill& mill, int wall, const VesselFrame& vessel, double radius, auto f) {
   const auto* body = mill.body_of(wall);
   if (!body) return f(vessel, mill.vessel.inset(radius), wall);
   return f(plain_frame(body->motion, body->motion.pose(vessel.when)), body->shape.inset(radius), 0);
@@ -94,18 +94,18 @@ VesselFrame vessel_at(const Mill& mill, double time, bool as_printed) {
   return frame;
 }
 
-double wall_gap(const VesselFrame& frame, const Case& the_case, int wall, int ball, const Vec& position) {
-  return with_wall(the_case.mill, wall, frame, the_case.balls[ball].radius,
+double wall_gap(const VesselFrame& frame, const Case& of, int wall, int ball, const Vec& position) {
+  return with_wall(of.mill, wall, frame, of.balls[ball].radius,
                    [&](const VesselFrame& own, const auto& room, int number) {
                      return -room.overlap(number, inside(own, position)) - own.of_wall(number).value;
                    });
 }
 
-double gap_of(const LoggedEvent& event, const Case& the_case, const VesselFrame& frame) {
+double gap_of(const LoggedEvent& event, const Case& of, const VesselFrame& frame) {
   const auto& [one, two] = event.body;
-  if (event.with_wall) return wall_gap(frame, the_case, event.partner, event.ball, one.position);
-  return size(Vec(one.position - two.position)) - the_case.balls[event.ball].radius -
-         the_case.balls[event.partner].radius;
+  if (event.with_wall) return wall_gap(frame, of, event.partner, event.ball, one.position);
+  return size(Vec(one.position - two.position)) - of.balls[event.ball].radius -
+         of.balls[event.partner].radius;
 }
 
 const std::array<WallVelocity, 10> wall_velocities = {{
@@ -147,13 +147,12 @@ void LoggedImpact::set_wall_velocity(const WallVelocity& formula, const Mill& mi
   }
 }
 
-LoggedImpact impact_of(const LoggedEvent& event, const Case& the_case, const VesselFrame& frame,
-                       bool placed) {
-  const auto& mill = the_case.mill;
+LoggedImpact impact_of(const LoggedEvent& event, const Case& of, const VesselFrame& frame, bool placed) {
+  const auto& mill = of.mill;
   LoggedImpact impact;
   impact.event = &event;
   auto& [ball, partner] = impact.ball;
-  ball = the_case.balls[event.ball];
+  ball = of.balls[event.ball];
   const Vec& place = event.body[0].position;
   if (event.with_wall) {
     impact.law = &mill.law_with_wall(ball, event.partner);
@@ -171,7 +170,7 @@ LoggedImpact impact_of(const LoggedEvent& event, const Case& the_case, const Ves
     impact.set_wall_velocity(wall_velocities[0], mill, frame, frame);
     return impact;
   }
-  partner = the_case.balls[event.partner];
+  partner = of.balls[event.partner];
   impact.law = &mill.law_between(ball, partner);
   impact.effective_mass = 1 / (1 / ball.mass + 1 / partner.mass);
   impact.compliance = 1;
@@ -193,7 +192,7 @@ double LoggedImpact::tangential_restitution(double c, double bounce, double slip
   if (in_stall) return 1;
   // Sliding has a formula of its own here: a mistake in the law that runs use is detected.
   if (const auto* coulomb = std::get_if<model::WaltonBraun<double>>(&law->law)) {
-    const double reversal = coulomb->friction * c * bounce;  // reduction of the slip by full sliding
+    const double reversal = coulomb->friction * c * bounce;  // of the slip by full sliding
     if (reversal >= (1 - coulomb->min_tangential) * slip_speed) return coulomb->min_tangential;
     return 1 - reversal / slip_speed;
   }
@@ -210,8 +209,8 @@ Outcome outcome(const LoggedImpact& impact, const Terms& terms, bool by_logged_i
   if (equal == EqualBalls::exchanged_masses) std::swap(share[0], share[1]);
   const double alone = 1 + 1 / impact.ball[0].reduced_inertia, less = impact.compliance - 1;
   const auto compliance = [&](double factor) { return std::max(1e-3, 1 + less * factor); };
-  const bool alone_in_limit = equal == EqualBalls::limit_of_sliding || equal == EqualBalls::friction;
-  const double c_in_limit = alone_in_limit ? alone : compliance(terms.compliance_in_limit);
+  const bool in_limit = equal == EqualBalls::limit_of_sliding || equal == EqualBalls::friction;
+  const double c_in_limit = in_limit ? alone : compliance(terms.compliance_in_limit);
   const double c = equal == EqualBalls::friction ? alone : compliance(terms.compliance_in_impulse);
 
   const Vec g = impact.before();
@@ -268,8 +267,8 @@ double kinetic_change(const LoggedImpact& impact, double spin_factor) {
 
 double work_of_wall(const LoggedImpact& impact) {
   if (!impact.with_wall()) return 0;
-  const auto& body = impact.event->body[0];
-  return impact.ball[0].mass * dot(impact.wall_velocity, Vec(body.velocity_after - body.velocity_before));
+  const auto& b = impact.event->body[0];
+  return impact.ball[0].mass * dot(impact.wall_velocity, Vec(b.velocity_after - b.velocity_before));
 }
 
 Speeds speeds_before(const LoggedImpact& impact) {
@@ -281,7 +280,7 @@ double supplied(const LoggedImpact& impact, double g_n, double separation) {
   return std::max(0.0, impact.effective_mass / 2 * (separation - g_n) * (separation + g_n));
 }
 
-double dose_by_law(const LoggedImpact& impact, const Speeds& speeds) {
+double dose_by_law(const LoggedImpact& impact, Speeds speeds) {
   const double separation = impact.separation_speed(speeds.g_n);
   const double bounce = separation - speeds.g_n;
   const double e_t = impact.tangential_restitution(impact.compliance, bounce, speeds.slip);

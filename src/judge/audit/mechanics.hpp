@@ -40,9 +40,9 @@ struct VesselFrame {
 VesselFrame vessel_at(const Mill& mill, double time, bool as_printed);
 
 /// Gap of a ball to a wall [m]; negative for an overlap. (2.17'), (2.19'), (2.21)
-double wall_gap(const VesselFrame& frame, const Case& the_case, int wall, int ball, const Vec& position);
+double wall_gap(const VesselFrame& frame, const Case& of, int wall, int ball, const Vec& position);
 /// Gap of the bodies of an event [m].
-double gap_of(const LoggedEvent& event, const Case& the_case, const VesselFrame& frame);
+double gap_of(const LoggedEvent& event, const Case& of, const VesselFrame& frame);
 /// The frames of the vessel, the contact point P, and the ball's centre.
 struct WallPoint {
   const VesselFrame &nested, &printed;
@@ -130,7 +130,7 @@ struct LoggedImpact {
 
 /// The impact of an event, with the right velocity of the wall.
 /// @param placed  the log has the positions of the bodies; otherwise the normal is arbitrary
-LoggedImpact impact_of(const LoggedEvent& event, const Case& the_case, const VesselFrame& frame, bool placed);
+LoggedImpact impact_of(const LoggedEvent& event, const Case& of, const VesselFrame& frame, bool placed);
 
 /// Result of the contact law: the states after an impact, and e_t.
 struct Outcome {
@@ -157,6 +157,6 @@ Speeds speeds_before(const LoggedImpact& impact);
 /// Energy that an impact adds along the normal [J]; 0 where it dissipates.
 double supplied(const LoggedImpact& impact, double g_n, double separation);
 /// Milling dose of an impact at these speeds [J]. (2.30'), (2.36')
-double dose_by_law(const LoggedImpact& impact, const Speeds& speeds);
+double dose_by_law(const LoggedImpact& impact, Speeds speeds);
 
 }  // namespace edmill::audit

@@ -129,41 +129,39 @@ std::vector<SharedSubset> subsets_of(const CaseSpec& spec, const Case& the_case,
                                      const std::vector<LoggedEvent>& events,
                                      const std::vector<Branches>& branches) {
   std::vector<SharedSubset> list;
-  const auto add = [&](std::string name, bool of_flights, std::function<bool(const RowPlace&)> contains) {
-    list.push_back(std::make_shared<Subset>(Subset{std::move(name), std::move(contains), of_flights}));
+  const auto add = [&](std::string name, bool of_flights, auto contains) {
+    list.push_back(std::make_shared<Subset>(Subset{std::move(name), contains, of_flights}));
   };
   const auto of_impacts = [&](std::string name, auto holds) {
     add(std::move(name), false,
         [&events, holds](const RowPlace& at) { return !at.of_flight && holds(events[at.event], at.event); });
   };
-  of_impacts("with walls", [](const LoggedEvent& e, std::size_t) { return e.with_wall; });
-  of_impacts("between balls", [](const LoggedEvent& e, std::size_t) { return !e.with_wall; });
+  of_impacts("with walls", [](auto& e, std::size_t) { return e.with_wall; });
+  of_impacts("between balls", [](auto& e, std::size_t) { return !e.with_wall; });
   const auto walls = the_case.mill.walls();
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall)
     of_impacts("at " + walls[wall].meaning,
-               [wall](const LoggedEvent& e, std::size_t) { return e.with_wall && e.partner == wall; });
+               [wall](auto& e, std::size_t) { return e.with_wall && e.partner == wall; });
   /// Adds the impacts at the walls that satisfy `is_one`, if these are several but not all.
   const auto at_walls = [&](const std::string& name, const auto& is_one) {
     std::vector<bool> at;
     for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) at.push_back(is_one(wall));
     const std::size_t number = std::count(at.begin(), at.end(), true);
     if (number > 1 && number < at.size())
-      of_impacts("at " + name,
-                 [at](const LoggedEvent& e, std::size_t) { return e.with_wall && at[e.partner]; });
+      of_impacts("at " + name, [at](auto& e, std::size_t) { return e.with_wall && at[e.partner]; });
   };
   const auto& mill = the_case.mill;
-  at_walls("flat walls", [&](int wall) { return !mill.body_of(wall) && mill.vessel.is_flat(wall); });
-  at_walls("round walls", [&](int wall) { return !mill.body_of(wall) && !mill.vessel.is_flat(wall); });
-  at_walls("bodies in the vessel", [&](int wall) { return mill.body_of(wall) != nullptr; });
+  at_walls("flat walls", [&](int k) { return !mill.body_of(k) && mill.vessel.is_flat(k); });
+  at_walls("round walls", [&](int k) { return !mill.body_of(k) && !mill.vessel.is_flat(k); });
+  at_walls("bodies in the vessel", [&](int k) { return mill.body_of(k) != nullptr; });
   for (std::size_t k = 0; k < spec.materials.size() && !spec.wall_materials.empty(); ++k)
     at_walls("walls of " + spec.materials[k].name,
              [&](int wall) { return spec.wall_materials[wall] == static_cast<int>(k) + 1; });
   const auto groups = ball_groups(spec);
   for (const auto& group : groups)
     if (groups.size() > 1 && group.last - group.first > 1)
-      of_impacts("in impacts of " + group.key, [group](const LoggedEvent& e, std::size_t) {
-        return takes_part(e, group.first, group.last);
-      });
+      of_impacts("in impacts of " + group.key,
+                 [group](auto& e, std::size_t) { return takes_part(e, group.first, group.last); });
   const auto of_branch = [&](const char* name, bool Branches::*member, bool value) {
     of_impacts(name, [=, &branches](const LoggedEvent&, std::size_t k) {
       return branches[k].known && branches[k].*member == value;
@@ -174,9 +172,8 @@ std::vector<SharedSubset> subsets_of(const CaseSpec& spec, const Case& the_case,
   of_branch("where the least separation speed applies", &Branches::at_least_separation, true);
   of_branch("where the restitution applies", &Branches::at_least_separation, false);
   const auto& balls = the_case.balls;
-  of_impacts("between balls that are not alike", [&balls](const LoggedEvent& e, std::size_t) {
-    return !e.with_wall && !(balls[e.ball] == balls[e.partner]);
-  });
+  of_impacts("between balls that are not alike",
+             [&balls](auto& e, std::size_t) { return !e.with_wall && !(balls[e.ball] == balls[e.partner]); });
   // Rows of both bodies, those of the energy, are affected by a change of either body.
   add("on the partner", false,
       [&events](const RowPlace& at) { return !at.of_flight && at.body != 0 && !events[at.event].with_wall; });
@@ -186,7 +183,7 @@ std::vector<SharedSubset> subsets_of(const CaseSpec& spec, const Case& the_case,
   const int count = static_cast<int>(balls.size());
   for (int ball = 0; ball < count && count <= most_balls && count > 1; ++ball) {
     of_impacts(fmt::format("in impacts of ball {}", ball),
-               [ball](const LoggedEvent& e, std::size_t) { return takes_part(e, ball, ball + 1); });
+               [ball](auto& e, std::size_t) { return takes_part(e, ball, ball + 1); });
     add(fmt::format("on ball {}", ball), true, [&events, ball](const RowPlace& at) {
       const auto& event = events[at.event];
       return at.body < 0 ? takes_part(event, ball, ball + 1) : event.ball_at(at.body) == ball;

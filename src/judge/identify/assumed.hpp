@@ -16,8 +16,8 @@
 
 namespace edmill::identify {
 
-using audit::Case, audit::LoggedEvent, audit::LoggedImpact, audit::Mill, audit::Terms, audit::Vec, audit::dot,
-    audit::size, audit::unknown;
+using audit::Available, audit::Case, audit::LoggedEvent, audit::LoggedImpact, audit::Mill, audit::Terms,
+    audit::Vec, audit::dot, audit::size, audit::unknown;
 using casefile::CaseSpec, casefile::Quantity;
 
 /// Axes of vectors, permuted and turned: component k is sign[k] times component from[k] of the log.
@@ -137,16 +137,15 @@ struct Assumption {
   /// Speed of a periodic motion: a fit that starts far away may converge to a wrong period.
   bool is_speed = false;
   double cycle = 0;           ///< period of a phase, in the unit of the number; 0 for others
-  std::string equation = {};  ///< of docs/theory.md that a term belongs to; empty for a number of the case
+  std::string equation = {};  ///< in docs/theory.md, of a term; empty for a number of the case
   bool of_impacts = true;     ///< false if only rows of flights depend on it
   double prior = 0;           ///< cost in Schwarz's criterion, as for a choice among parts of the log
   /// For a number of another contact law: the law that the case has in its place; `value` is nan.
   std::string in_place_of = {};
   std::vector<double> first_values = {};  ///< starting values of such a number or of a mistake
-  std::string mistake =
-      {};                  ///< "R_x(gamma) R_z(theta) in place of R_z(theta) R_x(gamma)"; empty for a number
-  bool by_factor = false;  ///< mistake that multiplies a number, like a wrong unit
-  bool of_motion = false;  ///< mistake that replaces the mill, and with it the numbers of the case's mill
+  std::string mistake = {};               ///< "R_x(gamma) R_z(theta) in place of ..."; empty for a number
+  bool by_factor = false;                 ///< mistake that multiplies a number, like a wrong unit
+  bool of_motion = false;                 ///< mistake that replaces the mill, and with it its numbers
 
   bool is_of_case() const { return first_values.empty(); }
   /// False for a mistake, which has no value.
@@ -173,7 +172,7 @@ using Assumptions = std::vector<Assumption>;
 /// An assumption with its fitted value; 1 for a mistake.
 struct Found {
   Assumption what;
-  double value = 1, half_width = 0;  ///< SI; the interval contains 99.7 % of normal noise, and a common shift
+  double value = 1, half_width = 0;  ///< SI; contains 99.7 % of normal noise, and a common shift
 };
 
 /// The fitted numbers of a hypothesis or a cause, in which mistakes come first.
@@ -188,11 +187,11 @@ auto fitted(auto& of) {
 Assumptions numbers_of(const Assumed& nominal);
 
 /// An assumption about a part of the log only. @param choices  number of parts that were tried
-Assumption restricted_to(const SharedSubset& part, const Assumption& parameter, std::size_t choices);
+Assumption restricted_to(const SharedSubset& part, const Assumption& what, std::size_t choices);
 
 /// Mistakes other than wrong numbers that a log with these columns can reveal: orders, signs,
 /// directions, units, and the meaning of columns.
-Assumptions mistakes_of(const Assumed& nominal, const Assumptions& parameters, const audit::Available& has);
+Assumptions mistakes_of(const Assumed& nominal, const Assumptions& numbers, const Available& has);
 
 /// "reversed", "left out", "doubled" or "halved" if a factor's narrow interval contains it; else "".
 std::string word_for(double factor, double half_width);

@@ -15,6 +15,8 @@
 
 namespace edmill::identify {
 
+using audit::Check;
+
 namespace {
 
 constexpr double out_of_range = 1e15;
@@ -33,7 +35,8 @@ double median_size(std::vector<double> values) {
 /// Scales of the Cauchy weights, from the size of the initial residuals down to the tolerance.
 std::vector<double> scales_for(const VectorXd& rows) {
   std::vector<double> off;
-  std::copy_if(rows.begin(), rows.end(), std::back_inserter(off), [](double r) { return std::abs(r) > 1; });
+  for (const double r : rows)
+    if (std::abs(r) > 1) off.push_back(r);
   const double largest = std::max(1.0, median_size(std::move(off)));
   std::vector<double> scales;
   for (double s = 3 * largest; s > 1; s /= 30) scales.push_back(s);
@@ -166,7 +169,7 @@ audit::Rows LogResiduals::rows_of(std::size_t k, const Case& model, const LogCha
                          model.balls[event.ball_at(body)].radius, static_cast<int>(body)},
                         model.mill.gravity, rows);
   }
-  std::erase_if(rows, [](const audit::Row& row) { return row.equation == audit::Check::approach; });
+  std::erase_if(rows, [](const audit::Row& row) { return row.equation == Check::approach; });
   return rows;
 }
 
@@ -217,10 +220,9 @@ Residuals::Residuals(const LogResiduals& log, const std::vector<std::size_t>& ev
   for (const std::size_t k : events) {
     if (!log.log_.events[k].problem.empty()) continue;
     for (const auto& row : log.rows_of(k, log.nominal_, {}, {})) {
-      const bool known = row.allowed > 0 && std::isfinite(row.allowed);
-      const bool of_flight = row.equation == audit::Check::flight || row.equation == audit::Check::spin_kept;
-      of_case_.insert(of_case_.end(), row.count,
-                      {known ? row.allowed : 1.0, row.kind, {k, row.body, of_flight}});
+      const double allowed = row.allowed > 0 && std::isfinite(row.allowed) ? row.allowed : 1;
+      const bool of_flight = row.equation == Check::flight || row.equation == Check::spin_kept;
+      of_case_.insert(of_case_.end(), row.count, {allowed, row.kind, {k, row.body, of_flight}});
     }
     chosen_.push_back(k);
   }

@@ -44,8 +44,7 @@ class LogResiduals {
     long event = -1;
     std::size_t body = 0;
   };
-  audit::Rows rows_of(std::size_t event, const Case& model, const LogChange& change,
-                      const Terms& terms) const;
+  audit::Rows rows_of(std::size_t event, const Case& model, const LogChange&, const Terms&) const;
   Branches branches_of(const LoggedEvent& event) const;
 
   const EventsAtHand& log_;
@@ -82,7 +81,7 @@ struct Hypothesis {
   std::vector<Found> found = {};  ///< mistakes first: a number may be one of the mill that a mistake makes
   double score = 0;               ///< Schwarz's criterion: misfit + numbers ln(rows) + what each choice costs
   double plainness = 0;           ///< bonus for factors like 2 or -1, unlikely to be chance
-  std::uint64_t left = 0, of = 0;  ///< violations, or events with violated rows, with it and without
+  std::uint64_t left = 0, of = 0;  ///< violations, or events with some, with it and without
   std::string others = {};         ///< kinds of the violations that are left
 
   /// Rank of the hypothesis; lower is better.

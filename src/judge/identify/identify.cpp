@@ -17,15 +17,14 @@ namespace edmill::identify {
 namespace {
 
 constexpr std::size_t most_events = 20000, most_for_single = 4000;
-constexpr double strong_evidence = 10;  ///< least gain of Schwarz's criterion (Kass and Raftery 1995)
+constexpr double strong_evidence = 10;  ///< gain of Schwarz's criterion (Kass and Raftery 1995)
 constexpr double same_evidence = 2;
 constexpr std::size_t most_judged = 12;  ///< hypotheses of a stage that are audited
 
 /// The items with the lowest misfits, best first.
 template <class Item>
 std::vector<Item> best_of(std::vector<std::pair<double, Item>> order, std::size_t most) {
-  std::stable_sort(order.begin(), order.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::stable_sort(order.begin(), order.end(), [](auto& a, auto& b) { return a.first < b.first; });
   std::vector<Item> best;
   for (std::size_t k = 0; k < std::min(most, order.size()); ++k) best.push_back(std::move(order[k].second));
   return best;
@@ -64,8 +63,7 @@ Assumptions of_parts(const Assumptions& numbers) {
 
 /// Sorts hypotheses by rank, best first.
 void sort(std::vector<Hypothesis>& list) {
-  std::stable_sort(list.begin(), list.end(),
-                   [](const auto& a, const auto& b) { return a.rank() < b.rank(); });
+  std::stable_sort(list.begin(), list.end(), [](auto& a, auto& b) { return a.rank() < b.rank(); });
 }
 
 /// The data that all hypotheses are judged by: a log, samples of it, and their rows.
@@ -73,8 +71,8 @@ class Evidence {
  public:
   /// All arguments except the_case must outlive it. @pre the log has events
   /// @param violations  number that an audit of the unmodified case finds
-  Evidence(const EventsAtHand& log, const audit::Options& options, const Case& the_case,
-           const Assumed& nominal, std::uint64_t violations)
+  Evidence(const EventsAtHand& log, const Options& options, const Case& the_case, const Assumed& nominal,
+           std::uint64_t violations)
       : log_(log),
         options_(options),
         nominal_(nominal),
@@ -121,9 +119,9 @@ class Evidence {
     };
     const auto known =
         std::find_if(events.begin(), events.end(), [](const auto& e) { return std::isfinite(e.time); });
-    const double begin = known == events.end() ? 0 : known->time, end = events.back().time,
-                 span = end - begin;
-    const double first = std::max(period_, events[std::min<std::size_t>(79, events.size() - 1)].time - begin);
+    const double begin = known == events.end() ? 0 : known->time, end = events.back().time;
+    const double early = events[std::min<std::size_t>(79, events.size() - 1)].time - begin;
+    const double span = end - begin, first = std::max(period_, early);
     windows_.clear();
     for (double window = first; window < span; window *= 4) windows_.push_back(sample(begin + window, 160));
     windows_.push_back(sample(end, 300));
@@ -210,7 +208,7 @@ class Evidence {
 
   /// Assumptions that improve the fit on top of `base` with one of their trial values, best first. This finds
   /// mistakes, and numbers that matter only far from their nominal value.
-  Assumptions by_trial_values(const Assumed& base, const Assumptions& list, std::size_t most) const {
+  Assumptions by_trials(const Assumed& base, const Assumptions& list, std::size_t most) const {
     const double enough = misfit(few_, base) - strong_evidence;
     std::vector<std::pair<double, Assumption>> order;
     for (const auto& p : list) {
@@ -224,9 +222,9 @@ class Evidence {
   }
 
   /// Numbers by how much they should improve `base`: by a linear fit of the rows and trial values.
-  Assumptions best_numbers(const Assumed& base, const Assumptions& numbers, std::size_t most) const {
-    auto best = by_sensitivity(early_or_whole(base), base, numbers, {}, most);
-    for (auto& p : by_trial_values(base, numbers, most / 2)) best.push_back(std::move(p));
+  Assumptions best_numbers(const Assumed& base, const Assumptions& list, std::size_t most) const {
+    auto best = by_sensitivity(early_or_whole(base), base, list, {}, most);
+    for (auto& p : by_trials(base, list, most / 2)) best.push_back(std::move(p));
     return best;
   }
 
@@ -247,14 +245,17 @@ class Evidence {
     const auto of_these = of_parts(numbers);
     auto best = by_sensitivity(whole(), base, of_these, parts, most);
     Assumptions restricted;
-    for (const auto& p : by_trial_values(base, of_these, 4))
+    for (const auto& p : by_trials(base, of_these, 4))
       for (const auto& part : parts)
-        if (fits(*part, p)) restricted.push_back(restricted_to(part, p, parts_.size()));
-    for (auto& p : by_trial_values(base, restricted, most / 2)) best.push_back(std::move(p));
+        if (fits(*part, p)) restricted.push_back(in_part(part, p));
+    for (auto& p : by_trials(base, restricted, most / 2)) best.push_back(std::move(p));
     return best;
   }
 
  private:
+  Assumption in_part(const SharedSubset& part, const Assumption& p) const {
+    return restricted_to(part, p, parts_.size());
+  }
   const Residuals& early() const { return windows_.front(); }
   const Residuals& whole() const { return windows_.back(); }
   /// The first span, where a wrong speed has little effect yet; the whole if it has few violations.
@@ -277,7 +278,7 @@ class Evidence {
         for (std::size_t k = 0; k < sample.count(); ++k)
           if (!part->contains(sample.of_case()[k].at)) inside[k] = 0;
         if (inside == slope || inside.isZero(0)) continue;
-        order.emplace_back(linear_misfit(sample, rows, inside), restricted_to(part, p, parts_.size()));
+        order.emplace_back(linear_misfit(sample, rows, inside), in_part(part, p));
       }
     }
     return best_of(std::move(order), most);
@@ -358,7 +359,7 @@ class Evidence {
   }
 
   const EventsAtHand& log_;
-  const audit::Options& options_;
+  const Options& options_;
   const Assumed& nominal_;
   double period_;  ///< of the drive [s]
   LogResiduals residuals_;
@@ -391,7 +392,7 @@ constexpr Stage stages[] = {
 
 class Searcher {
  public:
-  Searcher(const CaseSpec& spec, audit::Options options, Search search, Progress progress)
+  Searcher(const CaseSpec& spec, Options options, Search search, Progress progress)
       : search_(search),
         progress_(std::move(progress)),
         nominal_(assumed_of(spec)),
@@ -484,7 +485,7 @@ class Searcher {
           if (!is_interrupted() && base.allows(p) && names.insert(p.name()).second)
             more.push_back(evidence_->with(base, p));
       };
-      if (stage.mistakes > 0) add(evidence_->by_trial_values(assumed, mistakes_, stage.mistakes));
+      if (stage.mistakes > 0) add(evidence_->by_trials(assumed, mistakes_, stage.mistakes));
       if (stage.numbers > 0) add(evidence_->best_numbers(assumed, numbers_, stage.numbers));
       if (stage.in_parts > 0) add(evidence_->best_in_parts(assumed, numbers_, stage.in_parts, stage.share));
       if (stage.size == 0 && stage.numbers > 0)
@@ -561,7 +562,7 @@ class Searcher {
   Progress progress_;
   Assumed nominal_;
   Case the_case_;
-  audit::Options options_;
+  Options options_;
   EventsAtHand log_;
   Assumptions numbers_, mistakes_;
   std::optional<Evidence> evidence_;
@@ -572,7 +573,7 @@ class Searcher {
 
 }  // namespace
 
-Identification identify(const CaseSpec& spec, const audit::Options& options, Search search,
+Identification identify(const CaseSpec& spec, const Options& options, Search search,
                         const Progress& progress) {
   Searcher searcher(spec, options, search, progress);
   auto result = searcher.run();

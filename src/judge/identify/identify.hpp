@@ -12,7 +12,7 @@
 
 namespace edmill::identify {
 
-using audit::EventsAtHand;
+using audit::EventsAtHand, audit::Options;
 
 // Signs of time steps and of soft contacts. docs/audit.md, "Codes with time steps"
 
@@ -24,24 +24,24 @@ struct SoftContacts {
   double low, high;  ///< quartiles [s]
   LoggedAt at;
   std::uint64_t contacts;  ///< number of contacts that show it
-  double exponent;         ///< of duration ~ approach speed^exponent: 0 for a linear spring, -1/5 for Hertz
+  double exponent;         ///< of duration ~ speed^exponent: 0 for a linear spring, -1/5 for Hertz
   double spring;           ///< stiffness of a linear spring with this duration [N/m]
   double modulus;          ///< effective modulus E* of Hertz's contacts with this duration [Pa]
 };
 
 struct TimeStepping {
   std::optional<double> step;           ///< all times are multiples of it [s]
-  std::optional<double> step_by_depth;  ///< from the overlaps: contacts are detected up to a step late [s]
+  std::optional<double> step_by_depth;  ///< from overlaps: contacts are found up to a step late [s]
   std::optional<SoftContacts> soft;
   std::optional<double> first_order_step;  ///< of an integrator, from flights under gravity [s]
-  std::optional<double> jitter;  ///< root mean square of the errors of single times, early and late [s]
-  bool second_order = false;     ///< flights under gravity show no error of first order
+  std::optional<double> jitter;            ///< root mean square of the errors of single times [s]
+  bool second_order = false;               ///< flights under gravity show no error of first order
 
   bool found() const { return step || step_by_depth || soft || first_order_step || jitter; }
 };
 
 /// @param log  in the case's order of times
-TimeStepping time_stepping(const EventsAtHand& log, const Case& the_case, const audit::Options& options);
+TimeStepping time_stepping(const EventsAtHand& log, const Case& the_case, const Options& options);
 
 std::string table(const TimeStepping& found);
 
@@ -88,7 +88,7 @@ using Progress = std::function<void(const std::string& stage)>;
 /// Searches the first events of a log.
 /// @param options  of the audit; its log is read again
 /// @throws InputError
-Identification identify(const CaseSpec& spec, const audit::Options& options, Search search = Search::all,
+Identification identify(const CaseSpec& spec, const Options& options, Search search = Search::all,
                         const Progress& progress = {});
 
 /// Searches causes for a log without states: runs the case with other values, from its own initial state, and

@@ -65,18 +65,17 @@ struct Fields {
         });
     v.texts("alike", "causes that the log cannot distinguish from it, by number", cause.alike);
   }
-  static void stepping(auto& v, const TimeStepping& stepping) {
-    const auto time = [&](const char* key, const char* meaning, const std::optional<double>& value) {
+  static void stepping(auto& v, const TimeStepping& found) {
+    const auto time = [&](const char* key, const char* meaning, const auto& value) {
       if (v.has(value.has_value())) v(key, "s", meaning, value);
     };
-    time("step", "all times are multiples of it", stepping.step);
-    time("step_by_depth", "step by overlaps: contacts are detected up to a step late",
-         stepping.step_by_depth);
-    time("first_order_step", "step of an integrator of first order", stepping.first_order_step);
-    time("jitter", "root mean square of the errors of single times", stepping.jitter);
-    if (v.has(stepping.second_order)) v("order", "1", "2 if flights show no error of first order", 2);
-    if (!v.has(stepping.soft.has_value())) return;
-    const auto soft = stepping.soft.value_or(SoftContacts{});
+    time("step", "all times are multiples of it", found.step);
+    time("step_by_depth", "step by overlaps: contacts are detected up to a step late", found.step_by_depth);
+    time("first_order_step", "step of an integrator of first order", found.first_order_step);
+    time("jitter", "root mean square of the errors of single times", found.jitter);
+    if (v.has(found.second_order)) v("order", "1", "2 if flights show no error of first order", 2);
+    if (!v.has(found.soft.has_value())) return;
+    const auto soft = found.soft.value_or(SoftContacts{});
     v.group("soft_contacts", "contacts that last", [&] {
       v("duration", "s", "median", soft.duration);
       v("low", "s", "lower quartile", soft.low);

@@ -103,11 +103,10 @@ void add_factors(const Assumptions& numbers, Assumptions& list) {
     }
 }
 
-void add_units(const audit::Available& has, Assumptions& list) {
+void add_units(const Available& has, Assumptions& list) {
   const auto& ball = has.body[0];
-  const auto add_unit = [&](const char* columns, double LogChange::*member, double factor, std::string text) {
-    add(list, fmt::format("the log's {}", columns), std::move(text),
-        [=](Assumed& a) { a.log.*member = factor; });
+  const auto add_unit = [&](const char* columns, double LogChange::*member, double by, std::string text) {
+    add(list, fmt::format("the log's {}", columns), std::move(text), [=](Assumed& a) { a.log.*member = by; });
   };
   struct Columns {
     bool logged;
@@ -133,7 +132,7 @@ void add_units(const audit::Available& has, Assumptions& list) {
 }
 
 /// Adds axes in another order or direction.
-void add_axes(const audit::Available& has, Assumptions& list) {
+void add_axes(const Available& has, Assumptions& list) {
   const auto& ball = has.body[0];
   struct Vectors {
     bool logged;
@@ -144,8 +143,7 @@ void add_axes(const audit::Available& has, Assumptions& list) {
       {ball.position, "positions", &LogChange::axes_of_positions},
       {ball.velocity_before || ball.velocity_after, "velocities", &LogChange::axes_of_velocities},
       {ball.spin_before || ball.spin_after, "spins", &LogChange::axes_of_spins}};
-  const bool all =
-      std::all_of(std::begin(vectors), std::end(vectors), [](const auto& v) { return v.logged; });
+  const bool all = vectors[0].logged && vectors[1].logged && vectors[2].logged;
   std::array<int, 3> from{0, 1, 2};
   do {
     for (unsigned signs = 0; signs < 8; ++signs) {
@@ -169,7 +167,7 @@ void add_axes(const audit::Available& has, Assumptions& list) {
 }
 
 /// Adds mistakes in the contents of columns.
-void add_frames(const audit::Available& has, Assumptions& list) {
+void add_frames(const Available& has, Assumptions& list) {
   const auto& [ball, partner] = has.body;
   if (partner.velocity_before || partner.velocity_after)
     add(list, "the log's columns of the partner", "the states of ball and partner exchanged",
@@ -219,7 +217,7 @@ void add_exchanged_balls(const Assumed& nominal, Assumptions& list) {
 
 }  // namespace
 
-Assumptions mistakes_of(const Assumed& nominal, const Assumptions& parameters, const audit::Available& has) {
+Assumptions mistakes_of(const Assumed& nominal, const Assumptions& numbers, const Available& has) {
   Assumptions list;
   add_motions(nominal, list);
   add_units(has, list);
@@ -227,7 +225,7 @@ Assumptions mistakes_of(const Assumed& nominal, const Assumptions& parameters, c
   add_frames(has, list);
   add_formulas(nominal, list);
   add_exchanged_balls(nominal, list);
-  add_factors(parameters, list);
+  add_factors(numbers, list);
   return list;
 }
 

@@ -16,7 +16,7 @@ namespace edmill::identify {
 
 namespace {
 
-using model::Range;
+using model::Parameter, model::Range;
 
 using std::numbers::pi;
 
@@ -26,14 +26,13 @@ std::string with_axis(const std::string& key, int axis) {
 }
 
 /// Makes an assumption about a number. Its unit in a fit is its own magnitude, or 1 if it is 0.
-Assumption number(std::string key, Dimension dimension, double value,
-                  std::function<void(Assumed&, double)> set) {
+Assumption number(std::string key, Dimension dimension, double value, auto set) {
   const double size = std::abs(value);
   return {.key = std::move(key),
           .dimension = dimension,
           .value = value,
           .change = size > 0 ? size : 1.0,
-          .set = std::move(set),
+          .set = set,
           .has_unit = size > 0};
 }
 
@@ -42,8 +41,8 @@ template <class Part, class F>
 void each_number(Part& part, F&& f) {
   struct Visit {
     F& f;
-    void operator()(const model::Parameter& p, Quantity& q) const { f(p, q, -1); }
-    void operator()(const model::Parameter& p, std::array<Quantity, 3>& q) const {
+    void operator()(const Parameter& p, Quantity& q) const { f(p, q, -1); }
+    void operator()(const Parameter& p, std::array<Quantity, 3>& q) const {
       for (int axis = 0; axis < 3; ++axis) f(p, q[axis], axis);
     }
   } visit{f};
@@ -54,7 +53,7 @@ template <class Member>
 void add_numbers(const std::string& section, const Assumed& nominal, Member member, Assumptions& list) {
   auto part = nominal.spec.*member;
   std::size_t place = 0;
-  each_number(part, [&](const model::Parameter& p, Quantity& q, int axis) {
+  each_number(part, [&](const Parameter& p, Quantity& q, int axis) {
     const std::size_t own = place++;
     if (!p.key) return;
     const bool drive = p.range == Range::drive;
@@ -63,7 +62,7 @@ void add_numbers(const std::string& section, const Assumed& nominal, Member memb
     if (nominal_value == 0) return;
     const auto set = [member, own, drive](Assumed& a, double value) {
       std::size_t k = 0;
-      each_number(a.spec.*member, [&](const model::Parameter&, Quantity& target, int) {
+      each_number(a.spec.*member, [&](const Parameter&, Quantity& target, int) {
         if (k++ == own) target = exactly(drive ? 2 * pi / value : value);
       });
     };
@@ -80,7 +79,7 @@ void add_joints(const std::string& section, Assumed nominal,
                 const std::function<std::vector<std::vector<model::Joint<Quantity>>*>(Assumed&)>& chains,
                 Assumptions& list) {
   const auto joints = *chains(nominal).front();
-  const auto first_turn = std::find_if(joints.begin(), joints.end(), [](const auto& j) { return j.rotates; });
+  const auto first_turn = std::find_if(joints.begin(), joints.end(), [](auto& j) { return j.rotates; });
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const auto& joint = joints[j];
     const bool behind = static_cast<std::ptrdiff_t>(j) >= first_turn - joints.begin();
@@ -97,16 +96,16 @@ void add_joints(const std::string& section, Assumed nominal,
                             }));
     };
     for (int axis = 0; axis < 3; ++axis)
-      add(with_axis("translate", axis), Dimension::length, [axis](auto& own) { return &own.shift[axis]; });
-    add("angle", Dimension::angle, [](auto& own) { return &own.angle; });
+      add(with_axis("translate", axis), Dimension::length, [axis](auto& j) { return &j.shift[axis]; });
+    add("angle", Dimension::angle, [](auto& j) { return &j.angle; });
     add("speed", joint.rotates ? Dimension::angular_speed : Dimension::speed,
-        [](auto& own) { return &own.speed; });
+        [](auto& j) { return &j.speed; });
     if (joint.rotates && !joint.speed.zero()) list.back().is_speed = true;
     for (std::size_t s = 0; s < joint.swings.size(); ++s) {
       add(fmt::format("swing.{}.amplitude", s), joint.rotates ? Dimension::angle : Dimension::length,
-          [s](auto& own) { return &own.swings[s].amplitude; });
+          [s](auto& j) { return &j.swings[s].amplitude; });
       add(fmt::format("swing.{}.speed", s), Dimension::angular_speed,
-          [s](auto& own) { return &own.swings[s].frequency; });
+          [s](auto& j) { return &j.swings[s].frequency; });
       list.back().is_speed = true;
     }
   }
@@ -117,11 +116,11 @@ void add_bodies(const Assumed& nominal, Assumptions& list) {
   const auto& bodies = nominal.spec.bodies;
   std::size_t first = 0;
   for (std::size_t entry = 0; first < bodies.size(); ++entry) {
-    const auto is_copy = [where = bodies[first].where](const auto& other) { return other.where == where; };
+    const auto is_copy = [where = bodies[first].where](auto& other) { return other.where == where; };
     const std::size_t end = first + std::count_if(bodies.begin(), bodies.end(), is_copy);
     const auto key = fmt::format("body.{}", entry);
-    const auto add = [&](const std::string& name, Dimension dimension, const Quantity& value, auto set) {
-      list.push_back(number(key + "." + name, dimension, value.to<double>(), [=](Assumed& a, double x) {
+    const auto add = [&](const std::string& name, Dimension dimension, const Quantity& q, auto set) {
+      list.push_back(number(key + "." + name, dimension, q.to<double>(), [=](Assumed& a, double x) {
         for (std::size_t k = first; k < end; ++k) set(a.spec.bodies[k], exactly(x));
       }));
     };
@@ -275,7 +274,7 @@ struct Entry {
 /// Visits each number of a law: f(key, dimension, number).
 template <class F>
 void each_number_of(Law& law, F&& f) {
-  each_number(law.law, [&](const model::Parameter& p, Quantity& q, int) { f(p.key, p.dimension, q); });
+  each_number(law.law, [&](const Parameter& p, Quantity& q, int) { f(p.key, p.dimension, q); });
   f("least_separation", Dimension::speed, law.least_separation);
 }
 
@@ -296,7 +295,7 @@ bool replace(Law& law, const OtherLaw& other, double value) {
     if (kind.name == other.model) law.law = kind;
   });
   each_number_of(law, [&](const char* key, Dimension, Quantity& q) {
-    const auto same = std::find_if(own.begin(), own.end(), [&](const Entry& e) { return e.key == key; });
+    const auto same = std::find_if(own.begin(), own.end(), [&](auto& e) { return e.key == key; });
     const auto value_there = key == other.number ? value : same != own.end() ? same->value : otherwise(key);
     complete = complete && value_there;
     q = exactly(value_there.value_or(0));
@@ -544,13 +543,13 @@ Assumptions numbers_of(const Assumed& nominal) {
   return list;
 }
 
-Assumption restricted_to(const SharedSubset& part, const Assumption& parameter, std::size_t choices) {
-  Assumption p = parameter;
+Assumption restricted_to(const SharedSubset& part, const Assumption& what, std::size_t choices) {
+  Assumption p = what;
   p.key += ", " + part->name;
-  p.set = [part, set = parameter.set](Assumed& a, double x) {
+  p.set = [part, set = what.set](Assumed& a, double x) {
     a.restricted.push_back({part, [set, x](Assumed& here) { set(here, x); }});
   };
-  p.prior = parameter.prior + 2 * std::log(static_cast<double>(choices));
+  p.prior = what.prior + 2 * std::log(static_cast<double>(choices));
   return p;
 }
 

@@ -105,7 +105,7 @@ class Replay {
       const std::size_t ball = impact.ball;
       if (seen[ball] >= depth || next[ball] >= of_ball[ball].size()) continue;
       const std::size_t k = of_ball[ball][next[ball]];
-      if (!log_[k].same_bodies(impact)) {  // the partner differs: skip the later impacts of this ball
+      if (!log_[k].same_bodies(impact)) {  // the partner differs: skip its later impacts
         seen[ball] = depth;
         continue;
       }
@@ -141,20 +141,20 @@ double weighted_median(std::vector<std::pair<double, double>> values) {
 /// Fits a number to the times of the first impacts of the log: least absolute deviations, with times linear
 /// in the number, over an increasing number of impacts of each ball.
 /// @return the value, and its uncertainty from the scatter of the last impacts
-std::pair<double, double> fitted_value(const Replay& replay, const Assumed& nominal, const Assumption& p) {
+std::pair<double, double> fitted_value(const Replay& runs, const Assumed& nominal, const Assumption& p) {
   double value = p.value, open = std::abs(p.change);
   for (const std::size_t depth : {1, 1, 2, 2, 3, 4, 6, 8, 8}) {
-    const std::size_t count = std::min(replay.count(), 2 * depth * nominal.balls.size() + 20);
+    const std::size_t count = std::min(runs.count(), 2 * depth * nominal.balls.size() + 20);
     const double step = 1e-7 * p.change;
     std::vector<std::size_t> places, places_there;
-    const auto off = replay.differences(replay.impacts(p.on(nominal, value), count), depth, places);
+    const auto off = runs.differences(runs.impacts(p.on(nominal, value), count), depth, places);
     const auto off_there =
-        replay.differences(replay.impacts(p.on(nominal, value + step), count), depth, places_there);
+        runs.differences(runs.impacts(p.on(nominal, value + step), count), depth, places_there);
     if (places != places_there || off.empty()) continue;
     std::vector<std::pair<double, double>> steps;
     for (std::size_t k = 0; k < off.size(); ++k) {
       const double slope = (off_there[k] - off[k]) / step;
-      if (std::abs(slope) * p.change > 1e-9 * replay.period())
+      if (std::abs(slope) * p.change > 1e-9 * runs.period())
         steps.emplace_back(-off[k] / slope, std::abs(slope));
     }
     if (steps.empty()) continue;

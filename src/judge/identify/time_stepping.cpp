@@ -275,7 +275,7 @@ std::optional<double> jitter_of(std::vector<double> surplus) {
 
 }  // namespace
 
-TimeStepping time_stepping(const EventsAtHand& log, const Case& the_case, const audit::Options& options) {
+TimeStepping time_stepping(const EventsAtHand& log, const Case& the_case, const Options& options) {
   TimeStepping result;
   result.step = common_step(log.events);
   const auto& has = log.available;
