@@ -2,15 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <iterator>
-#include <limits>
-#include <utility>
 
 #include "audit/flights.hpp"
-#include "base/errors.hpp"
 
 namespace edmill::audit {
 

@@ -2,16 +2,10 @@
 #pragma once
 
 #include <atomic>
-#include <filesystem>
 #include <functional>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "audit/equations.hpp"
-#include "audit/finding.hpp"
 #include "casefile/case_spec.hpp"
-#include "model/case.hpp"
 
 namespace edmill::audit {
 

@@ -1,9 +1,6 @@
 // The fields of an audit's document.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 #include "audit/audit.hpp"
 #include "base/version.hpp"
 #include "io/fields.hpp"

@@ -1,7 +1,5 @@
 #include "audit/equations.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <variant>
 
 namespace edmill::audit {

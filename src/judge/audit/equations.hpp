@@ -2,13 +2,8 @@
 // docs/theory.md, sections 1, 2 and 5; docs/audit.md, "Tolerances"
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "audit/finding.hpp"
 #include "audit/mechanics.hpp"
-#include "logs/event_log.hpp"
 #include "model/mill.hpp"
 
 namespace edmill::audit {

@@ -1,14 +1,7 @@
 // Checks that the flights between logged impacts are ballistic and that no impact was missed.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <optional>
-#include <vector>
-
 #include "audit/equations.hpp"
-#include "audit/finding.hpp"
 #include "base/errors.hpp"
 #include "dynamics/decision_ladder.hpp"
 

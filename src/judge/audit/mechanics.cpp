@@ -1,9 +1,5 @@
 #include "audit/mechanics.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 namespace edmill::audit {
 
 namespace {

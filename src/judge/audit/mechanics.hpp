@@ -3,8 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <vector>
 
 #include "logs/event_log.hpp"
 #include "model/case.hpp"

@@ -3,17 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <functional>
-#include <limits>
 #include <numeric>
 #include <random>
-#include <utility>
 
 #include "base/errors.hpp"
 #include "base/statistics.hpp"
-#include "model/parts/partners.hpp"
 
 namespace edmill::compare {
 
@@ -25,10 +20,9 @@ std::size_t SpectrumClasses::of(double value) const {
 
 double Batch::all_events() const { return std::accumulate(events.begin(), events.end(), 0.0); }
 
-std::vector<Batch> cut_into_batches(const std::filesystem::path& place, const BatchTimes& times, int walls,
-                                    const SpectrumClasses& speed_classes,
-                                    const SpectrumClasses& dose_classes) {
-  std::vector<Batch> batches(times.count, Batch(walls));
+Batches cut_into_batches(const std::filesystem::path& place, const BatchTimes& times, int walls,
+                         const SpectrumClasses& speed_classes, const SpectrumClasses& dose_classes) {
+  Batches batches(times.count, Batch(walls));
   logs::EventLog log(place);
   const bool dose = log.has(model::milling_dose), work = log.has(model::wall_work);
   while (const auto event = log.next()) {
@@ -58,7 +52,7 @@ BatchValues ratio_values(const BatchValues& sums, const BatchValues& numbers) {
   return values;
 }
 
-SpectrumTest test_spectra(const std::vector<Batch>& a, const std::vector<Batch>& b, Spectrum spectrum) {
+SpectrumTest test_spectra(const Batches& a, const Batches& b, Spectrum spectrum) {
   // The permutations use sums and differences. Classes that are empty in both are left out.
   std::vector<std::size_t> used;
   BatchValues both;
@@ -210,7 +204,7 @@ EventComparison compare_events(const Comparison& c) {
 }
 
 template <class Get>
-BatchValues values_of(const std::vector<Batch>& batches, const Get& get) {
+BatchValues values_of(const Batches& batches, const Get& get) {
   BatchValues values;
   for (const auto& batch : batches) values.push_back(std::invoke(get, batch));
   return values;
@@ -219,8 +213,7 @@ BatchValues values_of(const std::vector<Batch>& batches, const Get& get) {
 /// Makes the rows of the table; the verdicts follow when all rows exist.
 class Quantities {
  public:
-  Quantities(const std::vector<Batch>& a, const std::vector<Batch>& b, double tolerance)
-      : a_(a), b_(b), tolerance_(tolerance) {}
+  Quantities(const Batches& a, const Batches& b, double tolerance) : a_(a), b_(b), tolerance_(tolerance) {}
 
   /// Adds the mean of a quantity over the batches.
   /// @param reason     why it cannot be compared, or empty
@@ -230,7 +223,7 @@ class Quantities {
   void mean(const std::string& name, const std::string& unit, const std::string& reason, double events,
             const auto& get, bool per_event = false) {
     if (!reason.empty()) return skip(name, unit, reason);
-    const auto values_in = [&](const std::vector<Batch>& batches) {
+    const auto values_in = [&](const Batches& batches) {
       const auto values = values_of(batches, get);
       return per_event ? ratio_values(values, values_of(batches, &Batch::all_events)) : values;
     };
@@ -255,7 +248,7 @@ class Quantities {
 
   void spectrum(const std::string& name, const std::string& reason, Spectrum spectrum, double events) {
     if (!reason.empty()) return skip(name, "1", reason);
-    const auto empty = [&](const std::vector<Batch>& batches) {
+    const auto empty = [&](const Batches& batches) {
       return std::all_of(batches.begin(), batches.end(), [&](const Batch& batch) {
         const auto& values = batch.spectra[spectrum];
         return std::all_of(values.begin(), values.end(), [](double v) { return v == 0; });
@@ -296,7 +289,7 @@ class Quantities {
     rows_.push_back(std::move(q));
   }
 
-  const std::vector<Batch>&a_, &b_;
+  const Batches &a_, &b_;
   double tolerance_;
   std::vector<Quantity> rows_;
 };
@@ -310,7 +303,7 @@ std::vector<Quantity> judge(const Comparison& c) {
   const auto a = cut_into_batches(c.options.a, c.times, walls, speed_classes, dose_classes);
   const auto b = cut_into_batches(c.options.b, c.times, walls, speed_classes, dose_classes);
   Quantities quantities(a, b, c.options.event_tolerance());
-  const auto sum_of = [](const std::vector<Batch>& batches, const auto& get) {
+  const auto sum_of = [](const Batches& batches, const auto& get) {
     double sum = 0;
     for (const double value : values_of(batches, get)) sum += value;
     return sum;
@@ -331,7 +324,7 @@ std::vector<Quantity> judge(const Comparison& c) {
     return "no " + std::string(model::logged_quantities[v].name) + (c.a.has[v] ? " in B" : " in A");
   };
   const auto power = [&](std::size_t v, const std::string& name, double Batch::*energy) {
-    quantities.mean(name, "W", missing(v), all, [&](const Batch& batch) { return batch.*energy / length; });
+    quantities.mean(name, "W", missing(v), all, [&](auto& batch) { return batch.*energy / length; });
   };
   power(model::milling_dose, "milling_dose_rate", &Batch::milling_dose);
   power(model::wall_work, "wall_work_rate", &Batch::wall_work);

@@ -44,11 +44,12 @@ struct Batch {
   double all_events() const;
 };
 
+using Batches = std::vector<Batch>;
+
 /// Divides a log into batches, in a second pass. Memory does not depend on its length.
 /// @param walls  number of walls, larger than every wall number in the log
-std::vector<Batch> cut_into_batches(const std::filesystem::path& place, const BatchTimes& times, int walls,
-                                    const SpectrumClasses& speed_classes,
-                                    const SpectrumClasses& dose_classes);
+Batches cut_into_batches(const std::filesystem::path& place, const BatchTimes& times, int walls,
+                         const SpectrumClasses& speed_classes, const SpectrumClasses& dose_classes);
 
 /// Values of a quantity, one per batch.
 using BatchValues = std::vector<double>;
@@ -67,7 +68,7 @@ struct SpectrumTest {
 
 /// Each of 9999 permutations swaps batch k of A and B, or not, at random for every k, with a fixed seed. @pre
 /// as many batches in A as in B, and both spectra are not empty
-SpectrumTest test_spectra(const std::vector<Batch>& a, const std::vector<Batch>& b, Spectrum spectrum);
+SpectrumTest test_spectra(const Batches& a, const Batches& b, Spectrum spectrum);
 
 using logs::LogScan, logs::OfEach;
 using Event = model::ImpactRecord<double>;
@@ -79,7 +80,7 @@ struct Limits {
 
 struct FirstDifference {
   Event a, b;
-  std::string quantity;  ///< "partners" for different bodies, or the name of the value that differs most
+  std::string quantity;        ///< "partners" for different bodies, or the value that differs most
   double relative_difference;  ///< of that value; nan for partners
 };
 
@@ -113,11 +114,10 @@ std::string_view name_of(Verdict verdict);
 struct Quantity {
   std::string name, unit;
   std::optional<double> a = {}, b = {};  ///< means over the common time; nothing for a spectrum
-  std::optional<double> a_half_width = {}, b_half_width = {};  ///< of the 95 % intervals of the means
+  std::optional<double> a_half_width = {}, b_half_width = {};  ///< of their 95 % intervals
   /// B - A with its 95 % interval; for a spectrum Kolmogorov's distance and its 5 % limit.
   std::optional<double> difference = {}, half_width = {};
-  std::optional<double> probability =
-      {};  ///< of such a difference by chance, after Holm; nothing if not tested
+  std::optional<double> probability = {};  ///< of it by chance, after Holm; nothing if not tested
   Verdict verdict = Verdict::not_compared;
   std::string reason = {};  ///< why it is not_compared
 };

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <boost/property_tree/xml_parser.hpp>
-#include <cmath>
 #include <sstream>
 
 #include "base/clean_text.hpp"
@@ -21,7 +20,7 @@ std::string describe(const Event& e) {
   return text;
 }
 
-std::string interval_of(const std::optional<double>& value, const std::optional<double>& half_width) {
+std::string interval_of(std::optional<double> value, std::optional<double> half_width) {
   return value ? with_interval(*value, half_width) : "-";
 }
 
@@ -176,7 +175,7 @@ std::string junit_text(const std::string& suite, const std::vector<JunitCase>& c
     element.put(std::string("<xmlattr>.") + name, value);
   };
   const auto number_with = [&](std::string JunitCase::*text) {
-    return std::count_if(cases.begin(), cases.end(), [=](const auto& one) { return !(one.*text).empty(); });
+    return std::count_if(cases.begin(), cases.end(), [=](auto& one) { return !(one.*text).empty(); });
   };
   Tree all;
   set(all, "name", clean_text(suite));

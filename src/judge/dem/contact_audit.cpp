@@ -2,13 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <optional>
-
 #include "base/errors.hpp"
-#include "base/statistics.hpp"
 #include "decks/soft_contact.hpp"
 #include "dem/contact_rates.hpp"
 #include "identify/assumed.hpp"
@@ -39,8 +33,10 @@ struct Measured {
   std::optional<double> wall_velocity = {};      ///< factor that gives the case's restitution
 };
 
+using MeasuredList = std::vector<Measured>;
+
 /// A value of each contact of a list that is chosen.
-std::vector<double> values_of(const std::vector<Measured>& list, const auto& is_chosen, const auto& value) {
+std::vector<double> values_of(const MeasuredList& list, const auto& is_chosen, const auto& value) {
   std::vector<double> values;
   for (const auto& measured : list)
     if (is_chosen(measured)) values.push_back(std::invoke(value, measured));
@@ -69,7 +65,7 @@ struct Bodies {
 /// Measures a contact. During it curved walls rotate, the line of centres of a pair turns and gravity presses
 /// or separates the bodies; flights extrapolated through it show by how much.
 /// @param at  returns the surfaces at a time for states of the ball and its partner
-Measured measured_by(const Contact& c, const Vector& gravity, const Bodies& bodies, const auto& at) {
+Measured measured_by(const Contact& c, const Vector& gravity, const Bodies& bodies, auto at) {
   const double duration = c.end - c.begin;
   const auto on = [&](const BallState& state) { return flown(state, gravity, duration); };
   const auto back = [&](const BallState& state) { return flown(state, gravity, -duration); };
@@ -138,7 +134,7 @@ class SingleContacts {
                         {b.mass, b.radius},
                         1 + 1 / b.reduced_inertia};
     const auto middle = vessel_.at((c.begin + c.end) / 2);
-    auto measured = measured_by(c, gravity_, bodies, [&](double time, const BallState& i, const BallState&) {
+    auto measured = measured_by(c, gravity_, bodies, [&](double time, const auto& i, const auto&) {
       const auto pose = vessel_.at(time);
       const Vector n = vessel_.normal(pose, ball, c.partner, i.position), arm = n * -b.radius;
       return Surfaces(
@@ -164,7 +160,7 @@ class SingleContacts {
         a,
         {effective, a.radius, b.radius},
         1 + effective / (a.mass * a.reduced_inertia) + effective / (b.mass * b.reduced_inertia)};
-    return measured_by(c, gravity_, bodies, [&](double, const BallState& i, const BallState& j) {
+    return measured_by(c, gravity_, bodies, [&](double, const auto& i, const auto& j) {
       const Vector apart = i.position - j.position, n = apart / norm(apart);
       return Surfaces(n, i.velocity - j.velocity - cross(i.spin * a.radius + j.spin * b.radius, n));
     });
@@ -215,7 +211,7 @@ const Value wall_velocity{"velocity", "(2.27)", 0.02, 0.2, 0, 0, &Measured::wall
 /// rotating normal: gravity and the motion of the bodies change them too much.
 class Clear {
  public:
-  explicit Clear(const std::vector<Measured>& list) {
+  explicit Clear(const MeasuredList& list) {
     if (list.empty()) return;
     const auto any = [](const Measured&) { return true; };
     least_approach_ = numerics::quantile(values_of(list, any, &Measured::approach), 0.9) / 8;
@@ -239,8 +235,8 @@ constexpr double spread_allowed = 0.007;
 /// Judges a value by contacts, each with its own law, which may depend on speed or materials. The result has
 /// the median of the laws' values, and this plus the code's deviation.
 /// @param number  of values judged together, for the width of the interval
-Judged judged(const Value& value, const std::string& where, const std::vector<Measured>& list,
-              const Clear& is_clear, double number, double all_dose) {
+Judged judged(const Value& value, const std::string& where, const MeasuredList& list, const Clear& is_clear,
+              double number, double all_dose) {
   Judged j{
       .name = fmt::format("{} {}", value.name, where), .equation = value.equation, .allowed = value.allowed};
   for (const auto& s : list)
@@ -262,9 +258,9 @@ Judged judged(const Value& value, const std::string& where, const std::vector<Me
   return j;
 }
 
-void judge_laws(const std::vector<Measured>& list, Judged::Of of, ContactAudit& audit) {
+void judge_laws(const MeasuredList& list, Judged::Of of, ContactAudit& audit) {
   if (list.empty()) return;
-  std::map<std::string, std::vector<Measured>> parts;
+  std::map<std::string, MeasuredList> parts;
   for (const auto& measured : list)
     for (const auto& part : measured.parts) parts[part].push_back(measured);
   const std::string where = of == Judged::Of::walls ? "at walls" : "between balls";
@@ -272,8 +268,7 @@ void judge_laws(const std::vector<Measured>& list, Judged::Of of, ContactAudit& 
   std::erase_if(parts, [&](const auto& part) { return part.second.size() == list.size(); });
   const Clear is_clear(list);
   const double dose = audit.magnitude, number = static_cast<double>(parts.size() + 2);
-  const auto add = [&](const Value& value, const std::string& at, const std::vector<Measured>& some,
-                       double alike) {
+  const auto add = [&](const Value& value, const std::string& at, const MeasuredList& some, double alike) {
     auto result = judged(value, at, some, is_clear, alike, dose);
     result.of = of;
     result.is_part = alike > 1;
@@ -287,7 +282,7 @@ void judge_laws(const std::vector<Measured>& list, Judged::Of of, ContactAudit& 
     for (const auto& [part, members] : parts) add(*value, part, members, number);
   }
   auto slow = list;
-  std::sort(slow.begin(), slow.end(), [](const auto& a, const auto& b) { return a.approach < b.approach; });
+  std::sort(slow.begin(), slow.end(), [](auto& a, auto& b) { return a.approach < b.approach; });
   const auto fast = slow.end() - static_cast<std::ptrdiff_t>(3 * list.size() / 10);
   add(restitution, "of fast contacts " + where, {fast, slow.end()}, number);
   add(restitution, "of slow contacts " + where, {slow.begin(), fast}, number);
@@ -312,14 +307,14 @@ constexpr const char* follows_from_velocity = "it would follow from the velocity
 /// Distinguishes a wrong wall velocity from a wrong restitution, which look alike: the one that explains more
 /// is judged, for all walls together and for each that differs by itself. A velocity that explains a wrong
 /// restitution is judged without a tolerance.
-void judge_wall_velocity(const std::vector<Measured>& walls, ContactAudit& audit) {
+void judge_wall_velocity(const MeasuredList& walls, ContactAudit& audit) {
   std::vector<std::string> parts{"at walls"};
   for (const auto& j : audit.judged)
     if (j.name.starts_with("restitution at ") && j.is_part && !j.agrees()) parts.push_back(j.name.substr(12));
   bool all_follow = false, some_follow = false;  // restitutions
   for (const auto& part : parts) {
     const bool all = &part == &parts[0];
-    std::vector<Measured> list;
+    MeasuredList list;
     std::copy_if(walls.begin(), walls.end(), std::back_inserter(list), [&](const Measured& s) {
       return all || std::count(s.parts.begin(), s.parts.end(), part) > 0;
     });
@@ -386,19 +381,21 @@ void judge_facts(const Mill& mill, ContactAudit& audit) {
         Judged::Of::walls);
   if (const double factor = facts.statistics.way_factor; factor != 0)  // balls move
     add("displacements over those by velocities", factor, 0, 1, 0.01);
-  add("contacts missed at walls", static_cast<double>(audit.missed_at_walls), 0, 0, 0, Judged::Of::walls);
-  add("contacts missed between balls", static_cast<double>(audit.missed_between_balls), 0, 0, 0,
-      Judged::Of::balls);
-  add("jumps of balls", static_cast<double>(audit.jumps()), 0, 0, 0);
+  const auto none = [&](const char* name, std::uint64_t found, Judged::Of of) {
+    add(name, static_cast<double>(found), 0, 0, 0, of);
+  };
+  none("contacts missed at walls", audit.missed_at_walls, Judged::Of::walls);
+  none("contacts missed between balls", audit.missed_between_balls, Judged::Of::balls);
+  none("jumps of balls", audit.jumps(), Judged::Of::log);
 }
 
-std::vector<SlipBin> slips_of(const std::vector<Measured>& walls, const std::vector<Measured>& balls) {
+std::vector<SlipBin> slips_of(const MeasuredList& walls, const MeasuredList& balls) {
   std::vector<SlipBin> bins;
   const Clear of_these_walls(walls), of_these_balls(balls);
   const auto ratio = [](const Measured& s) { return s.slip / s.approach; };
   for (double low = 0; low < 12; low = low < 1 ? low + 0.25 : low * 1.25) {
     const double high = low < 1 ? low + 0.25 : low * 1.25;
-    const auto of = [&](const std::vector<Measured>& list, const auto& value) {
+    const auto of = [&](const MeasuredList& list, const auto& value) {
       const auto& is_clear = &list == &walls ? of_these_walls : of_these_balls;
       const auto in_bin = [&](const Measured& s) {
         return is_clear(s) && ratio(s) >= low && ratio(s) < high;
@@ -440,7 +437,7 @@ ContactAudit audit_contacts(const CaseSpec& spec, const std::string& file,
   audit.case_name = spec.file;
   audit.log_name = file;
   audit.facts = log.facts();
-  std::vector<Measured> walls, balls;
+  MeasuredList walls, balls;
   std::vector<Contact> at_walls;
   const SingleContacts contacts(spec, mill, vessel, log.facts().statistics.gravity);
   DoseRate rate(log.facts().first, log.facts().last);
@@ -461,9 +458,8 @@ ContactAudit audit_contacts(const CaseSpec& spec, const std::string& file,
     if (c.kind == ContactClass::missed)
       ++(c.bodies == 1 ? audit.missed_at_walls : audit.missed_between_balls);
     constexpr std::size_t enough = 400;
-    const bool meets =
-        c.bodies == 1 && (c.kind < ContactClass::lasting || c.kind == ContactClass::unexplained);
-    if (meets && at_walls.size() < enough) at_walls.push_back(c);
+    const bool open = c.kind < ContactClass::lasting || c.kind == ContactClass::unexplained;
+    if (open && c.bodies == 1 && at_walls.size() < enough) at_walls.push_back(c);
   }
   drop_pairs(at_walls);
   audit.dose_rate = *rate.estimate().mean;
@@ -487,9 +483,9 @@ ContactAudit audit_contacts(const CaseSpec& spec, const std::string& file,
     leave_out(audit, jumps ? "balls jump" : follows_from_velocity,
               [](const Judged& j) { return j.name == unexplained_dose; });
   if (is_other_size || (!audit.causes.empty() && audit.causes[0].key.starts_with("ball")))
-    leave_out(audit, "the balls have another size", [](const Judged& j) { return j.of != Judged::Of::log; });
+    leave_out(audit, "the balls have another size", [](auto& j) { return j.of != Judged::Of::log; });
   else if (!audit.walls_met())
-    leave_out(audit, "the walls are elsewhere", [](const Judged& j) { return j.of == Judged::Of::walls; });
+    leave_out(audit, "the walls are elsewhere", [](auto& j) { return j.of == Judged::Of::walls; });
   const auto is_known = [](const Judged& j) { return j.equation == restitution.equation && j.known(); };
   if (!std::all_of(audit.judged.begin(), audit.judged.end(), [](const auto& j) { return j.agrees(); }) ||
       !audit.walls_met())

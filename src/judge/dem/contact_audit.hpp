@@ -2,8 +2,6 @@
 #pragma once
 
 #include <atomic>
-#include <string>
-#include <vector>
 
 #include "base/statistics.hpp"
 #include "casefile/build_case.hpp"

@@ -1,6 +1,5 @@
 #include <Eigen/QR>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -208,8 +207,8 @@ void ContactFinder::watch_overlaps(const std::vector<bool>& flies) {
 /// it may meet other bodies there.
 void ContactFinder::end_overlap(const BodyPair& bodies, const Overlap& overlap) {
   const double radius = vessel_.ball(bodies[0]).radius;
-  const double deepest = std::clamp(overlap.growth * frames_.contact_time, 1e-3 * radius, radius / 5);
-  const bool flies_on = overlap.depth > deepest && (overlap.flies[0] || overlap.flies[1]);
+  const double most = std::clamp(overlap.growth * frames_.contact_time, 1e-3 * radius, radius / 5);
+  const bool flies_on = overlap.depth > most && (overlap.flies[0] || overlap.flies[1]);
   if (!flies_on && overlap.depth < radius) return;
   Contact contact;
   contact.kind = ContactClass::missed;
@@ -271,8 +270,8 @@ bool ContactFinder::come_near(const Stretch& one, const Stretch& other) const {
 
 void ContactFinder::settle() {
   for (std::size_t k = 0; k < stretches_.size();) {
-    const auto in_group = [group = stretches_[k].group](const Stretch& s) { return s.group == group; };
-    std::vector<Stretch> members;
+    const auto in_group = [group = stretches_[k].group](auto& s) { return s.group == group; };
+    Group members;
     std::copy_if(stretches_.begin(), stretches_.end(), std::back_inserter(members), in_group);
     if (std::any_of(members.begin(), members.end(), [](const auto& one) { return one.open; })) {
       ++k;
@@ -334,7 +333,7 @@ double ContactFinder::balance(std::size_t frame, std::size_t ball, const States&
 
 /// The energy that balls lose relative to what they touch [J]. Where a ball touches walls that move
 /// differently, it is that relative to the vessel, with the work of the bodies.
-double ContactFinder::dose_of(const std::vector<Stretch>& group) const {
+double ContactFinder::dose_of(const Group& group) const {
   std::vector<std::vector<int>> met(group.size());
   std::vector<std::size_t> touched;
   for (std::size_t k = 0; k < group.size() && vessel_.has_bodies(); ++k) {
@@ -382,7 +381,7 @@ double ContactFinder::work_of_bodies(const Stretch& s, const std::vector<int>& w
   return work;
 }
 
-bool ContactFinder::make_single(const std::vector<Stretch>& group, int wall, Contact& contact) const {
+bool ContactFinder::make_single(const Group& group, int wall, Contact& contact) const {
   const auto& a = group[0];
   const Frame &from = frame(a.first), &to = frame(a.last);
   const auto gap_of = [&](const Frame& known) {
@@ -419,8 +418,8 @@ bool ContactFinder::make_single(const std::vector<Stretch>& group, int wall, Con
   return true;
 }
 
-void ContactFinder::report(std::vector<Stretch> group) {
-  std::sort(group.begin(), group.end(), [](const Stretch& a, const Stretch& b) { return a.ball < b.ball; });
+void ContactFinder::report(Group group) {
+  std::sort(group.begin(), group.end(), [](auto& a, auto& b) { return a.ball < b.ball; });
   Contact contact;
   std::size_t first = group[0].first, last = group[0].last;
   for (const auto& s : group) {

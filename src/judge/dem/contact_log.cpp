@@ -9,7 +9,6 @@
 
 #include "base/errors.hpp"
 #include "dem/contacts.hpp"
-#include "io/input_file.hpp"
 
 namespace edmill::dem {
 

@@ -2,14 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "base/clean_text.hpp"
 #include "base/errors.hpp"
 #include "dem/contacts.hpp"
 #include "io/fields.hpp"
-#include "logs/event_log.hpp"
 
 namespace edmill::dem {
 
@@ -18,7 +14,7 @@ namespace {
 /// The part of a record that is evaluated [s].
 struct Window {
   double from, until = INFINITY;
-  bool compared = false;  ///< with another record: contacts outside are ignored, and it must not be empty
+  bool compared = false;  ///< contacts outside are ignored, and it must not be empty
 };
 
 /// Rates of a record within a window. @param what  "contacts" or "impacts"
@@ -182,13 +178,11 @@ std::string table(const ContactComparison& c) {
   const auto row = [&](const std::string& name, const auto& text) {
     out += fmt::format("  {:<32}{:>22}{:>22}\n", name, text(c.a), text(c.b));
   };
-  row("time [s]", [](const ContactRates& r) { return fmt::format("{:g} to {:g}", r.first, r.last); });
-  row("a contact lasts [s]", [](const ContactRates& r) { return fmt::format("{:.3g}", r.contact_time); });
-  row("single contacts per second",
-      [](const ContactRates& r) { return fmt::format("{:.5g}", r.single_rate); });
-  row("dose in groups and lasting ones",
-      [](const ContactRates& r) { return fmt::format("{:.2f} %", 100 * r.grouped); });
-  row("dose rate [W]", [](const ContactRates& r) { return with_interval(r.dose_rate, r.half_width); });
+  row("time [s]", [](auto& r) { return fmt::format("{:g} to {:g}", r.first, r.last); });
+  row("a contact lasts [s]", [](auto& r) { return fmt::format("{:.3g}", r.contact_time); });
+  row("single contacts per second", [](auto& r) { return fmt::format("{:.5g}", r.single_rate); });
+  row("dose in groups and lasting ones", [](auto& r) { return fmt::format("{:.2f} %", 100 * r.grouped); });
+  row("dose rate [W]", [](auto& r) { return with_interval(r.dose_rate, r.half_width); });
   out += fmt::format("\n  {}\n", sentence(c));
   if (c.b.contact_time > 0)
     out +=

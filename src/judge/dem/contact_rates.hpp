@@ -3,9 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "base/statistics.hpp"
 #include "compare/comparison.hpp"
@@ -38,7 +35,7 @@ class DoseRate {
 struct ContactRates {
   std::string log;
   double first = 0, last = 0;            ///< ends of the time that is evaluated [s]
-  double dose_rate = 0, half_width = 0;  ///< [W]; of contacts by the balance of energy, groups included
+  double dose_rate = 0, half_width = 0;  ///< [W]; by the balance of energy, groups included
   double contact_time = 0;               ///< median of single contacts with walls [s]; 0 of impacts
   double single_rate = 0;                ///< single contacts per second
   double grouped = 0;                    ///< share of groups and lasting contacts in the dose

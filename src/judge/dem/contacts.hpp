@@ -2,15 +2,12 @@
 // `edmill import` writes and `audit`, `compare` and `limit` read. docs/dem.md
 #pragma once
 
-#include <array>
 #include <cstdio>
 #include <deque>
 #include <functional>
 #include <map>
 #include <memory>
 #include <ostream>
-#include <string>
-#include <vector>
 
 #include "decks/moving_vessel.hpp"
 #include "dem/frame_reader.hpp"
@@ -35,7 +32,7 @@ using ByClass = std::array<Value, contact_class_names.size()>;
 struct Contact {
   ContactClass kind{};
   double begin = 0, end = 0;             ///< [s]
-  double free_until = 0, free_from = 0;  ///< times of the last frame before and the first after it [s]
+  double free_until = 0, free_from = 0;  ///< the last frame before and the first after it [s]
   int bodies = 1;                        ///< number of balls
   int ball = 0;                          ///< the one with the lowest number
   int partner = -1;                      ///< number of the wall or ball; -1 unless there is exactly one
@@ -76,6 +73,7 @@ class ContactFinder {
     int group = -1;
     bool open = true;
   };
+  using Group = std::vector<Stretch>;
   /// An overlap of a ball with a wall or another ball over consecutive frames.
   struct Overlap {
     double begin = 0;                       ///< time of the last frame before [s]
@@ -94,13 +92,13 @@ class ContactFinder {
   void close(Stretch& stretch);
   bool come_near(const Stretch& one, const Stretch& other) const;
   void settle();
-  void report(std::vector<Stretch> group);
+  void report(Group group);
   std::vector<int> walls_met(const Stretch& s) const;
   using States = std::vector<std::pair<double, BallState>>;  ///< of a ball, by time
   double balance(std::size_t frame, std::size_t ball, const States& states) const;
-  double dose_of(const std::vector<Stretch>& group) const;
+  double dose_of(const Group& group) const;
   double work_of_bodies(const Stretch& s, const std::vector<int>& walls) const;
-  bool make_single(const std::vector<Stretch>& group, int wall, Contact& contact) const;
+  bool make_single(const Group& group, int wall, Contact& contact) const;
   void forget();
 
   const MovingVessel& vessel_;
@@ -122,10 +120,9 @@ struct ContactLogFacts {
   std::uint64_t frames = 0, contacts = 0;
   double first = 0, last = 0;  ///< times of the frames [s]
   FrameStatistics statistics;
-  double mass_factor = 1,
-         radius_factor = 1;  ///< ratios of the dump's balls to the case's; 0 if not in the dump
-  int facets = 0;            ///< of the prism that represents a round wall; 0 for a round wall
-  ByClass<double> doses{};   ///< [J]
+  double mass_factor = 1, radius_factor = 1;  ///< of the dump's balls over the case's; 0 if unknown
+  int facets = 0;           ///< of the prism that represents a round wall; 0 for a round wall
+  ByClass<double> doses{};  ///< [J]
 
   /// Visits the fields of a log's header.
   static void fields(auto& self, auto&& field) {

@@ -382,7 +382,7 @@ bool FrameReader::next_of_dump(Frame& frame) {
       finish(std::move(rows), at, frame);
       return true;
     }
-    const bool bounds = item.starts_with("BOX BOUNDS");  // items that are skipped have one line, too
+    const bool bounds = item.starts_with("BOX BOUNDS");  // other items have one line
     for (std::size_t k = 0; k < (bounds ? 3 : 1); ++k) {
       if (!line()) return false;
       if (bounds) read_bounds(k);

@@ -20,7 +20,7 @@ inline double norm(const Vector& a) { return edmill::norm<double>(a); }
 /// Facts about a dump that may be missing from the file.
 struct DumpFormat {
   std::optional<double> time_step;  ///< [s]; of files without times
-  std::string units = "si";         ///< "si", "cgs", "mm", "micro" or "nano"; overridden by those in the file
+  std::string units = "si";         ///< "si", "cgs", "mm", "micro" or "nano"; else those in the file
 };
 
 /// Facts in a deck: its lines `timestep`, `units`, `# frame vessel` and `# facets`.

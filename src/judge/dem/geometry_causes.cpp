@@ -1,9 +1,6 @@
 // Finds the number of the mill or vessel with which the walls are where balls left their flights.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "dem/contact_audit.hpp"
 #include "identify/assumed.hpp"
 
@@ -38,18 +35,18 @@ class Geometry {
     std::vector<double> reaches;
     for (const auto& c : contacts) {
       const double t = c.free_until + frames.interval / 2;
-      const auto state =
-          flown(c.before, frames.gravity, t - (c.kind == ContactClass::wall ? c.begin : c.free_until));
-      const double lasted = c.kind == ContactClass::wall ? c.end - c.begin : c.free_from - c.free_until;
+      const bool single = c.kind == ContactClass::wall;
+      const auto state = flown(c.before, frames.gravity, t - (single ? c.begin : c.free_until));
+      const double lasted = single ? c.end - c.begin : c.free_from - c.free_until;
       const Vector impulse = c.after.velocity - c.before.velocity - frames.gravity * lasted;
       const auto pose = vessel.at(t);
       double best = 0.5 * norm(impulse);
       int wall = -1;
       for (int w = 0; w < vessel.walls(); ++w) {
         // A body has faces along the walls, too: those that are far away are not meant.
-        if (vessel.has_bodies() && vessel.gap(pose, c.ball, w, state.position) > vessel.ball(c.ball).radius)
-          continue;
-        if (const double along = dot(vessel.normal(pose, c.ball, w, state.position), impulse); along > best) {
+        const auto& at = state.position;
+        if (vessel.has_bodies() && vessel.gap(pose, c.ball, w, at) > vessel.ball(c.ball).radius) continue;
+        if (const double along = dot(vessel.normal(pose, c.ball, w, at), impulse); along > best) {
           best = along;
           wall = w;
         }
@@ -148,7 +145,7 @@ class Geometry {
   Assumed nominal_;
   int facets_;
   std::vector<Meeting> meetings_;
-  std::vector<std::vector<double>> reaches_of_walls_;  ///< path of a ball in half a frame interval [m]
+  std::vector<std::vector<double>> reaches_of_walls_;  ///< ways of balls in half an interval [m]
 };
 
 void add_numbers(const Assumed& nominal, std::vector<Candidate>& list) {

@@ -2,39 +2,32 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <map>
 #include <set>
 #include <sstream>
 
 #include "base/errors.hpp"
-#include "casefile/build_case.hpp"
-#include "dem/contacts.hpp"
 #include "io/output_folder.hpp"
 
 namespace edmill::dem {
 
 namespace {
 
-/// The ratio of a dump's value to the case's that deviates most from 1; 0 without any ratio, 1 if none
+using Properties = model::BallProperties<double>;
+
+/// The ratio of a dump's value to the case's that deviates most from 1; 0 if the dump has none, 1 if none
 /// deviates by more than the rounding of printed numbers.
-double factor_of(const std::vector<double>& ratios) {
-  if (ratios.empty()) return 0;
-  const double factor = *std::max_element(
-      ratios.begin(), ratios.end(), [](double a, double b) { return std::abs(a - 1) < std::abs(b - 1); });
+double factor_of(const std::vector<double>& dump, const std::vector<Properties>& balls,
+                 double Properties::*own) {
+  if (dump.empty()) return 0;
+  double factor = dump[0] / (balls[0].*own);
+  for (std::size_t k = 1; k < dump.size(); ++k)
+    if (const double ratio = dump[k] / (balls[k].*own); std::abs(factor - 1) < std::abs(ratio - 1))
+      factor = ratio;
   return std::abs(factor - 1) < 1e-5 ? 1 : factor;
 }
 
 /// Number of frames from which the statistics are taken that are used for all frames.
 constexpr std::size_t first_frames = 4000;
-
-/// Ratios of the dump's values to the case's, ball by ball; empty if the dump has none.
-std::vector<double> ratios_of(std::vector<double> dump,
-                              const std::vector<model::BallProperties<double>>& balls,
-                              double model::BallProperties<double>::*own) {
-  for (std::size_t k = 0; k < dump.size(); ++k) dump[k] /= balls[k].*own;
-  return dump;
-}
 
 /// Turns a ball from the axes of a dump to those of the case; a mirror image reverses the spin.
 void put_in_axes(BallState& ball, const identify::Axes& axes) {
@@ -86,8 +79,8 @@ Imported import_dump(const CaseSpec& spec, const ImportOptions& options) {
   facts.dump = options.dump;
   facts.facets = facets;
   facts.statistics = statistics_of(head, built.the_case.mill.gravity);
-  facts.mass_factor = factor_of(ratios_of(reader.masses(), balls, &model::BallProperties<double>::mass));
-  facts.radius_factor = factor_of(ratios_of(reader.radii(), balls, &model::BallProperties<double>::radius));
+  facts.mass_factor = factor_of(reader.masses(), balls, &Properties::mass);
+  facts.radius_factor = factor_of(reader.radii(), balls, &Properties::radius);
   ContactLogWriter log;
   ContactFinder finder(vessel, facts.statistics, [&](const Contact& contact) {
     result.count(contact);

@@ -2,9 +2,6 @@
 #pragma once
 
 #include <atomic>
-#include <functional>
-#include <optional>
-#include <string>
 
 #include "casefile/case_spec.hpp"
 #include "dem/contacts.hpp"

@@ -2,12 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
-#include <utility>
-
-#include "audit/mechanics.hpp"
 
 namespace edmill::identify {
 

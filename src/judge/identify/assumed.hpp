@@ -1,15 +1,11 @@
 // Assumptions about the code that wrote a log: ways in which it may differ from its case.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <map>
 #include <memory>
-#include <optional>
 #include <span>
-#include <string>
-#include <vector>
 
 #include "audit/mechanics.hpp"
 #include "casefile/build_case.hpp"

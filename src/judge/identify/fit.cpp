@@ -1,15 +1,8 @@
 #include "identify/fit.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <iterator>
-#include <limits>
-#include <numeric>
-#include <set>
 #include <unsupported/Eigen/NonLinearOptimization>
-#include <utility>
 
 #include "base/statistics.hpp"
 

@@ -2,17 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <numeric>
 #include <set>
-#include <string>
-#include <vector>
 
 #include "audit/audit.hpp"
-#include "audit/equations.hpp"
 #include "identify/assumed.hpp"
 
 namespace edmill::identify {

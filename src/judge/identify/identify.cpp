@@ -1,15 +1,5 @@
 #include "identify/identify.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <numeric>
-#include <optional>
-#include <set>
-#include <utility>
-
 #include "identify/fit.hpp"
 
 namespace edmill::identify {

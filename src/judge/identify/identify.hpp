@@ -1,12 +1,6 @@
 // Causes of the violations of a log: values and mistakes that explain them. docs/audit.md, "Causes"
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "audit/audit.hpp"
 #include "identify/assumed.hpp"
 

@@ -1,9 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cmath>
-#include <optional>
-
 #include "identify/identify.hpp"
 
 namespace edmill::identify {

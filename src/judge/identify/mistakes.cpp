@@ -1,11 +1,8 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <numbers>
 #include <variant>
 
-#include "audit/mechanics.hpp"
 #include "identify/assumed.hpp"
 
 namespace edmill::identify {

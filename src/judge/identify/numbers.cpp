@@ -1,14 +1,7 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <map>
 #include <numbers>
-#include <optional>
 #include <string_view>
-#include <utility>
 
 #include "identify/assumed.hpp"
 

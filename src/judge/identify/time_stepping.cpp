@@ -1,11 +1,5 @@
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <map>
 #include <numbers>
-#include <vector>
 
-#include "audit/mechanics.hpp"
 #include "base/statistics.hpp"
 #include "identify/identify.hpp"
 

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
-#include <utility>
 
 #include "base/clean_text.hpp"
 #include "base/errors.hpp"

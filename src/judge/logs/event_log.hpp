@@ -66,7 +66,7 @@ struct Available {
 
 /// How a log is written.
 struct LogConventions {
-  std::vector<std::pair<std::string, std::string>> columns;  ///< our name, theirs with its unit: "t [ms]"
+  std::vector<std::pair<std::string, std::string>> columns;  ///< ours, theirs with its unit: "t [ms]"
   int first_ball = 0;                                        ///< number of the first ball
   /// Numbers of the walls by id in the column `partner`; else 0, 1, ..., or without a column partner_kind -1,
   /// -2, ...
