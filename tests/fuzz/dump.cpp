@@ -1,6 +1,6 @@
 // Dumps and decks of DEM codes, as `import` reads them.
 #include "base/errors.hpp"
-#include "dem/frame_reader.hpp"
+#include "dem/contacts.hpp"
 #include "input.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

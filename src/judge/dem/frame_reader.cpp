@@ -1,15 +1,12 @@
-#include "dem/frame_reader.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "base/errors.hpp"
-#include "io/csv_reader.hpp"
+#include "dem/contacts.hpp"
 
 namespace edmill::dem {
 

@@ -1,5 +1,3 @@
-#include "dem/frame_reader.hpp"
-
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -7,6 +5,7 @@
 #include <fstream>
 
 #include "base/errors.hpp"
+#include "dem/contacts.hpp"
 
 using namespace edmill;
 
