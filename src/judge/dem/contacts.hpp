@@ -67,7 +67,6 @@ class FrameReader {
   const std::vector<double>& radii() const { return radii_; }
 
  private:
-  enum class FileKind { unknown, dump, binary, table };
   struct FrameRow {
     long id = 0;
     model::BallState<double> state;
@@ -86,19 +85,17 @@ class FrameReader {
   bool line();
   [[noreturn]] void fail(const std::string& found, const std::string& expected) const;
   void set_columns(const std::vector<std::string>& columns);
-  void read_bounds(std::size_t axis);
   FrameRow row() const;
   FrameRow row_of(const std::vector<double>& values) const;
   double time_of(std::optional<double> time, std::optional<double> step) const;
   void finish(std::vector<FrameRow> rows, double time, Frame& frame);
-  double number(const std::string& text) const;  ///< may be nan or infinite
-  double finite(const std::string& text) const;
+  double number(const std::string& text, bool is_finite = false) const;
 
   std::string name_;
   io::InputFile in_;
   DumpFormat format_;
   std::size_t count_;
-  FileKind kind_ = FileKind::unknown;
+  bool (FrameReader::*next_)(Frame&) = nullptr;  ///< by the kind of the file
   std::string line_;
   std::uint64_t line_number_ = 0;
   std::vector<std::string> names_;        ///< of the columns

@@ -22,8 +22,6 @@ constexpr std::array<const char*, 2> names[count] = {
     {"mass"},       {"radius"},    {"diameter"},     {"xs", "xsu"},    {"ys", "ysu"},
     {"zs", "zsu"},  {"time", "t"}, {"ix"},           {"iy"},           {"iz"}};
 
-bool is_required(std::size_t what) { return what == id || (what >= vx && what < mass); }
-
 /// Splits a line at spaces, tabs, commas and semicolons; quotes are dropped.
 std::vector<std::string> words(const std::string& line) {
   constexpr const char* separators = " \t,;\"";
@@ -34,13 +32,6 @@ std::vector<std::string> words(const std::string& line) {
     begin = line.find_first_not_of(separators, end);
   }
   return list;
-}
-
-int facets_of(const std::string& word, const std::string& deck) {
-  const auto facets = io::number_in(word);
-  if (!facets || !(*facets >= 3 && *facets <= 1e6 && *facets == std::floor(*facets)))
-    throw InputError(fmt::format("{}: found {} facets, expected at least 3", deck, io::in_quotes(word)));
-  return static_cast<int>(*facets);
 }
 
 // Binary dumps of LAMMPS: `dump custom FILE.bin`, revision 2 (since 2021), which names its columns.
@@ -94,16 +85,6 @@ void read_format(Bytes& in) {
     in.fail(fmt::format("revision {}", revision), "2");
 }
 
-void read_box(Bytes& in, std::array<double, 3>& low, std::array<double, 3>& size) {
-  const auto triclinic = in.take<std::int32_t>();
-  for (int k = 0; k < 6; ++k) in.take<std::int32_t>();  // kinds of boundaries
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    low[axis] = in.take<double>();
-    size[axis] = in.take<double>() - low[axis];
-  }
-  if (triclinic != 0) in.fail("a box whose edges are not at right angles", "a rectangular box");
-}
-
 /// Reads the values of all rows. No more memory is allocated than the frame can need.
 std::vector<double> read_values(Bytes& in, std::size_t size) {
   std::vector<double> values;
@@ -118,12 +99,6 @@ std::vector<double> read_values(Bytes& in, std::size_t size) {
   return values;
 }
 
-/// True if a file with this first byte is a binary dump; no text begins with it.
-bool begins_binary_dump(int first_byte) {
-  // The length of the format's name, negated; or a step, whose lowest byte is most often 0.
-  return first_byte == 0 || first_byte == 256 - static_cast<int>(magic.size());
-}
-
 }  // namespace
 
 DeckFacts facts_of_deck(const std::string& deck) {
@@ -134,7 +109,12 @@ DeckFacts facts_of_deck(const std::string& deck) {
   for (; std::getline(in, line); ++number) {
     const auto w = words(line);
     if (w.size() == 3 && w[0] == "#" && w[1] == "frame") facts.in_vessel = w[2] == "vessel";
-    if (w.size() == 3 && w[0] == "#" && w[1] == "facets") facts.facets = facets_of(w[2], deck);
+    if (w.size() == 3 && w[0] == "#" && w[1] == "facets") {
+      const double facets = io::number_in(w[2]).value_or(0);
+      if (!(facets >= 3 && facets <= 1e6 && facets == std::floor(facets)))
+        throw InputError(fmt::format("{}: found {} facets, expected at least 3", deck, io::in_quotes(w[2])));
+      facts.facets = static_cast<int>(facets);
+    }
     if (w.size() < 2 || w[0].starts_with("#")) continue;
     if (w[0] == "units") facts.units = w[1];
     const bool assigned = w.size() > 2 && w[0] == "O.dt" && w[1] == "=";
@@ -169,16 +149,11 @@ void FrameReader::fail(const std::string& found, const std::string& expected) co
   throw InputError(fmt::format("{}:{}: found {}, expected {}", name_, line_number_, found, expected));
 }
 
-double FrameReader::number(const std::string& text) const {
+double FrameReader::number(const std::string& text, bool is_finite) const {
   const auto value = io::number_in(text);
-  if (!value) fail(fmt::format("'{}'", text.substr(0, 40)), "a number");
+  if (!value || (is_finite && !std::isfinite(*value)))
+    fail(fmt::format("'{}'", text.substr(0, 40)), "a number");
   return *value;
-}
-
-double FrameReader::finite(const std::string& text) const {
-  const double value = number(text);
-  if (!std::isfinite(value)) fail(fmt::format("'{}'", text.substr(0, 40)), "a number");
-  return value;
 }
 
 /// Sets the units, which are known by now, and the columns of the rows that follow.
@@ -201,7 +176,8 @@ void FrameReader::set_columns(const std::vector<std::string>& columns) {
       if (const auto found = name ? std::find(names_.begin(), names_.end(), name) : names_.end();
           found != names_.end())
         places_[k] = static_cast<int>(found - names_.begin());
-    if (is_required(k) && places_[k] < 0) missing.emplace_back(names[k][0]);
+    const bool is_required = k == id || (k >= vx && k < mass);
+    if (is_required && places_[k] < 0) missing.emplace_back(names[k][0]);
   }
   for (std::size_t k = 0; k < 3; ++k)
     if (places_[x + k] < 0 && places_[scaled_x + k] < 0) missing.emplace_back(names[x + k][0]);
@@ -219,16 +195,15 @@ void FrameReader::set_columns(const std::vector<std::string>& columns) {
 }
 
 FrameReader::FrameRow FrameReader::row() const {
-  std::vector<double> values(names_.size());
-  std::size_t column = 0;
+  std::vector<double> values;
   for (const auto& word : words(line_)) {
-    if (column == values.size()) fail("more values than columns", fmt::format("{}", names_.size()));
-    if (std::count(places_.begin(), places_.end(), static_cast<int>(column)) > 0)
-      values[column] = number(word);
-    ++column;
+    const auto column = static_cast<int>(values.size());
+    if (values.size() == names_.size()) fail("more values than columns", fmt::format("{}", names_.size()));
+    const bool is_known = std::count(places_.begin(), places_.end(), column) > 0;
+    values.push_back(is_known ? number(word) : 0);
   }
-  if (column < values.size())
-    fail(fmt::format("{} values", column), fmt::format("{}, one for each column", names_.size()));
+  if (values.size() < names_.size())
+    fail(fmt::format("{} values", values.size()), fmt::format("{}, one for each column", names_.size()));
   return row_of(values);
 }
 
@@ -291,12 +266,16 @@ void FrameReader::finish(std::vector<FrameRow> rows, double time, Frame& frame) 
 }
 
 bool FrameReader::next(Frame& frame) {
-  if (kind_ == FileKind::unknown)
-    kind_ = begins_binary_dump(in_.peek()) ? FileKind::binary
-            : in_.peek() == 'I'            ? FileKind::dump
-                                           : FileKind::table;
-  if (kind_ == FileKind::binary) return next_of_binary(frame);
-  return kind_ == FileKind::dump ? next_of_dump(frame) : next_of_table(frame);
+  if (!next_) {
+    // A binary dump begins with the length of its format's name, negated, or a step, whose lowest byte is
+    // most often 0; no text does.
+    const int first = in_.peek();
+    const bool is_binary = first == 0 || first == 256 - static_cast<int>(magic.size());
+    next_ = is_binary      ? &FrameReader::next_of_binary
+            : first == 'I' ? &FrameReader::next_of_dump
+                           : &FrameReader::next_of_table;
+  }
+  return (this->*next_)(frame);
 }
 
 double FrameReader::time_of(std::optional<double> time, std::optional<double> step) const {
@@ -311,7 +290,13 @@ bool FrameReader::next_of_binary(Frame& frame) try {
   const auto step = static_cast<double>(in.take<std::int64_t>());
   if (const auto balls = in.take<std::int64_t>(); balls < 0 || static_cast<std::size_t>(balls) != count_)
     in.fail(fmt::format("{} balls", balls), fmt::format("{}, as in the case", count_));
-  read_box(in, low_, size_);
+  const auto triclinic = in.take<std::int32_t>();
+  for (int k = 0; k < 6; ++k) in.take<std::int32_t>();  // kinds of boundaries
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    low_[axis] = in.take<double>();
+    size_[axis] = in.take<double>() - low_[axis];
+  }
+  if (triclinic != 0) in.fail("a box whose edges are not at right angles", "a rectangular box");
   const auto columns = in.take<std::int32_t>();
   if (columns < 1 || columns > most_columns)
     in.fail(fmt::format("{} columns", columns), fmt::format("1 to {}", most_columns));
@@ -325,9 +310,8 @@ bool FrameReader::next_of_binary(Frame& frame) try {
   if (names_.size() != static_cast<std::size_t>(columns))
     fail(fmt::format("{} names for {} columns", names_.size(), columns), "one for each");
   std::vector<FrameRow> rows;
-  for (auto begin = values.begin(); begin != values.end(); begin += columns) {
+  for (auto begin = values.begin(); begin != values.end(); begin += columns)
     rows.push_back(row_of({begin, begin + columns}));
-  }
   finish(std::move(rows), time_of(time, step), frame);
   return true;
 } catch (const EndOfFile&) {
@@ -382,23 +366,20 @@ bool FrameReader::next_of_dump(Frame& frame) {
     const bool bounds = item.starts_with("BOX BOUNDS");  // other items have one line
     for (std::size_t k = 0; k < (bounds ? 3 : 1); ++k) {
       if (!line()) return false;
-      if (bounds) read_bounds(k);
+      if (!bounds) continue;
+      const auto ends = words(line_);
+      if (ends.size() < 2) fail(fmt::format("'{}'", line_.substr(0, 40)), "two bounds");
+      low_[k] = number(ends[0], true);
+      size_[k] = number(ends[1], true) - low_[k];
+      is_tilted_ = (k > 0 && is_tilted_) || (ends.size() > 2 && number(ends[2], true) != 0);
     }
-    if (item.starts_with("TIMESTEP")) step = finite(line_);
-    if (item == "TIME") time = finite(line_);
+    if (item.starts_with("TIMESTEP")) step = number(line_, true);
+    if (item == "TIME") time = number(line_, true);
     if (item == "UNITS") format_.units = line_;
     if (item.starts_with("NUMBER OF ATOMS") && number(line_) != static_cast<double>(count_))
       fail(fmt::format("{} balls", line_), fmt::format("{}, as in the case", count_));
   }
   return false;
-}
-
-void FrameReader::read_bounds(std::size_t axis) {
-  const auto ends = words(line_);
-  if (ends.size() < 2) fail(fmt::format("'{}'", line_.substr(0, 40)), "two bounds");
-  low_[axis] = finite(ends[0]);
-  size_[axis] = finite(ends[1]) - low_[axis];
-  is_tilted_ = (axis > 0 && is_tilted_) || (ends.size() > 2 && finite(ends[2]) != 0);
 }
 
 }  // namespace edmill::dem
