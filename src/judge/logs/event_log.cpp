@@ -161,8 +161,7 @@ void EventLog::read_header(const LogConventions& conventions) {
   if (!problems.empty()) throw InputError(problems);
 
   for (std::size_t k = 0; k < (is_good_ ? first_state : name_count); ++k) {
-    const bool is_needed = k == time_name || k == ball_name || k == partner_name ||
-                           (is_good_ && (k == partner_kind_name || k == first_value));
+    const bool is_needed = k == partner_kind_name || k == first_value ? is_good_ : k <= partner_name;
     columns_[k].place = is_needed ? csv_.needed_column(theirs[k]) : csv_.column(theirs[k]);
   }
   csv_.throw_problems();
@@ -205,41 +204,31 @@ bool EventLog::read_value(std::size_t name, double& value, LoggedEvent& event) {
 bool EventLog::read_bodies(LoggedEvent& event) {
   const auto& kind_column = columns_[partner_kind_name].place;
   const std::size_t partner_column = *columns_[partner_name].place;
-  std::string_view kind;
-  if (kind_column) {
-    kind = csv_.field(*kind_column);
-    if (kind != "wall" && kind != "ball") {
-      csv_.bad_field(*kind_column, "ball or wall");
-      return false;
-    }
+  const std::string_view kind = kind_column ? csv_.field(*kind_column) : "";
+  if (kind_column && kind != "wall" && kind != "ball") {
+    csv_.bad_field(*kind_column, "ball or wall");
+    return false;
   }
   const int least = is_good_ ? 0 : -most;
   const bool good_wall = is_good_ && kind == "wall";
+  const char* const expected = good_wall  ? "the number of a wall"
+                               : is_good_ ? "the number of a ball"
+                                          : "the number of a ball or a wall";
   const auto ball = csv_.whole(*columns_[ball_name].place, "the number of a ball", least, most);
-  const auto partner = csv_.whole(partner_column,
-                                  good_wall  ? "the number of a wall"
-                                  : is_good_ ? "the number of a ball"
-                                             : "the number of a ball or a wall",
-                                  least, good_wall ? static_cast<int>(walls_.size()) - 1 : most);
+  const auto partner =
+      csv_.whole(partner_column, expected, least, good_wall ? static_cast<int>(walls_.size()) - 1 : most);
   if (!ball || !partner) return false;
   const auto wall = std::find(walls_.begin(), walls_.end(), *partner);
   event.with_wall = kind_column ? kind == "wall" : wall != walls_.end();
   event.ball = *ball - first_ball_;
   event.partner = event.with_wall ? static_cast<int>(wall - walls_.begin()) : *partner - first_ball_;
   const auto is_ball = [&](int k) { return k >= 0 && k < balls_; };
-  const bool known =
-      is_ball(event.ball) &&
-      (event.with_wall ? wall != walls_.end() : is_ball(event.partner) && event.partner != event.ball);
-  if (!known && is_good_) {
-    csv_.bad_field(partner_column, "another ball than the first");
-    return false;
-  }
-  if (!known) {
-    event.unknown_body = true;
-    event.problem =
-        fmt::format("found ball {} with {} {}", *ball, event.with_wall ? "wall" : "ball", *partner);
-  }
-  return true;
+  const bool other = is_ball(event.partner) && event.partner != event.ball;
+  event.unknown_body = !is_ball(event.ball) || !(event.with_wall ? wall != walls_.end() : other);
+  if (!event.unknown_body) return true;
+  if (is_good_) csv_.bad_field(partner_column, "another ball than the first");
+  event.problem = fmt::format("found ball {} with {} {}", *ball, event.with_wall ? "wall" : "ball", *partner);
+  return !is_good_;
 }
 
 std::optional<LoggedEvent> EventLog::read() {
@@ -283,7 +272,7 @@ std::optional<LoggedEvent> EventLog::read() {
 }
 
 std::optional<LoggedEvent> EventLog::next() {
-  while (!is_good_ && !at_end_ && ahead_.size() < window) {
+  while (!at_end_ && ahead_.size() < (is_good_ ? 1 : window)) {
     auto event = read();
     at_end_ = !event;
     if (at_end_) break;
@@ -291,9 +280,8 @@ std::optional<LoggedEvent> EventLog::next() {
     ahead_.insert(std::upper_bound(ahead_.begin(), ahead_.end(), event->time, later), std::move(*event));
   }
   if (ahead_.empty()) {
-    auto event = is_good_ ? read() : std::nullopt;
-    if (!event) csv_.throw_problems();
-    return event;
+    csv_.throw_problems();
+    return std::nullopt;
   }
   LoggedEvent event = std::move(ahead_.front());
   ahead_.pop_front();

@@ -26,9 +26,8 @@ inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// A body of an impact: position, and velocity and spin before and after. Inertial frame, SI.
 struct BodyState {
-  Vec3<double> position = Vec3<double>::Zero(), velocity_before = Vec3<double>::Zero(),
-               spin_before = Vec3<double>::Zero(), velocity_after = Vec3<double>::Zero(),
-               spin_after = Vec3<double>::Zero();
+  Vec3<double> position{0, 0, 0}, velocity_before{0, 0, 0}, spin_before{0, 0, 0}, velocity_after{0, 0, 0},
+      spin_after{0, 0, 0};
 };
 
 /// An impact, with the states of its bodies if the log has them.
@@ -92,9 +91,9 @@ class EventLog {
   /// @param balls, walls  their numbers in the case
   /// @param beyond        a time of this magnitude or more is invalid [s]
   /// @throws InputError with every problem of the mapping and the header
+  /// @param is_good       as in the other constructor
   EventLog(const std::filesystem::path& place, const LogConventions& conventions, int balls, int walls,
-           double beyond)
-      : EventLog(place, conventions, balls, walls, beyond, false) {}
+           double beyond, bool is_good = false);
   /// Opens a log that must be free of errors: in order of time, with finite values and the columns
   /// partner_kind and approach_speed. States are not read; any numbers of bodies are accepted.
   explicit EventLog(const std::filesystem::path& place);
@@ -113,8 +112,6 @@ class EventLog {
     std::optional<std::size_t> place;
     double unit = 1;  ///< in SI
   };
-  EventLog(const std::filesystem::path& place, const LogConventions& conventions, int balls, int walls,
-           double beyond, bool is_good);
   void read_header(const LogConventions& conventions);
   std::optional<LoggedEvent> read();
   std::optional<double> number(const Column& column);
