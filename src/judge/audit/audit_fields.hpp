@@ -26,8 +26,8 @@ struct Fields {
     v("gap_tolerance", "m", "largest gap or overlap of bodies in contact", a.tolerances.gap);
     v("time_rounding", "s", "rounding of the latest time",
       rounding_of(std::max(std::abs(a.first), std::abs(a.last))));
-    const auto kind_name = [](Kind kind) { return info(kind).name; };
-    v.each("violations", "by kind, the most frequent first", a.findings.ranked(), kind_name,
+    const auto name = [](auto kind_or_check) { return info(kind_or_check).name; };
+    v.each("violations", "by kind, the most frequent first", a.findings.ranked(), name,
            [&](Kind kind) { violations(v, kind); });
     v.each("looks_like", "by name ([audit.md](audit.md#what-a-log-looks-like))", a.diagnoses,
            &Diagnosis::name, [&](const Diagnosis& d) {
@@ -42,15 +42,14 @@ struct Fields {
               v("impacts", "1", "number of impacts", a.energies.creating);
               v("energy", "J", "", a.energies.created);
             });
-    const auto check_name = [](Check check) { return info(check).name; };
-    const auto all = checks_with([](Check) { return true; });
-    v.by_name("checked", "1", "number of times that each check was made", all, check_name,
-              [&](Check check) { return a.findings.judged_number(check); });
+    const auto made = [&](Check check) { return a.findings.judged_number(check); };
+    const auto unresolved = [&](Check check) { return a.findings.unresolved_number(check); };
+    v.by_name("checked", "1", "number of times that each check was made",
+              checks_with([](Check) { return true; }), name, made);
     v.by_name("unresolved", "1", "number of times that the tolerance was as large as the value checked",
-              checks_with([&](Check check) { return a.findings.unresolved_number(check) > 0; }), check_name,
-              [&](Check check) { return a.findings.unresolved_number(check); });
+              checks_with(unresolved), name, unresolved);
     v.by_name("not_checked", "", "checks that were not made, and the columns that they need", a.not_made,
-              check_name, [](Check check) { return info(check).columns; });
+              name, [](Check check) { return info(check).columns; });
     v("undecided", "1", "questions about missed impacts that no scalar could answer", a.undecided);
   }
 
@@ -63,9 +62,8 @@ struct Fields {
     v("unit", "", "", info(kind).unit);
     v("meaning", "", "", info(kind).meaning);
     if (v.has(!tally.notes.empty()))
-      v.by_name(
-          "notes", "1", "probable reasons, and how many violations have them", tally.notes,
-          [](const auto& note) { return note.first; }, [](const auto& note) { return note.second; });
+      v.by_name("notes", "1", "probable reasons, and how many violations have them", tally.notes,
+                &decltype(tally.notes)::value_type::first, &decltype(tally.notes)::value_type::second);
     v.numbered("examples", "the worst, by rank", tally.examples, [&](const Finding& f) {
       v("line", "1", "line of the log", f.line);
       v("time", "s", "", f.time);

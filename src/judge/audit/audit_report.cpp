@@ -19,7 +19,7 @@ std::string describe(const Finding& f) {
 /// Lists the checks whose `number` is not 0: "touch (12), approach (7)".
 std::string list_of_checks(const Findings& findings, auto number) {
   std::vector<std::string> list;
-  for (const Check check : checks_with([&](Check c) { return std::invoke(number, findings, c) > 0; }))
+  for (const Check check : checks_with([&](Check c) { return std::invoke(number, findings, c); }))
     list.push_back(fmt::format("{} ({})", info(check).name, std::invoke(number, findings, check)));
   return fmt::format("{}", fmt::join(list, ", "));
 }

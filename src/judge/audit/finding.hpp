@@ -59,7 +59,7 @@ constexpr Kind kind_of(Check check) {
   return static_cast<Kind>(first - kinds.begin());
 }
 inline const CheckInfo& info(Check check) { return checks[at(check)]; }
-/// The checks for which `wanted` is true.
+/// The checks for which `wanted` is true or not 0.
 std::vector<Check> checks_with(const auto& wanted) {
   std::vector<Check> list;
   for (std::size_t k = 0; k < check_count; ++k)

@@ -18,8 +18,6 @@ std::size_t SpectrumClasses::of(double value) const {
   return octaves < 48 ? std::min(count - 1, 1 + static_cast<std::size_t>(16 * octaves)) : count - 1;
 }
 
-double Batch::all_events() const { return std::accumulate(events.begin(), events.end(), 0.0); }
-
 Batches cut_into_batches(const std::filesystem::path& place, const BatchTimes& times, int walls,
                          const SpectrumClasses& speed_classes, const SpectrumClasses& dose_classes) {
   Batches batches(times.count, Batch(walls));
@@ -59,10 +57,9 @@ SpectrumTest test_spectra(const Batches& a, const Batches& b, Spectrum spectrum)
   for (std::size_t c = 0; c < SpectrumClasses::count; ++c) {
     double sum = 0;
     for (std::size_t k = 0; k < a.size(); ++k) sum += a[k].spectra[spectrum][c] + b[k].spectra[spectrum][c];
-    if (sum != 0) {
-      used.push_back(c);
-      both.push_back(sum);
-    }
+    if (sum == 0) continue;
+    used.push_back(c);
+    both.push_back(sum);
   }
   std::vector<BatchValues> differences(a.size());
   for (std::size_t k = 0; k < a.size(); ++k)
@@ -110,19 +107,6 @@ SpectrumTest test_spectra(const Batches& a, const Batches& b, Spectrum spectrum)
 }
 
 namespace {
-
-/// @throws InputError with the problems of both logs
-void scan_both(Comparison& c) {
-  std::vector<std::string> problems;
-  for (const auto& [place, scan] : {std::pair{&c.options.a, &c.a}, {&c.options.b, &c.b}}) {
-    try {
-      *scan = logs::scan_log(*place);
-    } catch (const InputError& error) {
-      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
-    }
-  }
-  if (!problems.empty()) throw InputError(problems);
-}
 
 /// @throws InputError when the logs, or the options, leave no time in common
 BatchTimes common_times(const LogScan& a, const LogScan& b, const ComparisonOptions& options) {
@@ -304,12 +288,11 @@ std::vector<Quantity> judge(const Comparison& c) {
   const auto b = cut_into_batches(c.options.b, c.times, walls, speed_classes, dose_classes);
   Quantities quantities(a, b, c.options.event_tolerance());
   const auto sum_of = [](const Batches& batches, const auto& get) {
-    double sum = 0;
-    for (const double value : values_of(batches, get)) sum += value;
-    return sum;
+    const auto values = values_of(batches, get);
+    return std::accumulate(values.begin(), values.end(), 0.0);
   };
-  const double length = c.times.length, of_a = sum_of(a, &Batch::all_events),
-               of_b = sum_of(b, &Batch::all_events), all = of_a + of_b;
+  const double of_a = sum_of(a, &Batch::all_events), of_b = sum_of(b, &Batch::all_events), all = of_a + of_b;
+  const double length = c.times.length;
 
   double between_balls = 0;  // after the loop: they are the last partner
   for (int k = 0; k <= walls; ++k) {
@@ -338,9 +321,8 @@ std::vector<Quantity> judge(const Comparison& c) {
 
 Verdict whole(const Comparison& c) {
   const auto any = [&](Verdict verdict) {
-    return c.events_verdict == verdict ||
-           std::any_of(c.quantities.begin(), c.quantities.end(),
-                       [&](const Quantity& q) { return q.verdict == verdict; });
+    const auto is_such = [&](const Quantity& q) { return q.verdict == verdict; };
+    return c.events_verdict == verdict || std::any_of(c.quantities.begin(), c.quantities.end(), is_such);
   };
   if (any(Verdict::differ)) return Verdict::differ;
   if (c.events_verdict != Verdict::too_few && c.events.agree_throughout()) return Verdict::agree;
@@ -357,7 +339,15 @@ std::string_view name_of(Verdict verdict) {
 Comparison compare(const ComparisonOptions& options) {
   Comparison c;
   c.options = options;
-  scan_both(c);
+  std::vector<std::string> problems;  // of both logs
+  for (const auto& [place, scan] : {std::pair{&options.a, &c.a}, {&options.b, &c.b}}) {
+    try {
+      *scan = logs::scan_log(*place);
+    } catch (const InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  if (!problems.empty()) throw InputError(problems);
   c.times = common_times(c.a, c.b, options);
   c.events = compare_events(c);
   if (options.events) {

@@ -1,6 +1,8 @@
 // Two collision logs compared, event by event and by statistics, with verdicts.
 #pragma once
 
+#include <numeric>
+
 #include "logs/event_log.hpp"
 
 namespace edmill::compare {
@@ -30,6 +32,9 @@ class SpectrumClasses {
 enum Spectrum : std::size_t { wall_speeds, ball_speeds, doses };
 inline constexpr std::size_t spectrum_count = 3;
 
+/// Values of a quantity, one per batch or class.
+using BatchValues = std::vector<double>;
+
 /// Totals of one batch.
 struct Batch {
   std::vector<double> events;              ///< with each wall, and last between balls
@@ -37,11 +42,9 @@ struct Batch {
   double milling_dose = 0, wall_work = 0;  ///< [J]
   std::array<std::vector<double>, spectrum_count> spectra;
 
-  explicit Batch(int walls = 0) : events(walls + 1) {
-    spectra.fill(std::vector<double>(SpectrumClasses::count));
-  }
+  explicit Batch(int walls = 0) : events(walls + 1) { spectra.fill(BatchValues(SpectrumClasses::count)); }
 
-  double all_events() const;
+  double all_events() const { return std::accumulate(events.begin(), events.end(), 0.0); }
 };
 
 using Batches = std::vector<Batch>;
@@ -50,9 +53,6 @@ using Batches = std::vector<Batch>;
 /// @param walls  number of walls, larger than every wall number in the log
 Batches cut_into_batches(const std::filesystem::path& place, const BatchTimes& times, int walls,
                          const SpectrumClasses& speed_classes, const SpectrumClasses& dose_classes);
-
-/// Values of a quantity, one per batch.
-using BatchValues = std::vector<double>;
 
 /// Batch values whose plain mean is sum / number of the whole and whose scatter is that of this ratio, to
 /// first order (the linearised ratio estimator).
@@ -120,6 +120,8 @@ struct Quantity {
   std::optional<double> probability = {};  ///< of it by chance, after Holm; nothing if not tested
   Verdict verdict = Verdict::not_compared;
   std::string reason = {};  ///< why it is not_compared
+
+  bool is_spectrum() const { return difference && !a; }
 };
 
 struct Comparison {

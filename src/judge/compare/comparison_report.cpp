@@ -12,11 +12,13 @@ namespace edmill::compare {
 
 namespace {
 
+std::string_view name_of_value(std::size_t value) { return model::logged_quantities[value].name; }
+
 std::string describe(const Event& e) {
   std::string text = fmt::format("line {}: t = {} s, ball {} with {} {}", e.line, e.time, e.ball,
                                  e.with_wall ? "wall" : "ball", e.partner);
   for (std::size_t v = model::approach_speed; v < model::logged_count; ++v)
-    if (!std::isnan(e[v])) text += fmt::format(", {} {}", model::logged_quantities[v].name, e[v]);
+    if (!std::isnan(e[v])) text += fmt::format(", {} {}", name_of_value(v), e[v]);
   return text;
 }
 
@@ -24,15 +26,13 @@ std::string interval_of(std::optional<double> value, std::optional<double> half_
   return value ? with_interval(*value, half_width) : "-";
 }
 
-/// Indices of the logged quantities for which `has` is true.
-auto values_of(const auto& has) {
+/// Indices of the logged quantities that both logs have.
+auto values_of(const Comparison& c) {
   std::vector<std::size_t> list;
   for (std::size_t k = 0; k < model::logged_count; ++k)
-    if (has(k)) list.push_back(k);
+    if (c.a.has[k] && c.b.has[k]) list.push_back(k);
   return list;
 }
-
-std::string_view name_of_value(std::size_t value) { return model::logged_quantities[value].name; }
 
 /// Visits the fields of a document. docs/files.md, "Comparison"
 struct Fields {
@@ -68,9 +68,8 @@ struct Fields {
     }
     if (v.has(e.first.has_value()))
       v.group("first_difference", "", [&] { difference(v, e.first.value_or(FirstDifference{})); });
-    v.by_name("largest", "1", "relative difference of each value up to the horizon",
-              values_of([&](std::size_t k) { return c.a.has[k] && c.b.has[k]; }), name_of_value,
-              [&](std::size_t k) { return e.largest[k]; });
+    v.by_name("largest", "1", "relative difference of each value up to the horizon", values_of(c),
+              name_of_value, [&](std::size_t k) { return e.largest[k]; });
     v("digits_lost_per_event", "1", "slope of a straight line through the differences",
       e.digits_lost_per_event);
   }
@@ -99,10 +98,9 @@ struct Fields {
       v("b", "`unit`", "mean in B", q.b);
       v("b_ci95", "`unit`", "half the width of its 95 % interval", q.b_half_width);
       v("difference", "`unit`", "B - A; for a spectrum Kolmogorov's distance", q.difference);
-      const bool is_spectrum = q.difference && !q.a;
-      if (v.has(!is_spectrum))
+      if (v.has(!q.is_spectrum()))
         v("difference_ci95", "`unit`", "half the width of its 95 % interval", q.half_width);
-      if (v.has(is_spectrum))
+      if (v.has(q.is_spectrum()))
         v("limit95", "1", "for a spectrum: the distance that 5 % of permutations exceed", q.half_width);
       v("probability", "1", "probability of such a difference by chance, after Holm; null if not tested",
         q.probability);
@@ -121,26 +119,22 @@ std::string table(const Comparison& c) {
     out += fmt::format("  {:<26}{}\n", name, value);
   };
   const auto& e = c.events;
-  row("event by event",
-      fmt::format("{} agree within {:g}{}{}", e.agreeing, c.options.event_tolerance(),
-                  e.agreeing > 0 ? fmt::format(", up to {:g} s", e.horizon) : "",
-                  c.events_verdict
-                      ? fmt::format(": {} ({} required)", name_of(*c.events_verdict), *c.options.events)
-                      : ""));
+  std::string agreeing = fmt::format("{} agree within {:g}", e.agreeing, c.options.event_tolerance());
+  if (e.agreeing > 0) agreeing += fmt::format(", up to {:g} s", e.horizon);
+  if (c.events_verdict)
+    agreeing += fmt::format(": {} ({} required)", name_of(*c.events_verdict), *c.options.events);
+  row("event by event", agreeing);
   if (e.first) {
     row("  same partners", fmt::format("{} events", e.same_partners));
-    row("  first difference", e.first->quantity == "partners" ? std::string("partners")
-                                                              : fmt::format("{} by {:.2g}", e.first->quantity,
-                                                                            e.first->relative_difference));
+    const double off = e.first->relative_difference;  // nan for partners
+    row("  first difference", e.first->quantity + (std::isnan(off) ? "" : fmt::format(" by {:.2g}", off)));
     row("    A", describe(e.first->a));
     row("    B", describe(e.first->b));
   }
   if (e.agreeing > 0) {
     std::string largest;
-    for (std::size_t v = 0; v < model::logged_count; ++v)
-      if (c.a.has[v] && c.b.has[v])
-        largest += fmt::format("{}{} {:.1e}", largest.empty() ? "" : ", ", model::logged_quantities[v].name,
-                               e.largest[v]);
+    for (const auto v : values_of(c))
+      largest += fmt::format("{}{} {:.1e}", largest.empty() ? "" : ", ", name_of_value(v), e.largest[v]);
     row("  largest before it", largest);
   }
   if (e.digits_lost_per_event)
@@ -152,11 +146,10 @@ std::string table(const Comparison& c) {
         fmt::format("  {:<32}{:>22}{:>22}{:>22}{:>9}  {}\n", "quantity", "A", "B", "B - A", "p", "verdict");
     for (const auto& q : c.quantities) {
       // A distance is printed with its limit, which is not an interval.
-      const bool spectrum = q.difference && !q.a;
       out += fmt::format("  {:<32}{:>22}{:>22}{:>22}{:>9}  {}{}\n", q.name + " [" + q.unit + "]",
                          interval_of(q.a, q.a_half_width), interval_of(q.b, q.b_half_width),
-                         spectrum ? fmt::format("{:.3g} (< {:.3g})", *q.difference, *q.half_width)
-                                  : interval_of(q.difference, q.half_width),
+                         q.is_spectrum() ? fmt::format("{:.3g} (< {:.3g})", *q.difference, *q.half_width)
+                                         : interval_of(q.difference, q.half_width),
                          q.probability ? fmt::format("{:.2g}", *q.probability) : "-", name_of(q.verdict),
                          q.reason.empty() ? "" : ": " + q.reason);
     }
@@ -199,18 +192,17 @@ std::string junit_text(const std::string& suite, const std::vector<JunitCase>& c
 
 std::string to_junit(const Comparison& c) {
   std::vector<JunitCase> cases;
+  const auto add = [&](const std::string& name, Verdict verdict, const std::string& problem) {
+    cases.push_back({name, verdict == Verdict::agree ? "" : problem});
+  };
   if (c.events_verdict)
-    cases.push_back(
-        {"events", *c.events_verdict == Verdict::agree
-                       ? ""
-                       : fmt::format("{} events agree, {} must", c.events.agreeing, *c.options.events)});
-  for (const auto& q : c.quantities) {
-    if (q.verdict == Verdict::not_compared) continue;
-    cases.push_back({q.name, q.verdict == Verdict::agree
-                                 ? ""
-                                 : fmt::format("differs by {:.4g} {}, {:.4g} at most",
-                                               q.difference.value_or(0), q.unit, q.half_width.value_or(0))});
-  }
+    add("events", *c.events_verdict,
+        fmt::format("{} events agree, {} must", c.events.agreeing, *c.options.events));
+  for (const auto& q : c.quantities)
+    if (q.verdict != Verdict::not_compared)
+      add(q.name, q.verdict,
+          fmt::format("differs by {:.4g} {}, {:.4g} at most", q.difference.value_or(0), q.unit,
+                      q.half_width.value_or(0)));
   cases.push_back({"enough events", c.verdict == Verdict::too_few ? "too few to compare" : ""});
   return junit_text("edmill compare", cases);
 }

@@ -51,18 +51,15 @@ struct Fields {
     for (std::size_t m = 0; m + numbers.size() < cause.found.size(); ++m)
       mistakes.push_back(cause.found[m].what.name());
     v.texts("mistakes", "by number", mistakes);
-    v.each(
-        "values", "by key", std::vector<Found>(numbers.begin(), numbers.end()),
-        [](const Found& f) { return f.what.key; },
-        [&](const Found& f) {
-          v("value", "", "SI", f.value);
-          v("half_width", "", "half-width of its interval", f.half_width);
-          v("nominal", "", "value of the case", f.what.value);
-          if (v.has(!f.what.in_place_of.empty()))
-            v("in_place_of", "", "for a number of another contact law: the law of the case",
-              f.what.in_place_of);
-          if (v.has(!f.what.equation.empty())) v("equation", "", "equation of a term", f.what.equation);
-        });
+    const auto key = [](const Found& f) { return f.what.key; };
+    v.each("values", "by key", std::vector<Found>(numbers.begin(), numbers.end()), key, [&](const Found& f) {
+      v("value", "", "SI", f.value);
+      v("half_width", "", "half-width of its interval", f.half_width);
+      v("nominal", "", "value of the case", f.what.value);
+      if (v.has(!f.what.in_place_of.empty()))
+        v("in_place_of", "", "for a number of another contact law: the law of the case", f.what.in_place_of);
+      if (v.has(!f.what.equation.empty())) v("equation", "", "equation of a term", f.what.equation);
+    });
     v.texts("alike", "causes that the log cannot distinguish from it, by number", cause.alike);
   }
   static void stepping(auto& v, const TimeStepping& found) {

@@ -25,28 +25,6 @@ std::string Cause::text() const {
   return text;
 }
 
-namespace {
-
-/// A time that a log may reveal, such as a time step, and its text. In the order of reports.
-struct Sign {
-  std::optional<double> TimeStepping::*time;
-  fmt::format_string<const double&> text;
-};
-constexpr Sign signs[] = {
-    {&TimeStepping::step,
-     "time steps: all times are multiples of {:.6g} s, the step or the rounding of times"},
-    {&TimeStepping::step_by_depth,
-     "contacts found by overlap, with a step near {:.3g} s; a --gap-tolerance of the worst overlap accepts "
-     "them"},
-    {&TimeStepping::first_order_step,
-     "an integrator of first order with steps of {:.3g} s: flights leave the parabola by g h t/2, h the "
-     "step"},
-    {&TimeStepping::jitter,
-     "times with errors of {:.3g} s (root mean square), early and late alike: flights deviate along their "
-     "paths alone"}};
-
-}  // namespace
-
 std::string table(const TimeStepping& found) {
   std::string out;
   if (found.soft) {
@@ -62,8 +40,19 @@ std::string table(const TimeStepping& found) {
         s.duration * 1e6, s.low * 1e6, s.high * 1e6, s.contacts, s.at == LoggedAt::begin ? "start" : "end",
         law, s.spring, s.modulus / 1e9);
   }
-  for (const auto& sign : signs)
-    if (const auto& time = found.*sign.time) out += "  looks like   " + fmt::format(sign.text, *time) + "\n";
+  const auto sign = [&](const std::optional<double>& time, fmt::format_string<const double&> text) {
+    if (time) out += "  looks like   " + fmt::format(text, *time) + "\n";
+  };
+  sign(found.step, "time steps: all times are multiples of {:.6g} s, the step or the rounding of times");
+  sign(found.step_by_depth,
+       "contacts found by overlap, with a step near {:.3g} s; a --gap-tolerance of the worst overlap accepts "
+       "them");
+  sign(found.first_order_step,
+       "an integrator of first order with steps of {:.3g} s: flights leave the parabola by g h t/2, h the "
+       "step");
+  sign(found.jitter,
+       "times with errors of {:.3g} s (root mean square), early and late alike: flights deviate along their "
+       "paths alone");
   if (found.second_order) out += "    flights under gravity have no error of first order in the step\n";
   return out;
 }
@@ -90,13 +79,12 @@ std::string table(const Identification& found) {
     return out + (found.causes.empty() ? "  interrupted before a cause was found\n"
                                        : "  interrupted: better causes were not sought\n");
   if (found.too_few) return out + "  no cause sought: too few impacts\n";
-  const bool explained =
-      !found.causes.empty() && audit::accounts_for(found.causes[0].explains, found.causes[0].of);
-  const std::string further =
-      found.search == Search::all || explained
-          ? ""
-          : "  --identify searches parts of the log, and two and three causes together\n";
-  if (!found.causes.empty()) return out + further;
+  const auto& causes = found.causes;
+  const bool explained = !causes.empty() && audit::accounts_for(causes[0].explains, causes[0].of);
+  std::string further;
+  if (found.search == Search::single && !explained)
+    further = "  --identify searches parts of the log, and two and three causes together\n";
+  if (!causes.empty()) return out + further;
   if (found.follows)
     out += found.follows_all
                ? fmt::format(
