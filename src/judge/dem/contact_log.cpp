@@ -99,13 +99,10 @@ ContactLogWriter::ContactLogWriter() : rows_(std::tmpfile(), std::fclose) {
 void ContactLogWriter::add(const Contact& c) {
   const bool single = c.kind != ContactClass::several;
   const bool wall = single && c.bodies == 1 && c.partner >= 0, pair = single && c.bodies == 2;
-  std::string line = fmt::format("{},{},{},{},{},{},{},{},{},{}", c.begin, c.end,
-                                 contact_class_names[static_cast<std::size_t>(c.kind)], c.ball,
-                                 wall   ? "wall"
-                                 : pair ? "ball"
-                                        : "",
-                                 c.partner >= 0 ? std::to_string(c.partner) : "", c.bodies, c.free_until,
-                                 c.free_from, c.dose);
+  const char* const partner_kind = wall ? "wall" : pair ? "ball" : "";
+  std::string line = fmt::format("{},{},{},{},{},{},{},{},{},{}", c.begin, c.end, name_of(c.kind), c.ball,
+                                 partner_kind, c.partner >= 0 ? std::to_string(c.partner) : "", c.bodies,
+                                 c.free_until, c.free_from, c.dose);
   for (const auto* state : states_of(c)) {
     const bool given = c.kind == ContactClass::pair || state == &c.before || state == &c.after;
     for (const auto* v : vectors_of(*state)) line += given ? fmt::format(",{}", fmt::join(*v, ",")) : ",,,";
@@ -165,11 +162,11 @@ std::optional<Contact> ContactLogReader::parse() {
       good = false;
   const auto ball = csv_.whole(3, "the number of a ball", 0, most),
              balls = csv_.whole(6, "a number of balls", 1, most);
-  const auto kind = std::find(contact_class_names.begin(), contact_class_names.end(), csv_.field(2));
-  if (kind == contact_class_names.end())
-    csv_.bad_field(2, fmt::format("{}", fmt::join(contact_class_names, ", ")));
-  if (!good || !ball || !balls || kind == contact_class_names.end()) return std::nullopt;
-  c.kind = static_cast<ContactClass>(kind - contact_class_names.begin());
+  const auto& names = contact_class_names;
+  const auto kind = std::find(names.begin(), names.end(), csv_.field(2));
+  if (kind == names.end()) csv_.bad_field(2, fmt::format("{}", fmt::join(names, ", ")));
+  if (!good || !ball || !balls || kind == names.end()) return std::nullopt;
+  c.kind = static_cast<ContactClass>(kind - names.begin());
   c.ball = *ball;
   c.bodies = *balls;
   if (!csv_.field(5).empty()) {
@@ -190,12 +187,9 @@ std::optional<Contact> ContactLogReader::parse() {
         part = *value;
       }
   }
-  const bool needs_partner = c.kind == ContactClass::wall || c.kind == ContactClass::pair;
-  if (needs_partner && c.partner < 0) {
-    csv_.bad_field(5, "the number of a wall or ball");
-    return std::nullopt;
-  }
-  return c;
+  if (!is_single(c.kind) || c.partner >= 0) return c;
+  csv_.bad_field(5, "the number of a wall or ball");
+  return std::nullopt;
 }
 
 }  // namespace edmill::dem

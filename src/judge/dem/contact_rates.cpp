@@ -34,10 +34,11 @@ ContactRates rates_of(const std::string& log, const char* what, double first, do
     const double time = (c->begin + c->end) / 2;
     if (window.compared && (time < r.first || time > r.last)) continue;
     rate.add(time, c->dose);
-    const bool single = c->kind == ContactClass::wall || c->kind == ContactClass::pair;
     all += c->dose;
-    grouped += single ? 0 : c->dose;
-    singles += single ? 1 : 0;
+    if (is_single(c->kind))
+      ++singles;
+    else
+      grouped += c->dose;
     if (c->kind == ContactClass::wall) durations.push_back(c->end - c->begin);
   }
   if (!window.compared && durations.size() < 20)
@@ -69,12 +70,13 @@ ContactRates rates_of_impacts(const std::string& place, const Window& window) {
         (window.compared ? "the dose rates cannot be compared" : "give a collision log of edmill"));
   logs::EventLog log(place);
   return rates_of(place, "impacts", scan.statistics_start.value_or(scan.first), scan.last, window, [&] {
-    const auto event = log.next();
-    if (!event) return std::optional<Contact>();
-    return std::optional(Contact{.kind = event->with_wall ? ContactClass::wall : ContactClass::pair,
-                                 .begin = event->time,
-                                 .end = event->time,
-                                 .dose = event->milling_dose});
+    std::optional<Contact> contact;
+    if (const auto event = log.next())
+      contact = {.kind = event->with_wall ? ContactClass::wall : ContactClass::pair,
+                 .begin = event->time,
+                 .end = event->time,
+                 .dose = event->milling_dose};
+    return contact;
   });
 }
 
@@ -89,7 +91,7 @@ const char* word_for(Verdict verdict) {
 constexpr double widest = 0.05;  ///< half-width with which rates may be said to agree
 
 std::string verdict_of(const ContactComparison& c) {
-  const auto bound = c.within ? fmt::format(" within {:g} %", 100 * *c.within) : std::string();
+  const auto bound = c.within ? fmt::format(" within {:g} %", 100 * *c.within) : "";
   if (c.verdict == Verdict::agree) return "the dose rates agree" + bound;
   if (c.verdict == Verdict::differ)
     return "the dose rates differ" + (c.within ? " by more than" + bound.substr(7) : "");
@@ -212,11 +214,11 @@ Limit limit_of(const std::vector<std::string>& logs, const std::string& run, dou
             [](const auto& a, const auto& b) { return a.contact_time > b.contact_time; });
   numerics::Line line;
   for (const auto& p : limit.points) line.add(p.contact_time, p.dose_rate, 1 / (p.half_width * p.half_width));
-  const auto& slowest = limit.points.front();
-  if (!(slowest.contact_time > 1.2 * limit.points.back().contact_time))
+  const double least = limit.points.back().contact_time, most = limit.points.front().contact_time;
+  if (!(most > 1.2 * least))
     throw InputError(fmt::format(
-        "found contacts of {:.3g} s to {:.3g} s, expected durations that differ by more than a fifth",
-        limit.points.back().contact_time, slowest.contact_time));
+        "found contacts of {:.3g} s to {:.3g} s, expected durations that differ by more than a fifth", least,
+        most));
   limit.slope = line.slope();
   limit.at_zero.dose_rate = line.value();
   limit.at_zero.half_width = line.deviation();

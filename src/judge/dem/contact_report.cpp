@@ -69,14 +69,8 @@ struct Fields {
     const auto ratio_of = [](const SlipBin& s) { return fmt::format("{:.4g}", s.ratio); };
     v.each("slips", "fraction of the slip that remains after a contact, by ratio of slip to approach speed",
            a.slips, ratio_of, [&](const SlipBin& s) {
-             if (v.has(s.of_walls.known())) {
-               v("walls", "1", "fraction of the slip at first touch, at walls", s.of_walls.value);
-               v("walls_half_width", "1", "half-width of its 95 % interval", s.of_walls.half_width());
-             }
-             if (v.has(s.of_balls.known())) {
-               v("balls", "1", "fraction of the slip at first touch, between balls", s.of_balls.value);
-               v("balls_half_width", "1", "half-width of its 95 % interval", s.of_balls.half_width());
-             }
+             slip(v, "walls", "fraction of the slip at first touch, at walls", s.of_walls);
+             slip(v, "balls", "fraction of the slip at first touch, between balls", s.of_balls);
            });
     v.each("causes", "by key: numbers of the case with which the walls are where balls meet them", a.causes,
            &GeometryCause::key, [&](const GeometryCause& c) {
@@ -85,6 +79,13 @@ struct Fields {
              v("expected", "", "value of the case", c.expected);
              v("left", "m", "distance from the walls that remains with this number", c.left);
            });
+  }
+
+ private:
+  static void slip(auto& v, const std::string& key, const char* meaning, const Median& left) {
+    if (!v.has(left.known())) return;
+    v(key, "1", meaning, left.value);
+    v(key + "_half_width", "1", "half-width of its 95 % interval", left.half_width());
   }
 };
 

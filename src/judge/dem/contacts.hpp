@@ -115,6 +115,12 @@ class FrameReader {
 enum class ContactClass { wall, pair, several, lasting, unexplained, missed, jump };
 inline constexpr std::array<const char*, 7> contact_class_names{"wall",        "pair",   "several", "lasting",
                                                                 "unexplained", "missed", "jump"};
+constexpr const char* name_of(ContactClass kind) {
+  return contact_class_names[static_cast<std::size_t>(kind)];
+}
+constexpr bool is_single(ContactClass kind) {
+  return kind == ContactClass::wall || kind == ContactClass::pair;
+}
 template <class Value>
 using ByClass = std::array<Value, contact_class_names.size()>;
 
