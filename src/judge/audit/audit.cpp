@@ -15,7 +15,6 @@ int other_of(const LoggedEvent& event, std::size_t body) {
   return event.with_wall ? -1 - event.partner : event.ball_at(1 - body);
 }
 
-/// Takes the events of a log one by one, with the state that precedes each.
 class Auditor : Judge {
  public:
   /// @param result  has the columns and the tolerances, and gets what is found
@@ -126,7 +125,6 @@ class Auditor : Judge {
     return found;
   }
 
-  /// The last event of a ball, to recognise a duplicate.
   struct LastEvent {
     double time = unknown;
     int other = -1;

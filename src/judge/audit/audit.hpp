@@ -36,7 +36,6 @@ struct Diagnosis {
 };
 
 using logs::Verdict;
-/// "clean", "violations" or "too_few".
 std::string_view name_of(Verdict verdict);
 
 struct Audit {
@@ -58,7 +57,6 @@ struct Audit {
 /// @throws InputError with the problems of the log and of the options for it
 Audit audit(const Case& the_case, const BallStates& states, const Options& options);
 
-/// Events already read from a log, in order of time.
 struct EventsAtHand {
   std::string file;
   Available available;
@@ -68,12 +66,10 @@ struct EventsAtHand {
 EventsAtHand read_events(const Case& the_case, const Options& options, std::size_t most);
 /// Audits events already read; `options.log` and `options.from_start` are ignored.
 Audit audit(const Case& the_case, const EventsAtHand& log, const Options& options);
-/// Tolerances of gaps and speeds.
 Tolerances tolerances_of(const Case& the_case, const Options& options);
 
 /// Fraction of the checks made that found a violation of this kind; nan if none were made.
 double share_of(const Audit& audit, Kind kind);
-/// The result as text.
 std::string table(const Audit& audit);
 
 }  // namespace edmill::audit

@@ -74,7 +74,6 @@ class StallHistory {
   StallHistory(const Mill& mill, std::size_t balls)
       : stall_(mill.stall), balls_(balls, Ball{unknown, 0, stall_.impacts}) {}
 
-  /// Starts all flights at `time`; the log is complete from then on.
   void begin(double time) { std::fill(balls_.begin(), balls_.end(), Ball{time, 0, 0}); }
   /// Discards the history of a ball of which events are missing.
   void forget(int ball) { balls_[ball] = {unknown, 0, stall_.impacts}; }
@@ -128,7 +127,6 @@ struct Row {
   bool is_violated() const { return size > allowed; }
 };
 
-/// Rows of which most have the kind of their check.
 struct Rows : std::vector<Row> {
   void scalar(Check check, double off, double allowed, double found, double expected) {
     push_back({check, info(check).rows, -1, 1, {off, 0, 0}, std::abs(off), allowed, found, expected});
@@ -149,7 +147,6 @@ struct LoggedFlight {
   int body;                  ///< role in the event at the end: 0 ball, 1 partner
 };
 
-/// Tolerances of the numbers of an impact.
 struct ImpactTolerance {
   double energy = 0;           ///< [J]
   bool can_be_checked = true;  ///< false if rounded times leave the wall velocity unknown

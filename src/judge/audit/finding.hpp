@@ -67,7 +67,6 @@ std::vector<Check> checks_with(const auto& wanted) {
   return list;
 }
 
-/// A violation, with the bodies, time and log line of its impact.
 struct Finding : model::ImpactRecord<double> {
   Kind kind;
   double size;             ///< of the violation, in the unit of the kind
@@ -75,7 +74,6 @@ struct Finding : model::ImpactRecord<double> {
   const char* note = "";   ///< a literal: a probable reason
 };
 
-/// All findings of one kind. Bounded memory: notes are literals of the program.
 struct Tally {
   std::uint64_t count = 0;
   double worst = 0;

@@ -7,7 +7,6 @@
 
 namespace edmill::audit {
 
-/// Data that all checks of a log share.
 struct Judge {
   const Case& case_;
   const Available& available_;
@@ -17,14 +16,12 @@ struct Judge {
   double radius_of(int ball) const { return case_.balls[ball].radius; }
 };
 
-/// A ball since its last impact.
 struct Flying {
   dynamics::Flight<double> flight{Vec::Zero(), Vec::Zero(), {}};
   Vec spin{0, 0, 0};
   double start = 0;  ///< of the flight [s]
 };
 
-/// The last logged state of a ball.
 struct Track : Flying {
   bool state_known = false, spin_known = false;
   bool known_at(double time) const { return state_known && time >= start; }
@@ -35,7 +32,6 @@ struct Track : Flying {
   std::optional<Finding> held;
 };
 
-/// The end of a flight as logged by an event.
 struct FlightEnd {
   const LoggedEvent* event;
   std::size_t body;   ///< 0 the event's ball, 1 its partner
@@ -98,12 +94,10 @@ class Flights : Judge {
     if (!reported) judge_end(ball, track, end, true);
   }
 
-  /// Reports the impacts still held at the end of the log.
   void finish() {
     for (auto& track : tracks_) settle_held(track, nullptr);
   }
 
-  /// Begins a new flight.
   void begin(int ball, double time, const BodyState& state, const Available::Body& has) {
     Track& track = of(ball);
     track.state_known = has.position && has.velocity_after;
@@ -249,20 +243,17 @@ class Flights : Judge {
                    end);
   }
 
-  /// State of a ball just before an impact.
   BodyState before_impact(const Flying& own, double time) const {
     return {.position = position_of(own, time),
             .velocity_before = velocity_of(own, time),
             .spin_before = own.spin};
   }
 
-  /// Flight of the event's ball after an impact, by the contact law.
   Flying after_impact(const LoggedEvent& event) const {
     const auto after = outcome(impact_of(event, case_, nested_at(event.time), true), {}).body[0];
     return {{after.position, after.velocity_after, clock_.at(event.time)}, after.spin_after, event.time};
   }
 
-  /// True if a ball reaches the logged end of the flight.
   bool arrives(const Flying& own, const FlightEnd& end) const {
     const auto& logged = end.state();
     const double near = std::max(1e-6, 10 * tolerances_.relative);

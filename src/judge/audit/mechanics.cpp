@@ -6,7 +6,6 @@ namespace {
 
 Vec cross(const Vec& a, const Vec& b) { return edmill::cross<double>(a, b); }
 
-/// Position in the vessel frame [m].
 Vec inside(const VesselFrame& frame, const Vec& position) {
   const Vec d = position - frame.centre;
   return {dot(d, frame.x), dot(d, frame.y), dot(d, frame.z)};

@@ -39,7 +39,6 @@ VesselFrame vessel_at(const Mill& mill, double time, bool as_printed);
 
 /// Gap of a ball to a wall [m]; negative for an overlap. (2.17'), (2.19'), (2.21)
 double wall_gap(const VesselFrame& frame, const Case& of, int wall, int ball, const Vec& position);
-/// Gap of the bodies of an event [m].
 double gap_of(const LoggedEvent& event, const Case& of, const VesselFrame& frame);
 /// The frames of the vessel, the contact point P, and the ball's centre.
 struct WallPoint {
@@ -75,7 +74,6 @@ struct Terms {
   double time_of_flight = 0, age_of_velocities = 0;  ///< [s]
 
   bool operator==(const Terms&) const = default;
-  /// True if the terms change the states after an impact.
   bool change_impulse() const {
     return friction != 1 || friction_on_velocity != 1 || torque != 1 || share != 1 ||
            compliance_in_limit != 1 || compliance_in_impulse != 1 || arm != 1 ||

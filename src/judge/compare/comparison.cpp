@@ -138,7 +138,6 @@ BatchTimes common_times(const LogScan& a, const LogScan& b, const ComparisonOpti
   return {from, length, static_cast<std::size_t>(count)};
 }
 
-/// The next event within the limits.
 std::optional<logs::LoggedEvent> next_within(logs::EventLog& reader, const Limits& limits) {
   auto event = reader.next();
   while (event && limits.from && event->time < *limits.from) event = reader.next();

@@ -35,7 +35,6 @@ inline constexpr std::size_t spectrum_count = 3;
 /// Values of a quantity, one per batch or class.
 using BatchValues = std::vector<double>;
 
-/// Totals of one batch.
 struct Batch {
   std::vector<double> events;              ///< with each wall, and last between balls
   double approach_speed = 0;               ///< sum [m/s]
@@ -143,7 +142,6 @@ inline constexpr double fewest_events_per_batch = 5;
 /// @throws InputError with every problem of the two logs, or of the options for them
 Comparison compare(const ComparisonOptions& options);
 
-/// The result as text.
 std::string table(const Comparison& comparison);
 
 std::string to_json(const Comparison& comparison);

@@ -11,7 +11,6 @@ namespace edmill::dem {
 
 namespace {
 
-/// Values measured on a single contact, and those of the case.
 struct Measured {
   std::vector<std::string>
       parts;                      ///< names of the groups that include it: "at cap -y", "of balls.1 at walls"
@@ -53,7 +52,6 @@ struct Surfaces {
       : normal(n), separation(dot(velocity, n)), along(velocity - n * separation) {}
 };
 
-/// The bodies of a contact in the case.
 struct Bodies {
   std::vector<std::string> parts;
   const model::ContactLaw<double>& law;
@@ -354,7 +352,6 @@ void judge_wall_velocity(const MeasuredList& walls, ContactAudit& audit) {
 
 constexpr const char* unexplained_dose = "dose with no wall or ball";
 
-/// Facts about the whole log.
 void judge_facts(const Mill& mill, ContactAudit& audit) {
   const auto& facts = audit.facts;
   const auto add = [&](const std::string& name, double found, double half_width, double expected,

@@ -15,7 +15,6 @@ using compare::Verdict;
 using numerics::Median, numerics::median_of;
 using Mill = model::Mill<double>;
 
-/// One value of the code against that of the case.
 struct Judged {
   std::string name;           ///< "restitution at walls"
   std::string unit = {};      ///< empty for numbers
@@ -70,7 +69,6 @@ struct ContactAudit {
 
   std::uint64_t jumps() const { return counts[static_cast<std::size_t>(ContactClass::jump)]; }
   bool wall_velocity_differs() const;
-  /// True if balls leave their flights at the walls of the case.
   bool walls_met() const { return wall_distance <= 2 * wall_resolution && causes.empty(); }
 };
 
@@ -80,7 +78,6 @@ ContactAudit audit_contacts(const CaseSpec& spec, const std::string& log, const 
 std::string table(const ContactAudit& audit);
 std::string to_json(const ContactAudit& audit);
 std::string contact_audit_keys();
-/// JUnit's XML, a test case for each value.
 std::string to_junit(const ContactAudit& audit);
 
 /// Finds the distance from the walls at which balls leave their flights, and the numbers of mill and vessel

@@ -31,7 +31,6 @@ std::string header() {
   return text;
 }
 
-/// The states of a contact in the order of their columns.
 auto states_of(auto& c) { return std::array{&c.before, &c.after, &c.partner_before, &c.partner_after}; }
 auto vectors_of(auto& state) { return std::array{&state.position, &state.velocity, &state.spin}; }
 

@@ -31,7 +31,6 @@ class DoseRate {
   std::vector<double> rates_;
 };
 
-/// Rates of one record with their 95 % intervals.
 struct ContactRates {
   std::string log;
   double first = 0, last = 0;            ///< ends of the time that is evaluated [s]

@@ -73,7 +73,6 @@ class FrameReader {
     std::optional<double> mass, radius, time;
   };
 
-  /// Units of a dump, in SI.
   struct Units {
     std::string_view name;
     double length, time, mass;
@@ -182,7 +181,6 @@ class ContactFinder {
   using BodyPair = std::array<int, 2>;  ///< the ball, and the other one or -1 - wall
 
   const Frame& frame(std::size_t number) const { return window_[number - first_]; }
-  /// True if a typical contact spans several frames.
   bool resolved() const { return frames_.contact_time >= 3 * frames_.interval; }
   void find_jumps();
   void watch_overlaps(const std::vector<bool>& flies);
@@ -212,7 +210,6 @@ class ContactFinder {
   bool at_end_ = false;  ///< of the frames
 };
 
-/// Facts about a whole log.
 struct ContactLogFacts {
   std::string dump;  ///< file that it was made from
   std::uint64_t frames = 0, contacts = 0;
@@ -259,7 +256,6 @@ class ContactLogWriter {
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> rows_;
 };
 
-/// True if the first line of a file is that of a contact log.
 bool is_contact_log(const std::string& file);
 
 class ContactLogReader {

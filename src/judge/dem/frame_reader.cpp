@@ -40,7 +40,6 @@ constexpr int most_columns = 1000;
 constexpr int longest_text = 100'000;  // names of all columns together [bytes]
 constexpr std::string_view magic = "DUMPCUSTOM";
 
-/// Thrown at the end of the file.
 struct EndOfFile {};
 
 /// Reads numbers in this machine's byte order. LAMMPS writes them in that of its own machine.

@@ -18,7 +18,6 @@ struct Meeting {
   Vector position;
 };
 
-/// A parameter to be fitted, with starting values.
 struct Candidate : Assumption {
   int wall = -1;  ///< wall that the value moves outward [m], if `set` is empty
 };

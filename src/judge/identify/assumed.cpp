@@ -307,7 +307,6 @@ void add_units(const Available& has, Assumptions& list) {
   add_unit("spins", &LogChange::spins, 2 * pi, "in revolutions per second in place of rad/s");
 }
 
-/// Adds axes in another order or direction.
 void add_axes(const Available& has, Assumptions& list) {
   const auto& ball = has.body[0];
   struct Vectors {
@@ -342,7 +341,6 @@ void add_axes(const Available& has, Assumptions& list) {
   } while (std::next_permutation(from.begin(), from.end()));
 }
 
-/// Adds mistakes in the contents of columns.
 void add_frames(const Available& has, Assumptions& list) {
   const auto& [ball, partner] = has.body;
   if (partner.velocity_before || partner.velocity_after)

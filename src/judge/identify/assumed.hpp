@@ -50,7 +50,6 @@ struct LogChange {
 
 // Parts of a log to which a cause may be restricted: a wall, a ball, a branch of the law.
 
-/// The event and the body of a row.
 struct RowPlace {
   std::size_t event = 0;  ///< index in the log
   int body = -1;          ///< 0 the event's ball, 1 its partner, -1 both
@@ -78,7 +77,6 @@ std::vector<SharedSubset> subsets_of(const CaseSpec& spec, const Case& the_case,
 
 struct Assumed;
 
-/// An assumption that applies to a part of a log only.
 struct Restricted {
   SharedSubset part;
   std::function<void(Assumed&)> make;
@@ -101,7 +99,6 @@ struct Assumed {
   /// Builds the case with these values. Returns nothing if the log cannot be of such a mill: its file would
   /// be refused, a ball does not fit into the vessel, or the vessel has other walls.
   std::optional<Case> built() const;
-  /// The case's file with these values.
   CaseSpec case_file() const;
   /// True if a case file can express all but the log's conventions: an audit can test it.
   bool is_case() const { return restricted.empty() && terms == Terms{}; }
@@ -110,7 +107,6 @@ struct Assumed {
 /// @pre the spec can be built
 Assumed assumed_of(const CaseSpec& spec);
 
-/// The number as an exact quantity.
 Quantity exactly(double value);
 
 /// Balls of each entry of the case, [first, last): explicit balls, then batches.
@@ -152,7 +148,6 @@ struct Assumption {
   bool excludes(const Assumption& other) const {
     return key == other.key || (of_motion && (other.of_motion || other.key.starts_with("mill.")));
   }
-  /// Returns `base` with this value, or with this mistake.
   Assumed on(Assumed base, double x) const {
     set(base, x);
     return base;

@@ -27,7 +27,6 @@ class LogResiduals {
   /// @param nominal  case that the tolerances are computed from
   LogResiduals(const EventsAtHand& log, const audit::Tolerances& tolerances, const Case& nominal);
 
-  /// For each event, the branches of the case's contact law.
   const std::vector<Branches>& branches() const { return branches_; }
 
  private:
@@ -53,7 +52,6 @@ class Residuals {
   Residuals(const LogResiduals& log, const std::vector<std::size_t>& events);
 
   std::size_t count() const { return of_case_.size(); }
-  /// Rows for the unmodified case.
   const std::vector<Residual>& of_case() const { return of_case_; }
   /// @return for each row its residual divided by the tolerance for the unmodified case; a large number if
   /// it is not finite, and for all rows if the assumed case is impossible
@@ -89,7 +87,6 @@ struct Hypothesis {
     for (const auto& f : found) all.insert(f.what.name());
     return all;
   }
-  /// True if this can be assumed in addition.
   bool allows(const Assumption& more) const {
     return std::none_of(found.begin(), found.end(),
                         [&](const Found& f) { return f.what.excludes(more) || more.excludes(f.what); });

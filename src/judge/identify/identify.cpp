@@ -51,7 +51,6 @@ Assumptions of_parts(const Assumptions& numbers) {
   return list;
 }
 
-/// Sorts hypotheses by rank, best first.
 void sort(std::vector<Hypothesis>& list) {
   std::stable_sort(list.begin(), list.end(), [](auto& a, auto& b) { return a.rank() < b.rank(); });
 }
@@ -79,9 +78,7 @@ class Evidence {
     draw_samples({nominal});
   }
 
-  /// True if there are enough rows for a search.
   bool suffices() const { return whole().count() >= 12; }
-  /// Score of the unmodified case.
   double score_of_case() const { return score_of_case_; }
   std::size_t part_count() const { return parts_.size(); }
 
@@ -155,7 +152,6 @@ class Evidence {
            10 * vanished(many_, tried.assumed()) >= 9;
   }
 
-  /// The violated rows that a hypothesis explains.
   struct Explained {
     std::set<std::size_t> rows{}, events{};
   };

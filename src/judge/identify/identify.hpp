@@ -57,7 +57,6 @@ struct Cause {
 /// log, two and three causes together, and runs of the case.
 enum class Search { single, all };
 
-/// The extent of a search, for the answer "none of these".
 struct SearchedFor {
   std::size_t numbers = 0, mistakes = 0, parts = 0;  ///< numbers of the case, and terms of the equations
   std::vector<std::string> stages;                   ///< "single causes", "two causes together"
@@ -92,7 +91,6 @@ Identification identify(const CaseSpec& spec, const Options& options, Search sea
 Identification replay(const Assumed& nominal, const Assumptions& assumptions, const EventsAtHand& log,
                       const std::function<bool()>& is_interrupted);
 
-/// Lines for the report of an audit.
 std::string table(const Identification& found);
 
 }  // namespace edmill::identify

@@ -6,7 +6,6 @@
 
 namespace edmill::identify {
 
-/// Visits the fields of an identification. docs/files.md, "Audit"
 struct Fields {
   const Identification& found;
 

@@ -446,7 +446,6 @@ constexpr TermRow term_rows[] = {
     {"time of flight, too long by", "(2.1)", &Terms::time_of_flight, Dimension::time, true},
     {"age of the velocities before impacts", "(2.1)", &Terms::age_of_velocities, Dimension::time, true}};
 
-/// Adds the factors and shifts of the terms of the equations.
 void add_terms(Assumptions& list) {
   for (const auto& row : term_rows) {
     const bool is_factor = row.shift == Dimension::none;

@@ -159,7 +159,6 @@ class Measurements {
       delays[event.with_wall ? event.partner : -1].push_back(late ? -gap / contact.approach : 0);
   }
 
-  /// A ball's flight from the impact `from` to the impact `to`.
   void flight(std::size_t from, std::size_t to, int ball) {
     const auto &begin = log_.events[from], &end = log_.events[to];
     const std::size_t side = begin.ball == ball ? 0 : 1, arriving = end.ball == ball ? 0 : 1;

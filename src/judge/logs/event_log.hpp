@@ -38,11 +38,9 @@ struct LoggedEvent : model::ImpactRecord<double> {
   bool unknown_body = false;        ///< the problem is a ball or wall that does not exist
 
   std::size_t count() const { return with_wall ? 1 : 2; }  ///< of balls
-  /// Number of the ball of a body.
   int ball_at(std::size_t place) const { return place == 0 ? ball : partner; }
 };
 
-/// Which values a log has.
 struct Available {
   struct Body {
     bool position = false, velocity_before = false, spin_before = false, velocity_after = false,
@@ -63,7 +61,6 @@ struct Available {
   bool both(bool with_wall, bool Body::*part) const { return body[0].*part && (with_wall || body[1].*part); }
 };
 
-/// How a log is written.
 struct LogConventions {
   std::vector<std::pair<std::string, std::string>> columns;  ///< ours, theirs with its unit: "t [ms]"
   int first_ball = 0;                                        ///< number of the first ball
@@ -130,7 +127,6 @@ class EventLog {
   bool at_end_ = false;
 };
 
-/// The result of every judgement of a log.
 enum class Verdict { agree, differ, too_few, not_compared };
 
 /// Names of the columns that an audit knows, in the order of edmill's own log.
@@ -140,7 +136,6 @@ const std::vector<std::string>& column_names();
 template <class T>
 using OfEach = std::array<T, model::logged_count>;
 
-/// Result of one pass over a log.
 struct LogScan {
   std::string file;
   std::uint64_t events = 0;
