@@ -23,8 +23,7 @@ struct Options {
   std::function<void(double time, std::uint64_t events)> progress;  ///< called regularly
 };
 
-/// Options from the section [audit] of a case; `log` is left empty.
-/// @throws InputError
+/// Options from the section [audit] of a case; `log` is left empty. @throws InputError
 Options options_of(const casefile::CaseSpec& spec);
 
 /// A probable cause of violations, with its evidence.

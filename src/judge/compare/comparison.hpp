@@ -54,8 +54,7 @@ Batches cut_into_batches(const std::filesystem::path& place, const BatchTimes& t
                          const SpectrumClasses& speed_classes, const SpectrumClasses& dose_classes);
 
 /// Batch values whose plain mean is sum / number of the whole and whose scatter is that of this ratio, to
-/// first order (the linearised ratio estimator).
-/// @pre the numbers are not all 0
+/// first order (the linearised ratio estimator). @pre the numbers are not all 0
 BatchValues ratio_values(const BatchValues& sums, const BatchValues& numbers);
 
 /// Largest distance of two distribution functions, with a permutation test over batches.

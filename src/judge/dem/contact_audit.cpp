@@ -114,8 +114,7 @@ Measured measured_by(const Contact& c, const Vector& gravity, const Bodies& bodi
 /// Measures the single contacts of a log with the bodies and laws of a case.
 class SingleContacts {
  public:
-  /// The mill and the vessel must outlive it.
-  /// @param gravity  in which the balls fly [m/s^2]
+  /// The mill and the vessel must outlive it. @param gravity in which the balls fly [m/s^2]
   SingleContacts(const CaseSpec& spec, const Mill& mill, const MovingVessel& vessel, const Vector& gravity)
       : mill_(mill), vessel_(vessel), gravity_(gravity), partners_(casefile::partners_of(spec)) {
     for (const auto& group : identify::ball_groups(spec))

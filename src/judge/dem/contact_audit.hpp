@@ -81,8 +81,7 @@ std::string contact_audit_keys();
 std::string to_junit(const ContactAudit& audit);
 
 /// Finds the distance from the walls at which balls leave their flights, and the numbers of mill and vessel
-/// with which it vanishes, best first.
-/// @param contacts  of single balls
+/// with which it vanishes, best first. @param contacts of single balls
 void judge_places(const CaseSpec& spec, const std::vector<Contact>& contacts,
                   const std::atomic<bool>* interrupt, ContactAudit& audit);
 

@@ -54,12 +54,10 @@ struct Frame {
 /// incomplete last frame is dropped.
 class FrameReader {
  public:
-  /// @param balls  of the case
-  /// @throws InputError when the file cannot be read
+  /// @param balls  of the case @throws InputError when the file cannot be read
   FrameReader(const std::string& file, const DumpFormat& format, std::size_t balls);
 
-  /// The next frame; false at the end.
-  /// @throws InputError naming line, found and expected
+  /// The next frame; false at the end. @throws InputError naming line, found and expected
   bool next(Frame& frame);
 
   /// Masses [kg] and radii [m] of the first frame, where the file has them.

@@ -78,8 +78,7 @@ struct Identification {
 /// Called with the name of each stage of a search when it begins.
 using Progress = std::function<void(const std::string& stage)>;
 
-/// Searches the first events of a log.
-/// @param options  of the audit; its log is read again
+/// Searches the first events of a log. @param options of the audit; its log is read again
 /// @throws InputError
 Identification identify(const CaseSpec& spec, const Options& options, Search search = Search::all,
                         const Progress& progress = {});
