@@ -39,8 +39,8 @@ class Auditor : Judge {
   void take(LoggedEvent& event) {
     findings_.judged(Check::order);
     findings_.judged(Check::bodies);
-    if (event.earlier_by > 0)
-      report(Kind::out_of_order, event, event.earlier_by, event.time, event.time + event.earlier_by);
+    if (const double by = event.earlier_by; by > 0)
+      report(Kind::out_of_order, event, by, event.time, event.time + by);
     for (std::size_t body = 0; body < event.count(); ++body) {
       least_ball_ = std::min(least_ball_, event.ball_at(body));
       most_ball_ = std::max(most_ball_, event.ball_at(body));
@@ -192,14 +192,14 @@ class Auditor : Judge {
     findings_.judged(Check::touch);
     const double gap = gap_of(event, case_, frame);
     if (std::abs(gap) <= allowed) return {};
-    if (event.with_wall && another_body_is_met(event, frame, allowed, std::abs(gap)))
+    if (event.with_wall && another_is_met(event, frame, allowed, std::abs(gap)))
       return {false, event.with_wall};  // the log lacks the state of the other ball, if it was one
     report(gap < 0 ? Kind::late_event : Kind::early_event, event, std::abs(gap), gap, 0);
     return {gap < 0, true};
   }
 
   /// Finds the body that is touched, at `off` from the logged one; the other checks use it.
-  bool another_body_is_met(LoggedEvent& event, const VesselFrame& frame, double allowed, double off) {
+  bool another_is_met(LoggedEvent& event, const VesselFrame& frame, double allowed, double off) {
     const double radius = radius_of(event.ball);
     const Vec& position = event.body[0].position;
     if (!(off > radius / 100)) return false;

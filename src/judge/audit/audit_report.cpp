@@ -70,9 +70,8 @@ std::string table(const Audit& a) {
         "= {:.2g} J\n    supplied by the least separation speed in {} of them\n",
         e.impacts, e.wall_work.value(), e.milling_dose.value(), e.supplied.value(), e.kinetic_change.value(),
         e.closure(), e.supplying);
-  if (a.energies.creating > 0)
-    out += fmt::format("\n  {} impacts create energy, {:.4g} J together\n", a.energies.creating,
-                       a.energies.created);
+  if (e.creating > 0)
+    out += fmt::format("\n  {} impacts create energy, {:.4g} J together\n", e.creating, e.created);
   if (!a.diagnoses.empty()) out += "\n  the log looks like\n";
   for (const auto& d : a.diagnoses)
     out += fmt::format("    {} ({} of {}): {}\n", d.name, d.events, d.of, d.text);

@@ -206,8 +206,9 @@ class Flights : Judge {
       if (first && first->time <= from + answer.delay) continue;
       if (size(apart) < sum - off) continue;  // they overlapped already, which was reported before
       if (end.late && !end.event->with_wall && end.partner() == other) continue;
-      const double nearest = std::clamp(-dot(apart, relative) / dot(relative, relative), 0.0, to - from);
-      first = Encounter{from + answer.delay, false, other, sum - size(Vec(apart + relative * nearest))};
+      const double last = std::clamp(-dot(apart, relative) / dot(relative, relative), 0.0, to - from);
+      const double nearest = size(Vec(apart + relative * last));
+      first = Encounter{from + answer.delay, false, other, sum - nearest};
     }
     return first;
   }
@@ -281,7 +282,7 @@ class Flights : Judge {
   /// @return the distance from the end of the flight, 0 when within the tolerances [m]
   double judge_end(int ball, const Track& track, const FlightEnd& end, bool report_it) {
     const auto& has = available_.body[end.body];
-    const auto judge_equation = [&](Check check, bool violated, double off, double found, auto note) {
+    const auto judge_row = [&](Check check, bool violated, double off, double found, auto note) {
       findings_.judged(check);
       if (!violated) return;
       Finding at_end{*end.event, kind_of(check), off, found, 0, note};
@@ -295,8 +296,8 @@ class Flights : Judge {
       if (row.equation == Check::spin_kept) {
         const bool none = size(end.state().spin_before) == 0;
         if (report_it)
-          judge_equation(row.equation, row.is_violated(), row.size, row.size,
-                         none ? "the spin is 0 before the impact" : "");
+          judge_row(row.equation, row.is_violated(), row.size, row.size,
+                    none ? "the spin is 0 before the impact" : "");
       } else if (has.velocity_before) {
         ends_elsewhere = ends_elsewhere || row.is_violated();
         const bool of_place = row.kind == RowKind::place;
@@ -309,7 +310,7 @@ class Flights : Judge {
     }
     if (report_it && has.position && has.velocity_before) {
       if (resolved)
-        judge_equation(Check::flight, ends_elsewhere, off, off_velocity, "");
+        judge_row(Check::flight, ends_elsewhere, off, off_velocity, "");
       else
         findings_.unresolved(Check::flight);
     }
@@ -321,10 +322,10 @@ class Flights : Judge {
   /// @param off  distance of the logged position from the end of the flight [m]
   /// @param at  set to the time of the impact if it is, or may still be, reported [s]
   /// @return true if the impact is considered reported
-  bool report_missed(int ball, const Encounter& missed, const FlightEnd& end, double off, double& at) {
+  bool report_missed(int k, const Encounter& missed, const FlightEnd& end, double off, double& at) {
     const bool wall = missed.with_wall, flown_through = off == 0;
     const bool explained =
-        !flown_through && (wall ? explained_by_walls(ball, end) : explained_by_ball(ball, missed, end));
+        !flown_through && (wall ? explained_by_walls(k, end) : explained_by_ball(k, missed, end));
     if (wall && flown_through) ++flown_through_[missed.partner];
     if (!explained && !flown_through && missed.depth <= 2 * off) return false;
     Finding finding{*end.event,
@@ -336,12 +337,12 @@ class Flights : Judge {
                     : !flown_through ? ""
                     : wall           ? "the ball flew through the wall"
                                      : "the balls flew through each other"};
-    finding.ball = ball;
+    finding.ball = k;
     finding.with_wall = wall;
     finding.partner = missed.partner;
     finding.time = missed.time;
     if (wall) {
-      of(ball).held = finding;
+      of(k).held = finding;
     } else if (Track& other = of(missed.partner); explained) {
       findings_.add(finding);
       other.broken_from = std::min(other.broken_from, missed.time);
@@ -369,9 +370,8 @@ class Flights : Judge {
   /// impacts of a ball at one time, of which the second is late, not missed.
   void settle_held(Track& track, const LoggedEvent* next) {
     if (!track.held) return;
-    const bool reported =
-        next && next->time == track.start && next->with_wall && next->partner == track.held->partner;
-    if (!reported) findings_.add(*track.held);
+    const bool at_once = next && next->time == track.start && next->with_wall;
+    if (!at_once || next->partner != track.held->partner) findings_.add(*track.held);
     track.held.reset();
   }
 

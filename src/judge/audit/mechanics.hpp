@@ -126,7 +126,7 @@ struct LoggedImpact {
 
 /// The impact of an event, with the right velocity of the wall.
 /// @param placed  the log has the positions of the bodies; otherwise the normal is arbitrary
-LoggedImpact impact_of(const LoggedEvent& event, const Case& of, const VesselFrame& frame, bool placed);
+LoggedImpact impact_of(const LoggedEvent& event, const Case& of, const VesselFrame&, bool placed);
 
 /// Result of the contact law: the states after an impact, and e_t.
 struct Outcome {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <numeric>
 #include <random>
 
 #include "base/errors.hpp"
@@ -213,8 +212,8 @@ class Quantities {
     const BatchValues a = values_in(a_), b = values_in(b_);
     BatchValues differences(a.size());
     std::transform(b.begin(), b.end(), a.begin(), differences.begin(), std::minus());
-    const auto of_a = numerics::estimate(a), of_b = numerics::estimate(b),
-               of_both = numerics::estimate(differences);
+    const auto of_a = numerics::estimate(a), of_b = numerics::estimate(b);
+    const auto of_both = numerics::estimate(differences);
     // The tolerance on single events also applies to their mean.
     const double scale = std::max(std::abs(*of_a.mean), std::abs(*of_b.mean));
     const bool within = std::abs(*of_both.mean) <= tolerance_ * scale;
@@ -229,16 +228,16 @@ class Quantities {
         events, within ? 1 : numerics::paired_t_probability(differences));
   }
 
-  void spectrum(const std::string& name, const std::string& reason, Spectrum spectrum, double events) {
+  void spectrum(const std::string& name, const std::string& reason, Spectrum which, double events) {
     if (!reason.empty()) return skip(name, "1", reason);
     const auto empty = [&](const Batches& batches) {
       return std::all_of(batches.begin(), batches.end(), [&](const Batch& batch) {
-        const auto& values = batch.spectra[spectrum];
+        const auto& values = batch.spectra[which];
         return std::all_of(values.begin(), values.end(), [](double v) { return v == 0; });
       });
     };
     if (empty(a_) || empty(b_)) return skip(name, "1", "no impacts in one log");
-    const auto test = test_spectra(a_, b_, spectrum);
+    const auto test = test_spectra(a_, b_, which);
     add({.name = name, .unit = "1", .difference = test.distance, .half_width = test.limit}, events,
         test.probability);
   }

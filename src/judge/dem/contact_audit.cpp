@@ -1,4 +1,3 @@
-#include "dem/contact_audit.hpp"
 
 #include <fmt/format.h>
 
@@ -12,15 +11,14 @@ namespace edmill::dem {
 namespace {
 
 struct Measured {
-  std::vector<std::string>
-      parts;                      ///< names of the groups that include it: "at cap -y", "of balls.1 at walls"
-  double dose = 0;                ///< [J]
-  double approach = 0, slip = 0;  ///< at the touch [m/s]
-  double pressed = 0;             ///< relative change of the approach by gravity and walls during the contact
-  double turned = 0;              ///< rotation of the normal during the contact [rad]
-  double depth = 0;               ///< largest overlap of a Hertz contact of this duration, over the radius
-  double slip_left = 0;           ///< slip after the contact, along and relative to that at the touch
-  double wall_speed = 0;          ///< along the normal [m/s]
+  std::vector<std::string> parts;  ///< groups that include it: "at cap -y", "of balls.1 at walls"
+  double dose = 0;                 ///< [J]
+  double approach = 0, slip = 0;   ///< at the touch [m/s]
+  double pressed = 0;     ///< relative change of the approach by gravity and walls during the contact
+  double turned = 0;      ///< rotation of the normal during the contact [rad]
+  double depth = 0;       ///< largest overlap of a Hertz contact of this duration, over the radius
+  double slip_left = 0;   ///< slip after the contact, along and relative to that at the touch
+  double wall_speed = 0;  ///< along the normal [m/s]
   // Of the case:
   double law_restitution = 0, law_friction = 0;
   // Measured, if the contact determines them:
@@ -33,6 +31,7 @@ struct Measured {
 };
 
 using MeasuredList = std::vector<Measured>;
+using Of = Judged::Of;
 
 /// A value of each contact of a list that is chosen.
 std::vector<double> values_of(const MeasuredList& list, const auto& is_chosen, const auto& value) {
@@ -255,12 +254,12 @@ Judged judged(const Value& value, const std::string& where, const MeasuredList& 
   return j;
 }
 
-void judge_laws(const MeasuredList& list, Judged::Of of, ContactAudit& audit) {
+void judge_laws(const MeasuredList& list, Of of, ContactAudit& audit) {
   if (list.empty()) return;
   std::map<std::string, MeasuredList> parts;
   for (const auto& measured : list)
     for (const auto& part : measured.parts) parts[part].push_back(measured);
-  const std::string where = of == Judged::Of::walls ? "at walls" : "between balls";
+  const std::string where = of == Of::walls ? "at walls" : "between balls";
   const std::size_t first = audit.judged.size();
   std::erase_if(parts, [&](const auto& part) { return part.second.size() == list.size(); });
   const Clear is_clear(list);
@@ -336,14 +335,14 @@ void judge_wall_velocity(const MeasuredList& walls, ContactAudit& audit) {
       velocity.not_judged = "it would follow from the restitution";
     (all ? all_follow : some_follow) |= is_velocity && !velocity.agrees();
     if (some_follow && !velocity.agrees()) e->not_judged = follows_from_velocity;
-    velocity.of = Judged::Of::walls;
+    velocity.of = Of::walls;
     velocity.is_part = !all;
     audit.judged.push_back(velocity);
     if (all_follow) break;
   }
   leave_out(audit, follows_from_velocity, [=](const Judged& j) {
     const bool at_wall = j.is_part && j.name.starts_with("restitution at ");
-    return j.of == Judged::Of::walls &&
+    return j.of == Of::walls &&
            ((all_follow && j.equation != spin_change.equation && j.equation != wall_velocity.equation) ||
             (some_follow && j.equation == restitution.equation && !at_wall));
   });
@@ -354,7 +353,7 @@ constexpr const char* unexplained_dose = "dose with no wall or ball";
 void judge_facts(const Mill& mill, ContactAudit& audit) {
   const auto& facts = audit.facts;
   const auto add = [&](const std::string& name, double found, double half_width, double expected,
-                       double allowed, Judged::Of of = Judged::Of::log, const char* unit = "") {
+                       double allowed, Of of = Of::log, const char* unit = "") {
     audit.judged.push_back({.name = name,
                             .unit = unit,
                             .found = {found, found - half_width, found + half_width, Median::least},
@@ -364,8 +363,8 @@ void judge_facts(const Mill& mill, ContactAudit& audit) {
   };
   for (Eigen::Index k = 0; k < 3; ++k)
     add(fmt::format("gravity along {}", "XYZ"[k]), facts.statistics.gravity[k],
-        facts.statistics.gravity_half_width[k], mill.gravity[k], 1e-3 * norm(mill.gravity) + 1e-3,
-        Judged::Of::log, "m/s^2");
+        facts.statistics.gravity_half_width[k], mill.gravity[k], 1e-3 * norm(mill.gravity) + 1e-3, Of::log,
+        "m/s^2");
   const double size = facts.radius_factor > 0 ? facts.radius_factor : 1;
   add("density over the case's", facts.mass_factor / (size * size * size), 0, 1, 1e-6);
   add("diameter over the case's", facts.radius_factor, 0, 1, 1e-6);
@@ -374,15 +373,15 @@ void judge_facts(const Mill& mill, ContactAudit& audit) {
   // A ball that leaves its flight must have met a wall or ball, as far as the frames resolve it.
   if (const double all = facts.dose(); all > 0)
     add(unexplained_dose, facts.doses[static_cast<std::size_t>(ContactClass::unexplained)] / all, 0, 0, 0.01,
-        Judged::Of::walls);
+        Of::walls);
   if (const double factor = facts.statistics.way_factor; factor != 0)  // balls move
     add("displacements over those by velocities", factor, 0, 1, 0.01);
-  const auto none = [&](const char* name, std::uint64_t found, Judged::Of of) {
+  const auto none = [&](const char* name, std::uint64_t found, Of of) {
     add(name, static_cast<double>(found), 0, 0, 0, of);
   };
-  none("contacts missed at walls", audit.missed_at_walls, Judged::Of::walls);
-  none("contacts missed between balls", audit.missed_between_balls, Judged::Of::balls);
-  none("jumps of balls", audit.jumps(), Judged::Of::log);
+  none("contacts missed at walls", audit.missed_at_walls, Of::walls);
+  none("contacts missed between balls", audit.missed_between_balls, Of::balls);
+  none("jumps of balls", audit.jumps(), Of::log);
 }
 
 std::vector<SlipBin> slips_of(const MeasuredList& walls, const MeasuredList& balls) {
@@ -460,10 +459,10 @@ ContactAudit audit_contacts(const CaseSpec& spec, const std::string& file,
   drop_pairs(at_walls);
   audit.dose_rate = *rate.estimate().mean;
   audit.dose_rate_half_width = *rate.estimate().half_width;
-  judge_laws(walls, Judged::Of::walls, audit);
-  judge_laws(balls, Judged::Of::balls, audit);
+  judge_laws(walls, Of::walls, audit);
+  judge_laws(balls, Of::balls, audit);
   judge_wall_velocity(walls, audit);
-  for (const auto of : {Judged::Of::walls, Judged::Of::balls})
+  for (const auto of : {Of::walls, Of::balls})
     if (std::any_of(audit.judged.begin(), audit.judged.end(), [=](const Judged& j) {
           return j.of == of && j.equation == spin_change.equation && !j.agrees();
         }))
@@ -479,9 +478,9 @@ ContactAudit audit_contacts(const CaseSpec& spec, const std::string& file,
     leave_out(audit, jumps ? "balls jump" : follows_from_velocity,
               [](const Judged& j) { return j.name == unexplained_dose; });
   if (is_other_size || (!audit.causes.empty() && audit.causes[0].key.starts_with("ball")))
-    leave_out(audit, "the balls have another size", [](auto& j) { return j.of != Judged::Of::log; });
+    leave_out(audit, "the balls have another size", [](auto& j) { return j.of != Of::log; });
   else if (!audit.walls_met())
-    leave_out(audit, "the walls are elsewhere", [](auto& j) { return j.of == Judged::Of::walls; });
+    leave_out(audit, "the walls are elsewhere", [](auto& j) { return j.of == Of::walls; });
   const auto is_known = [](const Judged& j) { return j.equation == restitution.equation && j.known(); };
   if (!std::all_of(audit.judged.begin(), audit.judged.end(), [](const auto& j) { return j.agrees(); }) ||
       !audit.walls_met())

@@ -12,6 +12,8 @@ namespace edmill::dem {
 
 namespace {
 
+using Class = ContactClass;
+
 /// Longest stretch in frames. Longer ones are cut, which bounds the memory for a ball at rest.
 constexpr std::size_t longest_stretch = 4096;
 /// Number of intervals in which flights between two frames are sampled.
@@ -154,7 +156,7 @@ void ContactFinder::find_jumps() {
     const double way = norm(b.position - a.position);
     const double fastest = norm(a.velocity) + norm(b.velocity);
     if (way <= fastest * dt + vessel_.ball(ball).radius / 10) continue;
-    found_({.kind = ContactClass::jump,
+    found_({.kind = Class::jump,
             .begin = from.time,
             .end = to.time,
             .free_until = from.time,
@@ -211,7 +213,7 @@ void ContactFinder::end_overlap(const BodyPair& bodies, const Overlap& overlap) 
   const bool flies_on = overlap.depth > most && (overlap.flies[0] || overlap.flies[1]);
   if (!flies_on && overlap.depth < radius) return;
   Contact contact;
-  contact.kind = ContactClass::missed;
+  contact.kind = Class::missed;
   contact.begin = contact.free_until = overlap.begin;
   contact.end = contact.free_from = window_.back().time;
   contact.ball = bodies[0];
@@ -433,7 +435,7 @@ void ContactFinder::report(Group group) {
   contact.ball = static_cast<int>(group[0].ball);
   contact.before = frame(group[0].first).balls[group[0].ball];
   contact.after = frame(group[0].last).balls[group[0].ball];
-  contact.kind = ContactClass::several;
+  contact.kind = Class::several;
   const double duration = contact.free_from - contact.free_until;
   const bool lasts = first == 0 || duration > 3 * frames_.contact_time + 2 * frames_.interval;
   if (at_end_ && !lasts) return;
@@ -448,21 +450,20 @@ void ContactFinder::report(Group group) {
     const double change = norm(impulse(group[0])) / vessel_.ball(group[0].ball).mass;
     if (met.empty() && change < std::max(50 * frames_.kick, 1e-3)) return;
     if (met.empty())
-      contact.kind = ContactClass::unexplained;
+      contact.kind = Class::unexplained;
     else if (std::count(met.begin(), met.end(), met[0]) == std::ssize(met))
       contact.partner = met[0];
     if (lasts && !met.empty())
-      contact.kind = ContactClass::lasting;
+      contact.kind = Class::lasting;
     else if (met.size() == 1)
-      contact.kind =
-          make_single(group, contact.partner, contact) ? ContactClass::wall : ContactClass::unexplained;
+      contact.kind = make_single(group, contact.partner, contact) ? Class::wall : Class::unexplained;
   } else if (group.size() == 2) {
     const auto &a = group[0], &b = group[1];
     const Vector of_a = impulse(a), of_b = impulse(b);
     const bool alone = a.first == b.first && a.last == b.last && norm(of_a + of_b) < 0.01 * norm(of_a);
     if (alone) contact.partner = static_cast<int>(b.ball);
-    if (alone && lasts) contact.kind = ContactClass::lasting;
-    if (alone && !lasts && make_single(group, -1, contact)) contact.kind = ContactClass::pair;
+    if (alone && lasts) contact.kind = Class::lasting;
+    if (alone && !lasts && make_single(group, -1, contact)) contact.kind = Class::pair;
   }
   found_(contact);
 }

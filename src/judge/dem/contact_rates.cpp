@@ -4,7 +4,6 @@
 
 #include "base/clean_text.hpp"
 #include "base/errors.hpp"
-#include "dem/contacts.hpp"
 #include "io/fields.hpp"
 
 namespace edmill::dem {
@@ -211,7 +210,7 @@ Limit limit_of(const std::vector<std::string>& logs, const std::string& run, dou
   Limit limit;
   for (const auto& log : logs) limit.points.push_back(rates_of_contacts(log, {from}, -INFINITY));
   std::sort(limit.points.begin(), limit.points.end(),
-            [](const auto& a, const auto& b) { return a.contact_time > b.contact_time; });
+            [](auto& a, auto& b) { return a.contact_time > b.contact_time; });
   numerics::Line line;
   for (const auto& p : limit.points) line.add(p.contact_time, p.dose_rate, 1 / (p.half_width * p.half_width));
   const double least = limit.points.back().contact_time, most = limit.points.front().contact_time;

@@ -1,15 +1,18 @@
-// Dose rates of contact logs: compared with a run of edmill or with another contact log, and extrapolated to
-// zero contact time from runs of one deck with several contact times.
+// Judgements of contact logs: audits, and dose rates, compared with a run or another log and extrapolated to
+// zero contact time. docs/dem.md
 #pragma once
 
-#include <algorithm>
-
 #include "base/statistics.hpp"
+#include "casefile/build_case.hpp"
 #include "compare/comparison.hpp"
+#include "dem/contacts.hpp"
 
 namespace edmill::dem {
 
+using casefile::CaseSpec;
 using compare::Verdict;
+using numerics::Median, numerics::median_of;
+using Mill = model::Mill<double>;
 
 /// A dose rate with its interval, from batches of equal duration, which may be correlated.
 class DoseRate {
@@ -76,5 +79,75 @@ Limit limit_of(const std::vector<std::string>& logs, const std::string& run, dou
 std::string table(const Limit& limit);
 std::string to_json(const Limit& limit);
 std::string limit_keys();
+
+struct Judged {
+  std::string name;           ///< "restitution at walls"
+  std::string unit = {};      ///< empty for numbers
+  std::string equation = {};  ///< number of the equation in theory.md
+  Median found = {};
+  double expected = 0;
+  double allowed = 0;     ///< tolerance beyond the interval, for finite contacts and time steps
+  double dose_share = 0;  ///< share of the dose of the contacts that determine it
+  double spread = 0;      ///< half of the interquartile range
+
+  enum class Of { log, walls, balls } of = Of::log;
+  bool is_part = false;         ///< for a part of the contacts: of one wall, or one kind of balls
+  std::string not_judged = {};  ///< the reason, other than too few contacts, if it is not judged
+
+  bool known() const { return not_judged.empty() && found.known(); }
+  /// A value is open if too few contacts determine it, with more than this share of the dose.
+  static constexpr double large_share = 0.05;
+  bool is_open() const { return not_judged.empty() && !found.known() && dose_share > large_share; }
+  bool agrees() const {
+    return !known() || (found.low - allowed <= expected && expected <= found.high + allowed);
+  }
+};
+
+/// A parameter of the case that explains where balls left their flights.
+struct GeometryCause {
+  std::string key;
+  std::string text;  ///< "10.45 +- 0.01 mm, the case has 11 mm"
+  double value = 0, half_width = 0, expected = 0;
+  double left = 0;  ///< median distance from the walls with this value [m]
+};
+
+/// e_t, the fraction of the slip that a contact leaves, for a range of slip over approach speed.
+struct SlipBin {
+  double ratio = 0;  ///< median in the bin
+  Median of_walls, of_balls;
+};
+
+struct ContactAudit {
+  std::string case_name, log_name;
+  ContactLogFacts facts;
+  Verdict verdict = Verdict::too_few;
+  ByClass<std::uint64_t> counts{};
+  double magnitude = 0;  ///< sum of |dose| over all contacts [J]
+  std::uint64_t missed_at_walls = 0, missed_between_balls = 0;
+  std::vector<Judged> judged;
+  std::vector<SlipBin> slips;
+  double wall_distance = 0;    ///< median from the case's walls to where balls left their flights [m]
+  double wall_resolution = 0;  ///< resolution of that distance by the frames [m]
+  std::vector<GeometryCause> causes;
+  double dose_rate = 0, dose_rate_half_width = 0;  ///< [W]
+  bool interrupted = false;
+
+  std::uint64_t jumps() const { return counts[static_cast<std::size_t>(ContactClass::jump)]; }
+  bool wall_velocity_differs() const;
+  bool walls_met() const { return wall_distance <= 2 * wall_resolution && causes.empty(); }
+};
+
+/// @throws InputError when the log cannot be read or is of other balls
+ContactAudit audit_contacts(const CaseSpec& spec, const std::string& log, const std::atomic<bool>* interrupt);
+
+std::string table(const ContactAudit& audit);
+std::string to_json(const ContactAudit& audit);
+std::string contact_audit_keys();
+std::string to_junit(const ContactAudit& audit);
+
+/// Finds the distance from the walls at which balls leave their flights, and the numbers of mill and vessel
+/// with which it vanishes, best first. @param contacts of single balls
+void judge_places(const CaseSpec& spec, const std::vector<Contact>& contacts,
+                  const std::atomic<bool>* interrupt, ContactAudit& audit);
 
 }  // namespace edmill::dem

@@ -2,7 +2,7 @@
 
 #include "base/clean_text.hpp"
 #include "base/version.hpp"
-#include "dem/contact_audit.hpp"
+#include "dem/contact_rates.hpp"
 #include "io/fields.hpp"
 
 namespace edmill::dem {

@@ -1,7 +1,7 @@
 // Finds the number of the mill or vessel with which the walls are where balls left their flights.
 #include <fmt/format.h>
 
-#include "dem/contact_audit.hpp"
+#include "dem/contact_rates.hpp"
 #include "identify/assumed.hpp"
 
 namespace edmill::dem {
@@ -229,8 +229,7 @@ void judge_places(const CaseSpec& spec, const std::vector<Contact>& contacts,
                           std::abs(cause->value - cause->expected) > half_widths * cause->half_width;
     if (!met || is_clear) audit.causes.push_back(*cause);
   }
-  std::sort(audit.causes.begin(), audit.causes.end(),
-            [](const auto& a, const auto& b) { return a.left < b.left; });
+  std::sort(audit.causes.begin(), audit.causes.end(), [](auto& a, auto& b) { return a.left < b.left; });
 }
 
 }  // namespace edmill::dem

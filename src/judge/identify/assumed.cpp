@@ -131,19 +131,18 @@ std::vector<SharedSubset> subsets_of(const CaseSpec& spec, const Case& the_case,
     add(std::move(name), false,
         [&events, holds](const RowPlace& at) { return !at.of_flight && holds(events[at.event], at.event); });
   };
-  of_impacts("with walls", [](auto& e, std::size_t) { return e.with_wall; });
-  of_impacts("between balls", [](auto& e, std::size_t) { return !e.with_wall; });
+  of_impacts("with walls", [](auto& e, auto) { return e.with_wall; });
+  of_impacts("between balls", [](auto& e, auto) { return !e.with_wall; });
   const auto walls = the_case.mill.walls();
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall)
-    of_impacts("at " + walls[wall].meaning,
-               [wall](auto& e, std::size_t) { return e.with_wall && e.partner == wall; });
+    of_impacts("at " + walls[wall].meaning, [=](auto& e, auto) { return e.with_wall && e.partner == wall; });
   /// Adds the impacts at the walls that satisfy `is_one`, if these are several but not all.
   const auto at_walls = [&](const std::string& name, const auto& is_one) {
     std::vector<bool> at;
     for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) at.push_back(is_one(wall));
     const std::size_t number = std::count(at.begin(), at.end(), true);
     if (number > 1 && number < at.size())
-      of_impacts("at " + name, [at](auto& e, std::size_t) { return e.with_wall && at[e.partner]; });
+      of_impacts("at " + name, [at](auto& e, auto) { return e.with_wall && at[e.partner]; });
   };
   const auto& mill = the_case.mill;
   at_walls("flat walls", [&](int k) { return !mill.body_of(k) && mill.vessel.is_flat(k); });
@@ -156,7 +155,7 @@ std::vector<SharedSubset> subsets_of(const CaseSpec& spec, const Case& the_case,
   for (const auto& group : groups)
     if (groups.size() > 1 && group.last - group.first > 1)
       of_impacts("in impacts of " + group.key,
-                 [group](auto& e, std::size_t) { return takes_part(e, group.first, group.last); });
+                 [group](auto& e, auto) { return takes_part(e, group.first, group.last); });
   const auto of_branch = [&](const char* name, bool Branches::*member, bool value) {
     of_impacts(name, [=, &branches](const LoggedEvent&, std::size_t k) {
       return branches[k].known && branches[k].*member == value;
@@ -168,7 +167,7 @@ std::vector<SharedSubset> subsets_of(const CaseSpec& spec, const Case& the_case,
   of_branch("where the restitution applies", &Branches::at_least_separation, false);
   const auto& balls = the_case.balls;
   of_impacts("between balls that are not alike",
-             [&balls](auto& e, std::size_t) { return !e.with_wall && !(balls[e.ball] == balls[e.partner]); });
+             [&balls](auto& e, auto) { return !e.with_wall && !(balls[e.ball] == balls[e.partner]); });
   // Rows of both bodies, those of the energy, are affected by a change of either body.
   add("on the partner", false,
       [&events](const RowPlace& at) { return !at.of_flight && at.body != 0 && !events[at.event].with_wall; });
@@ -178,7 +177,7 @@ std::vector<SharedSubset> subsets_of(const CaseSpec& spec, const Case& the_case,
   const int count = static_cast<int>(balls.size());
   for (int ball = 0; ball < count && count <= most_balls && count > 1; ++ball) {
     of_impacts(fmt::format("in impacts of ball {}", ball),
-               [ball](auto& e, std::size_t) { return takes_part(e, ball, ball + 1); });
+               [ball](auto& e, auto) { return takes_part(e, ball, ball + 1); });
     add(fmt::format("on ball {}", ball), true, [&events, ball](const RowPlace& at) {
       const auto& event = events[at.event];
       return at.body < 0 ? takes_part(event, ball, ball + 1) : event.ball_at(at.body) == ball;
@@ -281,8 +280,8 @@ void add_factors(const Assumptions& numbers, Assumptions& list) {
 
 void add_units(const Available& has, Assumptions& list) {
   const auto& ball = has.body[0];
-  const auto add_unit = [&](const char* columns, double LogChange::*member, double by, std::string text) {
-    add(list, fmt::format("the log's {}", columns), std::move(text), [=](Assumed& a) { a.log.*member = by; });
+  const auto add_unit = [&](const std::string& columns, double LogChange::*member, double by, auto text) {
+    add(list, "the log's " + columns, text, [=](Assumed& a) { a.log.*member = by; });
   };
   struct Columns {
     bool logged;
@@ -336,7 +335,7 @@ void add_axes(const Available& has, Assumptions& list) {
         });
       for (const auto& v : vectors)
         if (v.logged)
-          add(list, fmt::format("the log's {}", v.name), text, [=](Assumed& a) { a.log.*v.axes = axes; });
+          add(list, std::string("the log's ") + v.name, text, [=](Assumed& a) { a.log.*v.axes = axes; });
     }
   } while (std::next_permutation(from.begin(), from.end()));
 }

@@ -90,8 +90,9 @@ VectorXd weights_of(const VectorXd& rows, double scale) {
 
 /// The cost function that iterations with weights of scale 1 minimise.
 double cauchy_cost(const VectorXd& rows) {
-  return std::accumulate(rows.begin(), rows.end(), 0.0,
-                         [](double sum, double r) { return sum + std::log1p(r * r); });
+  double cost = 0;
+  for (const double r : rows) cost += std::log1p(r * r);
+  return cost;
 }
 
 /// Sets the intervals: three standard deviations for noise of the size of the residuals, plus the effect of
@@ -144,8 +145,8 @@ audit::Rows LogResiduals::rows_of(std::size_t k, const Case& model, const LogCha
   const audit::Equations equations(log_.available, tolerances_, terms, true);
   const LoggedEvent& event = event_at(k, copy);
   const bool placed = log_.available.positions(event.with_wall);
-  const auto frame =
-      event.with_wall && placed ? audit::vessel_at(model.mill, event.time, false) : audit::VesselFrame{};
+  audit::VesselFrame frame;
+  if (event.with_wall && placed) frame = audit::vessel_at(model.mill, event.time, false);
   auto impact = audit::impact_of(event, model, frame, placed);
   impact.in_stall = in_stall_[k];
   impact.arm = terms.arm;
@@ -302,12 +303,12 @@ void fit(const Residuals& sample, Hypothesis& tried) {
 }
 
 VectorXd sensitivity(const Residuals& sample, const Assumed& base, const VectorXd& rows,
-                     const Assumption& number) {
-  // A restitution or least separation speed of 0 may need a large step to have any effect.
+                     const Assumption& p) {  // A restitution or least separation speed of 0 may need a large
+                                             // step to have any effect.
   for (const double length : {1e-6, 1.0}) {
-    if (!number.is_of_case() || (length == 1 && number.value != 0)) break;
-    const double step = possible_step(base, number, number.value, length);
-    const VectorXd moved = sample.rows(number.on(base, number.value + step * number.change)) - rows;
+    if (!p.is_of_case() || (length == 1 && p.value != 0)) break;
+    const double step = possible_step(base, p, p.value, length);
+    const VectorXd moved = sample.rows(p.on(base, p.value + step * p.change)) - rows;
     const VectorXd slope = (moved.array().abs() > rounding_of_rows).select(moved / step, 0);
     if (!slope.isZero(0)) return slope;
   }

@@ -40,7 +40,7 @@ class LogResiduals {
 
   const EventsAtHand& log_;
   audit::Tolerances tolerances_;
-  std::vector<std::array<Before, 2>> before_;  ///< the impact at which the flight of each body began
+  std::vector<std::array<Before, 2>> before_;  ///< where the flight of each body began
   std::vector<bool> in_stall_;                 ///< for each event: frictionless
   std::vector<Branches> branches_;
   const Case& nominal_;
@@ -68,7 +68,7 @@ class Residuals {
 /// Assumptions that together may explain a log; their numbers are fitted together.
 struct Hypothesis {
   Assumed nominal;
-  std::vector<Found> found = {};  ///< mistakes first: a number may be one of the mill that a mistake makes
+  std::vector<Found> found = {};  ///< mistakes first: a number may be of the mill that one makes
   double score = 0;               ///< Schwarz's criterion: misfit + numbers ln(rows) + what each choice costs
   double plainness = 0;           ///< bonus for factors like 2 or -1, unlikely to be chance
   std::uint64_t left = 0, of = 0;  ///< violations, or events with some, with it and without

@@ -105,7 +105,7 @@ class Evidence {
       return Residuals(residuals_, {chosen.begin(), chosen.end()});
     };
     const auto known =
-        std::find_if(events.begin(), events.end(), [](const auto& e) { return std::isfinite(e.time); });
+        std::find_if(events.begin(), events.end(), [](auto& e) { return std::isfinite(e.time); });
     const double begin = known == events.end() ? 0 : known->time, end = events.back().time;
     const double early = events[std::min<std::size_t>(79, events.size() - 1)].time - begin;
     const double span = end - begin, first = std::max(period_, early);

@@ -58,7 +58,7 @@ struct Cause {
 enum class Search { single, all };
 
 struct SearchedFor {
-  std::size_t numbers = 0, mistakes = 0, parts = 0;  ///< numbers of the case, and terms of the equations
+  std::size_t numbers = 0, mistakes = 0, parts = 0;  ///< of the case, and terms
   std::vector<std::string> stages;                   ///< "single causes", "two causes together"
 };
 

@@ -42,8 +42,7 @@ void each_number(Part& part, F&& f) {
   std::visit([&](auto& own) { own.parameters(own, visit); }, part);
 }
 
-template <class Member>
-void add_numbers(const std::string& section, const Assumed& nominal, Member member, Assumptions& list) {
+void add_numbers(const std::string& section, const Assumed& nominal, auto member, Assumptions& list) {
   auto part = nominal.spec.*member;
   std::size_t place = 0;
   each_number(part, [&](const Parameter& p, Quantity& q, int axis) {
@@ -72,10 +71,10 @@ void add_joints(const std::string& section, Assumed nominal,
                 const std::function<std::vector<std::vector<model::Joint<Quantity>>*>(Assumed&)>& chains,
                 Assumptions& list) {
   const auto joints = *chains(nominal).front();
-  const auto first_turn = std::find_if(joints.begin(), joints.end(), [](auto& j) { return j.rotates; });
+  const auto turn = std::find_if(joints.begin(), joints.end(), [](auto& j) { return j.rotates; });
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const auto& joint = joints[j];
-    const bool behind = static_cast<std::ptrdiff_t>(j) >= first_turn - joints.begin();
+    const bool behind = static_cast<std::ptrdiff_t>(j) >= turn - joints.begin();
     const auto add = [&](const std::string& key, Dimension dimension, auto member) {
       const Quantity& value = *member(joint);
       if (value.zero()) return;
@@ -89,7 +88,7 @@ void add_joints(const std::string& section, Assumed nominal,
                             }));
     };
     for (int axis = 0; axis < 3; ++axis)
-      add(with_axis("translate", axis), Dimension::length, [axis](auto& j) { return &j.shift[axis]; });
+      add(with_axis("translate", axis), Dimension::length, [=](auto& j) { return &j.shift[axis]; });
     add("angle", Dimension::angle, [](auto& j) { return &j.angle; });
     add("speed", joint.rotates ? Dimension::angular_speed : Dimension::speed,
         [](auto& j) { return &j.speed; });
@@ -109,11 +108,11 @@ void add_bodies(const Assumed& nominal, Assumptions& list) {
   const auto& bodies = nominal.spec.bodies;
   std::size_t first = 0;
   for (std::size_t entry = 0; first < bodies.size(); ++entry) {
-    const auto is_copy = [where = bodies[first].where](auto& other) { return other.where == where; };
+    const auto is_copy = [where = bodies[first].where](auto& b) { return b.where == where; };
     const std::size_t end = first + std::count_if(bodies.begin(), bodies.end(), is_copy);
     const auto key = fmt::format("body.{}", entry);
-    const auto add = [&](const std::string& name, Dimension dimension, const Quantity& q, auto set) {
-      list.push_back(number(key + "." + name, dimension, q.to<double>(), [=](Assumed& a, double x) {
+    const auto add = [&](const std::string& name, Dimension of, const Quantity& q, auto set) {
+      list.push_back(number(key + "." + name, of, q.to<double>(), [=](Assumed& a, double x) {
         for (std::size_t k = first; k < end; ++k) set(a.spec.bodies[k], exactly(x));
       }));
     };
@@ -209,7 +208,7 @@ void add_gravity(const Assumed& nominal, Assumptions& list) {
   }));
   // Two tilts of the direction, towards the two axes that are closest to perpendicular to it.
   std::array<int, 3> axes = {0, 1, 2};
-  std::sort(axes.begin(), axes.end(), [&](int i, int j) { return std::abs(g[i]) < std::abs(g[j]); });
+  std::sort(axes.begin(), axes.end(), [&](int a, int b) { return std::abs(g[a]) < std::abs(g[b]); });
   const int along = axes[2];
   for (int tilt = 0; tilt < 2; ++tilt) {
     const int axis = axes[tilt];

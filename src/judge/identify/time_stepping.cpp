@@ -167,8 +167,7 @@ class Measurements {
     if (!(dt > 0)) return;
     const Vec& g = case_.mill.gravity;
     const Vec off = came.position - (left.position + (left.velocity_after + g * (dt / 2)) * dt);
-    const double noise =
-        tolerances_.position(end.time, size(left.velocity_after) * dt, size(left.velocity_after));
+    const double speed = size(left.velocity_after), noise = tolerances_.position(end.time, speed * dt, speed);
     auto &first = contacts[from], &second = contacts[to];
     // A late departure displaces the ball by the delay times its velocity at the end of the flight.
     const double leaving = dot(Vec(left.velocity_after + g * dt - first.carrier), first.normal);

@@ -4,7 +4,6 @@
 
 #include "audit/audit_fields.hpp"
 #include "base/errors.hpp"
-#include "dem/contact_audit.hpp"
 #include "dem/contact_rates.hpp"
 #include "identify/identify_fields.hpp"
 #include "io/input_file.hpp"

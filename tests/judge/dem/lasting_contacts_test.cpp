@@ -9,7 +9,7 @@
 
 #include "base/errors.hpp"
 #include "casefile/case_spec.hpp"
-#include "dem/contact_audit.hpp"
+#include "dem/contact_rates.hpp"
 #include "dem/import_dump.hpp"
 #include "small_dem.hpp"
 
