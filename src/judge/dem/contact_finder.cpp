@@ -143,7 +143,9 @@ void ContactFinder::add(Frame next) {
   if (!ended.empty()) settle();
   find_jumps();
   watch_overlaps(flies);
-  forget();
+  std::size_t needed = now;
+  for (const auto& stretch : stretches_) needed = std::min(needed, stretch.first);
+  for (; first_ < needed; ++first_) window_.pop_front();
 }
 
 /// Reports balls that moved farther in an interval than the velocities at its ends allow.
@@ -466,15 +468,6 @@ void ContactFinder::report(Group group) {
     if (alone && !lasts && make_single(group, -1, contact)) contact.kind = Class::pair;
   }
   found_(contact);
-}
-
-void ContactFinder::forget() {
-  std::size_t needed = first_ + window_.size() - 1;
-  for (const auto& stretch : stretches_) needed = std::min(needed, stretch.first);
-  while (first_ < needed) {
-    window_.pop_front();
-    ++first_;
-  }
 }
 
 }  // namespace edmill::dem

@@ -193,7 +193,6 @@ class ContactFinder {
   double dose_of(const Group& group) const;
   double work_of_bodies(const Stretch& s, const std::vector<int>& walls) const;
   bool make_single(const Group& group, int wall, Contact& contact) const;
-  void forget();
 
   const MovingVessel& vessel_;
   FrameStatistics frames_;

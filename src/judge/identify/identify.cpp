@@ -384,8 +384,6 @@ class Searcher {
         nominal_(assumed_of(spec)),
         the_case_(casefile::build_case<double>(spec).the_case),
         options_(std::move(options)) {
-    from_start_ = options_.from_start;
-    options_.from_start = false;
     options_.examples = 0;
     options_.progress = nullptr;
     log_ = audit::read_events(the_case_, options_, search == Search::all ? most_events : most_for_single);
@@ -394,26 +392,31 @@ class Searcher {
     mistakes_ = mistakes_of(nominal_, numbers_, log_.available);
   }
 
-  const EventsAtHand& log() const { return log_; }
-  const Case& the_case() const { return the_case_; }
-
   Identification run() {
     Identification result;
+    find_causes(result);
+    if (!result.interrupted) result.stepping = time_stepping(log_, the_case_, options_);
+    // If the cause explains all violations, overlaps do not indicate a time step.
+    if (!result.causes.empty() && result.causes[0].explains == result.causes[0].of)
+      result.stepping.step_by_depth.reset();
+    return result;
+  }
+
+ private:
+  void find_causes(Identification& result) {
     result.search = search_;
     result.events = log_.events.size();
-    if ((result.interrupted = is_interrupted()) || log_.events.empty()) return result;
-    if (!log_.available.body[0].position && from_start_ && search_ == Search::all) {
-      follow(result);
-      return result;
-    }
+    if ((result.interrupted = is_interrupted()) || log_.events.empty()) return;
+    if (!log_.available.body[0].position && options_.from_start && search_ == Search::all)
+      return follow(result);
     const auto audited = audit::audit(the_case_, log_, options_);
     result.violations = audited.findings.total();
-    if (result.violations == 0) return result;
-    result.too_few = std::count_if(log_.events.begin(), log_.events.end(),
-                                   [](const auto& e) { return e.problem.empty(); }) < 12;
-    if (result.too_few) return result;
+    if (result.violations == 0) return;
+    const auto is_good = [](auto& e) { return e.problem.empty(); };
+    result.too_few = std::count_if(log_.events.begin(), log_.events.end(), is_good) < 12;
+    if (result.too_few) return;
     evidence_.emplace(log_, options_, the_case_, nominal_, result.violations);
-    if ((result.too_few = !evidence_->suffices())) return result;
+    if ((result.too_few = !evidence_->suffices())) return;
     tried_ = {{nominal_}};
     result.tried = {numbers_.size(), mistakes_.size(), evidence_->part_count(), {}};
     for (const auto& stage : stages) {
@@ -427,10 +430,8 @@ class Searcher {
     }
     result.interrupted = is_interrupted();
     report(result);
-    return result;
   }
 
- private:
   bool is_interrupted() const { return interrupt_ && interrupt_->load(std::memory_order_relaxed); }
 
   /// Replays the log: impacts without positions are compared with a run from the initial state.
@@ -498,13 +499,11 @@ class Searcher {
   }
 
   Cause cause_of(const Hypothesis& h) const {
-    Cause cause;
-    cause.found = h.found;
-    cause.of = h.of;
-    cause.explains = cause.of - std::min(cause.of, h.left);
-    cause.gain = evidence_->score_of_case() - h.score;
-    cause.others = h.others;
-    return cause;
+    return {.found = h.found,
+            .explains = h.of - std::min(h.of, h.left),
+            .of = h.of,
+            .others = h.others,
+            .gain = evidence_->score_of_case() - h.score};
   }
 
   /// The best accepted hypothesis. A larger one must explain half of what a smaller one leaves.
@@ -554,20 +553,13 @@ class Searcher {
   std::optional<Evidence> evidence_;
   std::vector<Hypothesis> tried_, accepted_;
   const std::atomic<bool>* interrupt_ = nullptr;
-  bool from_start_ = false;
 };
 
 }  // namespace
 
 Identification identify(const CaseSpec& spec, const Options& options, Search search,
                         const Progress& progress) {
-  Searcher searcher(spec, options, search, progress);
-  auto result = searcher.run();
-  if (!result.interrupted) result.stepping = time_stepping(searcher.log(), searcher.the_case(), options);
-  // If the cause explains all violations, overlaps do not indicate a time step.
-  if (!result.causes.empty() && result.causes[0].explains == result.causes[0].of)
-    result.stepping.step_by_depth.reset();
-  return result;
+  return Searcher(spec, options, search, progress).run();
 }
 
 }  // namespace edmill::identify
