@@ -15,15 +15,26 @@
 
 namespace edmill::cli {
 
+/// Adds an option whose value keeps to a rule.
+CLI::Option* add_checked(CLI::App& command, const std::string& name, auto& target, const CLI::Validator& rule,
+                         const std::string& what) {
+  return command.add_option(name, target, what)->check(rule);
+}
+CLI::Option* add_required(CLI::App& command, const std::string& name, auto& target, const std::string& what) {
+  return command.add_option(name, target, what)->required();
+}
+/// Adds an option that can be repeated, with one value each time.
+void add_list(CLI::App& command, const std::string& name, auto& target, const std::string& what) {
+  command.add_option(name, target, what)->take_all()->expected(1);
+}
+
 struct CaseArgument {
   std::string file;
   std::vector<std::string> overrides;
 
   void add_to(CLI::App& command, const std::string& name = "case") {
-    command.add_option(name, file, "case file (TOML)")->required();
-    command.add_option("--set", overrides, "section.key=value that overrides the case file; can be repeated")
-        ->take_all()
-        ->expected(1);
+    add_required(command, name, file, "case file (TOML)");
+    add_list(command, "--set", overrides, "section.key=value that overrides the case file; can be repeated");
   }
   casefile::CaseSpec read() const { return casefile::read_case(file, overrides); }
 };

@@ -41,13 +41,9 @@ struct New {
     command.add_option("--jar", wanted_.jar,
                        "volume of the jar, \"250ml\", or its inner diameter and height, \"75x57mm\" "
                        "(default: the usual jar of the mill)");
-    command
-        .add_option(
-            "--balls", wanted_.balls,
-            "number, diameter and optional material of balls, \"10x12.7mm\" or \"10x12.7mm:zirconia\"; with "
-            "--fill or --bpr the diameter alone; can be repeated (default: \"10x10mm:steel\")")
-        ->take_all()
-        ->expected(1);
+    add_list(command, "--balls", wanted_.balls,
+             "number, diameter and optional material of balls, \"10x12.7mm\" or \"10x12.7mm:zirconia\"; with "
+             "--fill or --bpr the diameter alone; can be repeated (default: \"10x10mm:steel\")");
     command.add_option("--fill", wanted_.fill,
                        "share of the jar that the balls fill, including the gaps between them, \"30%\": "
                        "determines the number of balls");

@@ -194,19 +194,13 @@ struct Run : RunCommand {
         },
         "");
     command.add_option("--out", folder_, "folder for the results (default: out/<case name>)");
-    command
-        .add_option("--precision", precision_,
-                    "scalar of the run, one that edmill --version lists (default: that of the case)")
-        ->check(precisions);
-    auto* shadow = command
-                       .add_option("--shadow", shadow_,
-                                   "also run in this wider scalar and report when the two runs diverge")
-                       ->check(precisions);
-    command
-        .add_option("--digits", digits_,
-                    "number of correct digits in every event and number; edmill chooses the precision and "
-                    "verifies it")
-        ->check(CLI::Range(1, 100000))
+    add_checked(command, "--precision", precision_, precisions,
+                "scalar of the run, one that edmill --version lists (default: that of the case)");
+    add_checked(command, "--shadow", shadow_, precisions,
+                "also run in this wider scalar and report when the two runs diverge");
+    add_checked(command, "--digits", digits_, CLI::Range(1, 100000),
+                "number of correct digits in every event and number; edmill chooses the precision and "
+                "verifies it")
         ->excludes("--precision");
     command.add_flag("--estimate", estimate_,
                      "estimate events, digits, time and memory of the run without running it");
@@ -215,25 +209,16 @@ struct Run : RunCommand {
                          "also find out what the dose rate depends on, by six more runs with another seed, "
                          "half of the least separation speed, and other restitution and friction (default "
                          "with --report if the run has fewer than a million impacts)");
-    auto* checkpoint =
-        command.add_option("--checkpoint", checkpoint_, every + " (default: never)")->excludes(shadow);
-    auto* report =
-        command.add_flag("--report", report_, "also write report.html and the tables that it shows");
-    check->excludes(checkpoint);
-    command
-        .add_option("--uncertainty", uncertainty_,
-                    "uncertainty of restitution and friction for --check (default: 0.1)")
-        ->check(CLI::Range(0.001, 1.0));
-    command
-        .add_option("--seeds", seeds_,
+    command.add_option("--checkpoint", checkpoint_, every + " (default: never)")->excludes("--shadow");
+    command.add_flag("--report", report_, "also write report.html and the tables that it shows");
+    check->excludes("--checkpoint");
+    add_checked(command, "--uncertainty", uncertainty_, CLI::Range(0.001, 1.0),
+                "uncertainty of restitution and friction for --check (default: 0.1)");
+    auto* seeds =
+        add_checked(command, "--seeds", seeds_, CLI::Range(2, 100000),
                     "number of runs on all cores, with the seed of the case and the following ones: reports "
-                    "their common result and the steady states in which they settle")
-        ->check(CLI::Range(2, 100000))
-        ->excludes(shadow)
-        ->excludes(checkpoint)
-        ->excludes(report)
-        ->excludes(check)
-        ->excludes("--digits");
+                    "their common result and the steady states in which they settle");
+    seeds->excludes("--shadow", "--checkpoint", "--report", "--check", "--digits");
     command.add_flag("--quiet", quiet_, quiet_run);
     command.add_option(
         "--until-precision", until_precision_,
@@ -301,7 +286,7 @@ struct Resume : RunCommand {
   static constexpr const char* what = "continue an unfinished run from its checkpoint";
 
   void add_options(CLI::App& command) {
-    command.add_option("folder", folder_, "folder of the run")->required();
+    add_required(command, "folder", folder_, "folder of the run");
     command.add_option("--checkpoint", checkpoint_, every + " (default: as before)");
     command.add_flag("--quiet", quiet_, quiet_run);
   }
@@ -314,8 +299,7 @@ struct Report {
       "make the HTML page of a run from its files, or a page that compares several runs";
 
   void add_options(CLI::App& command) {
-    command.add_option("folder", folders_, "folder of a run, or folders of several runs to compare")
-        ->required();
+    add_required(command, "folder", folders_, "folder of a run, or folders of several runs to compare");
     command.add_option("--out", file_,
                        "file for the page that compares several runs (default: comparison.html)");
     command.add_flag("--quiet", quiet_, "do not print the path of the page");
