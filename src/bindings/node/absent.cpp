@@ -3,7 +3,6 @@
 #include "app/certify.hpp"
 #include "app/judge.hpp"
 #include "app/study.hpp"
-#include "app/variations.hpp"
 #include "core_alone/missing_part.hpp"
 #include "report/report_page.hpp"
 #include "run/sensitivity.hpp"

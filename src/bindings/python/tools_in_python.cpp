@@ -6,11 +6,10 @@
 #include <tuple>
 
 #include "app/certify.hpp"
-#include "app/check_case.hpp"
+#include "app/check.hpp"
 #include "app/judge.hpp"
 #include "app/run.hpp"
 #include "app/study.hpp"
-#include "app/variations.hpp"
 #include "base/clean_text.hpp"
 #include "base/errors.hpp"
 #include "casefile/quantity.hpp"

@@ -19,7 +19,7 @@ struct RunOptions : run::RunSetup {
   std::string folder;   ///< of the outputs
   bool report = false;  ///< write the page report.html, and the tables that it shows
   bool check = false;   ///< find what decides the dose rate; with a report also where that takes seconds
-  /// Finds what decides the dose rate of a run that has ended, as text (app/variations.hpp).
+  /// Finds what decides the dose rate of a run that has ended, as text (app/study.hpp).
   std::function<std::string(const casefile::CaseSpec&, const io::Facts&)> what_decides = {};
   /// Called when the run has results to keep: before that, an interrupted program may end at once.
   std::function<void()> begun = [] {};

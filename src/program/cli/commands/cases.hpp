@@ -1,8 +1,7 @@
 // The commands that make and check cases, and list mills and outputs.
 #pragma once
 
-#include "app/check_case.hpp"
-#include "app/check_log.hpp"
+#include "app/check.hpp"
 #include "cli/commands/case_argument.hpp"
 #include "cli/exit_codes.hpp"
 #include "io/input_file.hpp"

@@ -10,7 +10,6 @@
 #include "app/certify.hpp"
 #include "app/run.hpp"
 #include "app/study.hpp"
-#include "app/variations.hpp"
 #include "base/clean_text.hpp"
 #include "base/errors.hpp"
 #include "casefile/case_spec.hpp"

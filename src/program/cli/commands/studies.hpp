@@ -4,7 +4,7 @@
 #include "app/certify.hpp"
 #include "app/study.hpp"
 #include "base/errors.hpp"
-#include "casefile/precisions.hpp"
+#include "casefile/case_spec.hpp"
 #include "casefile/quantity.hpp"
 #include "cli/commands/case_argument.hpp"
 #include "cli/commands/run.hpp"

@@ -1,12 +1,32 @@
-// Checks whether a file is a log as docs/log-format.md describes it, and describes its contents.
+// A case checked as a run would check it, in SI with its derived numbers; a log checked against
+// docs/log-format.md.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "casefile/case_spec.hpp"
+
 namespace edmill::app {
+
+struct CheckedCase {
+  std::string file;
+  /// Names and values; an empty name continues the entry before.
+  std::vector<std::pair<std::string, std::string>> facts;
+
+  std::string text() const;
+};
+
+/// @throws InputError when its balls do not fit
+/// @throws UndecidedError when no scalar can decide about a first contact
+CheckedCase check(const casefile::CaseSpec& spec);
+
+/// An SVG of how the vessel moves. @throws InputError when the file cannot be written
+void draw_mill(const casefile::CaseSpec& spec, const std::filesystem::path& file);
 
 /// The description of a log; its JSON is the header of docs/log-format.schema.json.
 struct LogDescription {
@@ -24,8 +44,7 @@ struct LogDescription {
   std::string json() const;
 };
 
-/// True if a file is a table and not a case: its first line that is not a comment is the header of a CSV
-/// file.
+/// True if the first line of a file that is no comment is the header of a CSV file, and not of a case.
 bool is_log(const std::string& file);
 
 /// @throws InputError with the problems of the header, or the first ten of the rows
