@@ -19,9 +19,11 @@ namespace edmill::python {
 class Module : public pybind11::module_ {
  public:
   explicit Module(const pybind11::module_& m) : module_(m) {}
-  template <class Function>
-  void def(const char* name, Function&& function) {
-    module_::def(name, std::forward<Function>(function), pybind11::call_guard<StandardArithmetic>());
+  /// @tparam Guard  objects that exist during the call: `Unlocked` for long work without Python
+  template <class... Guard>
+  void def(const char* name, auto&& function) {
+    module_::def(name, std::forward<decltype(function)>(function),
+                 pybind11::call_guard<StandardArithmetic, Guard...>());
   }
 };
 
@@ -99,13 +101,11 @@ pybind11::object call(const pybind11::object& callable, Argument&&... argument) 
   return made_by([&] { return PyObject_CallObject(callable.ptr(), arguments.ptr()); });
 }
 
-/// Calls work(arguments..., options) on a thread of its own, with options that take a flag, while this one
-/// lets Python's signal handlers run: Ctrl-C sets the flag, which the work obeys, and is raised when that has
-/// ended.
-auto with_interrupt(auto options, const auto& work, const auto&... arguments) {
+/// Calls work(flag) on a thread of its own, while this one lets Python's signal handlers run: Ctrl-C sets the
+/// flag, which the work obeys, and is raised when that has ended.
+auto with_interrupt(const auto& work) {
   std::atomic<bool> interrupt{false};
-  options.interrupt = &interrupt;
-  auto done = std::async(std::launch::async, [&] { return work(arguments..., options); });
+  auto done = std::async(std::launch::async, [&] { return work(&interrupt); });
   bool raised = false;
   for (;;) {
     {
@@ -120,6 +120,13 @@ auto with_interrupt(auto options, const auto& work, const auto&... arguments) {
     throw pybind11::error_already_set();
   }
   return result;
+}
+/// The same for work(arguments..., options) with a flag among the options.
+auto with_interrupt(auto options, const auto& work, const auto&... arguments) {
+  return with_interrupt([&](std::atomic<bool>* flag) {
+    options.interrupt = flag;
+    return work(arguments..., options);
+  });
 }
 
 }  // namespace edmill::python

@@ -52,7 +52,6 @@ std::size_t study(const std::string& file, const std::string& folder, int jobs, 
 std::string compare(const std::string& a, const std::string& b, std::optional<double> tolerance,
                     std::optional<std::uint64_t> events, std::optional<double> from,
                     std::optional<double> until, std::optional<double> batch, std::optional<double> within) {
-  const Unlocked others;
   return app::compare({a, b, {from, until}, batch, tolerance, events, within}).json;
 }
 
@@ -107,12 +106,9 @@ py::tuple certify(const Case& the_case, std::size_t collisions, int digits, cons
 }
 
 py::dict shadow(const Case& the_case, const std::string& precision, const std::string& wider) {
-  struct {
-    const std::atomic<bool>* interrupt = nullptr;
-  } options;
   app::require_wider(precision, wider, "wider");
-  const auto found = with_interrupt(options, [&](const auto& o) {
-    return app::shadow(CaseAccess::spec(the_case), precision, wider, o.interrupt);
+  const auto found = with_interrupt([&](const std::atomic<bool>* flag) {
+    return app::shadow(CaseAccess::spec(the_case), precision, wider, flag);
   });
   py::object diverged = py::none();
   if (found.diverged) diverged = bodies_of({found.diverged->first, found.diverged->second});
@@ -125,10 +121,7 @@ py::dict shadow(const Case& the_case, const std::string& precision, const std::s
 /// texts, the derivatives of the event's quantities and of the states of its bodies
 py::tuple sensitivity(const Case& the_case, const std::vector<std::string>& by, std::size_t events,
                       unsigned digits) {
-  run::SensitivityOptions options;
-  options.by = by;
-  options.events = events;
-  options.digits = digits;
+  const run::SensitivityOptions options{.by = by, .events = events, .digits = digits, .file = ""};
   const auto found = with_interrupt(options, run::sensitivity, CaseAccess::spec(the_case));
   py::list of_numbers;
   for (std::size_t k = 0; k < by.size(); ++k) {
@@ -173,10 +166,8 @@ py::dict estimate(const Case& the_case, const std::string& precision) {
 /// @throws UndecidedError when the events cannot be proven
 py::tuple prove(const Case& the_case, std::size_t collisions, long most_bits,
                 const std::string& certificate) {
-  app::ProveOptions options;
-  options.collisions = collisions;
-  options.most_bits = most_bits;
-  options.certificate = certificate;
+  const app::ProveOptions options{
+      {.collisions = collisions, .most_bits = most_bits, .progress = nullptr}, "", certificate};
   const auto proof = with_interrupt(options, app::prove, CaseAccess::spec(the_case));
   if (!proof.impossible.empty()) throw UndecidedError(proof.impossible);
   std::ostringstream events;
@@ -256,29 +247,19 @@ std::string new_case(const std::string& machine, const std::vector<std::string>&
 std::pair<bool, std::string> seeds(const std::string& file, const std::vector<std::string>& settings,
                                    const std::string& precision, std::uint64_t count,
                                    const std::string& folder, int jobs) {
-  app::SeedsOptions options;
-  options.file = file;
-  options.folder = folder;
-  options.jobs = jobs;
-  options.quiet = true;
-  options.settings = settings;
-  options.precision = precision;
-  options.count = count;
-  const auto result = with_interrupt(options, [](const auto& all) { return app::seeds(all); });
+  const app::SeedsOptions options{{file, folder, jobs, true}, settings, precision, count};
+  const auto result = with_interrupt(options, app::seeds);
   return {result && result->counts.failed > 0, result ? result->optimum : ""};
 }
 
 /// @return for the case as it is and for each variation: its description, its dose rate with half-width, and
 /// whether it differs; and the table
 py::tuple vary(const Case& the_case, double uncertainty) {
-  struct Options {
-    const std::atomic<bool>* interrupt = nullptr;
-  } options;
   const auto& spec = CaseAccess::spec(the_case);
-  const auto found = with_interrupt(options, [&](const Options& all) {
-    const auto run = run::make_run(spec.precision, spec, {.interrupt = all.interrupt});
+  const auto found = with_interrupt([&](const std::atomic<bool>* flag) {
+    const auto run = run::make_run(spec.precision, spec, {.interrupt = flag});
     run->finish();
-    return app::vary(spec, spec.precision, study::record_of(run->facts()), uncertainty, all.interrupt);
+    return app::vary(spec, spec.precision, study::record_of(run->facts()), uncertainty, flag);
   });
   py::list rows;
   for (const auto& v : found.runs)
@@ -294,39 +275,30 @@ const Binding tools([](Module& m) {
   m.def("vary", &vary);
   m.def("sweep", &study<app::sweep>);
   m.def("optimize", &study<app::optimize>);
-  m.def("compare", &compare);
+  m.def<Unlocked>("compare", &compare);
   m.def("audit", &audit);
   m.def("prove", &prove);
-  m.def("check_certificate", [](const Case& the_case, const std::string& certificate) {
-    const Unlocked others;
+  m.def<Unlocked>("check_certificate", [](const Case& the_case, const std::string& certificate) {
     return app::check_certificate(CaseAccess::spec(the_case), certificate);
   });
   m.def("certify", &certify);
   m.def("shadow", &shadow);
-  m.def("check", [](const Case& the_case) {
-    const Unlocked others;
-    return app::check(CaseAccess::spec(the_case)).facts;
-  });
+  m.def<Unlocked>("check", [](const Case& the_case) { return app::check(CaseAccess::spec(the_case)).facts; });
   m.def("sensitivity", &sensitivity);
   py::tuple quantities(std::size_t{model::logged_count});
   for (std::size_t k = 0; k < model::logged_count; ++k) quantities[k] = name_of(k);
   m.attr("logged_quantities") = quantities;
   m.def("find_digits", &find_digits);
   m.def("estimate", &estimate);
-  m.def("report", [](const std::string& folder) {
-    const Unlocked others;
-    return report::write_report(folder).string();
-  });
-  m.def("report_of_runs", [](const std::vector<std::string>& folders, const std::string& file) {
-    const Unlocked others;
+  m.def<Unlocked>("report", [](const std::string& folder) { return report::write_report(folder).string(); });
+  m.def<Unlocked>("report_of_runs", [](const std::vector<std::string>& folders, const std::string& file) {
     report::write_comparison(folders, file);
   });
   m.def("run_with_checkpoints", &run_with_checkpoints);
   m.def("resume", &resume);
   m.def("deck", &deck_of);
   m.def("import_dump", &import_dump);
-  m.def("limit", [](const std::vector<std::string>& logs, const std::string& run, double from) {
-    const Unlocked others;
+  m.def<Unlocked>("limit", [](const std::vector<std::string>& logs, const std::string& run, double from) {
     return dem::to_json(dem::limit_of(logs, run, from));
   });
   m.def("machines", &machines_in_python);
