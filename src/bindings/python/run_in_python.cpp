@@ -24,7 +24,7 @@ namespace {
 using run::AnyRun;
 using run::SeenImpact;
 
-/// Converts numbers of a run to Python: floats for double, Decimals with all digits for wider scalars.
+/// Converts numbers of a run to Python: floats of double, Decimals with all digits of wider scalars.
 struct Numbers {
   bool wide;
 
@@ -52,15 +52,13 @@ struct Numbers {
   }
 };
 
-/// Calls Python. @return false when Ctrl-C came meanwhile. @throws py::error_already_set for other exceptions
-bool is_done(const auto& work) {
-  try {
-    work();
-    return true;
-  } catch (const py::error_already_set& error) {
-    if (!error.matches(PyExc_KeyboardInterrupt)) throw;
-    return false;
-  }
+/// Calls Python. @return false when Ctrl-C came. @throws py::error_already_set for other exceptions
+bool is_done(const auto& work) try {
+  work();
+  return true;
+} catch (const py::error_already_set& error) {
+  if (!error.matches(PyExc_KeyboardInterrupt)) throw;
+  return false;
 }
 
 /// Calls f(name, member) for everything that is known of an impact.
@@ -96,7 +94,7 @@ void bind_impact(Module& m, const char* name) {
   });
 }
 
-/// Keeps all impacts. Wide numbers are objects, a list of tuples for the package to make an array of.
+/// Keeps all impacts; wide ones as a list of tuples, of which the package makes an array.
 class Collector : public run::Watcher {
  public:
   explicit Collector(const Numbers& numbers) : numbers_(numbers) {}
@@ -106,7 +104,7 @@ class Collector : public run::Watcher {
       return;
     }
     const auto seen = impact.in_double();
-    auto& row = doubles_.emplace_back();  // padding bytes are zero, so that equal runs give equal bytes
+    auto& row = doubles_.emplace_back();  // with padding of zeros: equal runs give equal bytes
     for_each_member<double>([&](const char*, auto which) { row.*which = seen.*which; });
   }
   /// Returns the events. In double the array takes over the data of the list without a copy.
@@ -137,16 +135,37 @@ py::list states_of(const AnyRun& run, const Numbers& numbers) {
   return rows;
 }
 
-/// Calls Python's signal handlers and reports progress, ten times a second; ends the run after Ctrl-C.
-class Pulse : public run::Watcher {
+/// The run that an observer of Python is called with.
+struct RunOfPython {
+  AnyRun& run;
+  Numbers numbers;
+};
+
+/// Calls the observers after each impact, and ten times a second Python's signal handlers and `progress`;
+/// ends the run after Ctrl-C.
+class Caller : public run::Watcher {
  public:
-  /// @param interrupted  set here, and by callbacks during which Ctrl-C came
-  Pulse(py::object progress, const Numbers& numbers, bool& interrupted)
-      : look_every_(numbers.wide ? 16 : 1024), interrupted_(interrupted), progress_(std::move(progress)) {}
+  /// @param observers  callables that receive each impact and the run
+  /// @param interrupted  set here, and by laws during which Ctrl-C came
+  Caller(const std::vector<py::object>& observers, const py::object& progress, const Numbers& numbers,
+         bool& interrupted)
+      : observers_(observers), progress_(progress), numbers_(numbers), interrupted_(interrupted) {}
 
   void on_impact(const SeenImpact& impact, AnyRun& run) override {
-    if (interrupted_) return run.stop(model::EndReason::interrupted);
-    if (++since_look_ < look_every_) return;
+    for (const auto& observer : observers_) {
+      const Locked python;
+      const py::object seen = numbers_.wide ? py::cast(impact.in_texts()) : py::cast(impact.in_double());
+      if (!is_done([&] { call(observer, seen, RunOfPython{run, numbers_}); })) interrupted_ = true;
+    }
+    if (!interrupted_) look(impact);
+    if (interrupted_) run.stop(model::EndReason::interrupted);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void look(const SeenImpact& impact) {
+    if (++since_look_ < (numbers_.wide ? 16 : 1024)) return;
     since_look_ = 0;
     const auto now = Clock::now();
     if (now - last_ < std::chrono::milliseconds(100)) return;
@@ -156,41 +175,14 @@ class Pulse : public run::Watcher {
       if (!progress_.is_none()) call(progress_, impact.time, impact.index + 1);
     };
     interrupted_ = control_c_came() || !is_done(tell);
-    if (interrupted_) run.stop(model::EndReason::interrupted);
   }
 
- private:
-  using Clock = std::chrono::steady_clock;
-  int look_every_;
-  bool& interrupted_;
-  py::object progress_;
-  Clock::time_point last_ = Clock::now();
-  int since_look_ = 0;
-};
-
-/// The run that an observer of Python is called with.
-struct RunOfPython {
-  AnyRun& run;
-  Numbers numbers;
-};
-
-/// A callable that receives each impact and the run.
-class CallingObserver : public run::Watcher {
- public:
-  CallingObserver(py::object callable, const Numbers& numbers, bool& interrupted)
-      : callable_(std::move(callable)), numbers_(numbers), interrupted_(interrupted) {}
-  void on_impact(const SeenImpact& impact, AnyRun& run) override {
-    const Locked python;
-    const py::object seen = numbers_.wide ? py::cast(impact.in_texts()) : py::cast(impact.in_double());
-    if (is_done([&] { call(callable_, seen, RunOfPython{run, numbers_}); })) return;
-    interrupted_ = true;
-    run.stop(model::EndReason::interrupted);
-  }
-
- private:
-  py::object callable_;
+  const std::vector<py::object>& observers_;
+  const py::object& progress_;
   Numbers numbers_;
   bool& interrupted_;
+  Clock::time_point last_ = Clock::now();
+  int since_look_ = 0;
 };
 
 /// An object with `restitution` and `restitution_of_slip`.
@@ -239,7 +231,7 @@ class CallingLaw : public run::LawInTexts {
 /// @param folder  of the outputs; none when empty
 py::dict run_case(const Case& the_case, const std::string& precision, const std::string& folder, bool events,
                   bool report, const std::vector<py::object>& observers, const py::object& ball_ball,
-                  const py::object& ball_wall, py::object progress) {
+                  const py::object& ball_wall, const py::object& progress) {
   return casefile::with_memory_for(CaseAccess::spec(the_case), [&] {
     auto spec = CaseAccess::spec(the_case);
     if (report) report::add_report_outputs(spec);
@@ -252,11 +244,7 @@ py::dict run_case(const Case& the_case, const std::string& precision, const std:
     setup.ball_ball = law_of(ball_ball);
     setup.ball_wall = law_of(ball_wall);
     Collector collector(numbers);
-    Pulse pulse(std::move(progress), numbers, interrupted);
-    std::vector<std::unique_ptr<CallingObserver>> callables;
-    for (const auto& o : observers)
-      callables.push_back(std::make_unique<CallingObserver>(o, numbers, interrupted));
-
+    Caller caller(observers, progress, numbers, interrupted);
     std::unique_ptr<AnyRun> run;
     {
       const Unlocked others;
@@ -264,8 +252,7 @@ py::dict run_case(const Case& the_case, const std::string& precision, const std:
       run->begin();
       if (!folder.empty()) run->write_to(folder);
       if (events) run->attach(collector);
-      for (auto& callable : callables) run->attach(*callable);
-      run->attach(pulse);
+      run->attach(caller);
       run->finish();
       if (!folder.empty())
         run->commit([&] {

@@ -17,7 +17,6 @@
 #include "dem/contact_rates.hpp"
 #include "dem/contacts.hpp"
 #include "dem/import_dump.hpp"
-#include "io/output_folder.hpp"
 #include "machines/machines.hpp"
 #include "model/impact_record.hpp"
 #include "model/variables.hpp"
@@ -35,9 +34,13 @@ namespace edmill::python {
 
 namespace {
 
+using Text = const std::string&;
+using Texts = const std::vector<std::string>&;
+using MaybeNumber = std::optional<double>;
+
 /// @return how many runs failed
 template <std::optional<app::StudyResult> (*command)(const app::StudyOptions&)>
-std::size_t study(const std::string& file, const std::string& folder, int jobs, const py::object& progress) {
+std::size_t study(Text file, Text folder, int jobs, const py::object& progress) {
   app::StudyOptions options{file, folder, jobs, true};
   if (!progress.is_none())
     options.progress = [&](std::size_t done, std::size_t total) {
@@ -48,17 +51,15 @@ std::size_t study(const std::string& file, const std::string& folder, int jobs, 
   return result ? result->counts.failed : 0;
 }
 
-/// @return the result in JSON
-std::string compare(const std::string& a, const std::string& b, std::optional<double> tolerance,
-                    std::optional<std::uint64_t> events, std::optional<double> from,
-                    std::optional<double> until, std::optional<double> batch, std::optional<double> within) {
+/// This one and the next return the result in JSON.
+std::string compare(Text a, Text b, MaybeNumber tolerance, std::optional<std::uint64_t> events,
+                    MaybeNumber from, MaybeNumber until, MaybeNumber batch, MaybeNumber within) {
   return app::compare({a, b, {from, until}, batch, tolerance, events, within}).json;
 }
 
-/// @return the result in JSON
-std::string audit(const Case& the_case, const std::string& log, const std::vector<std::string>& columns,
-                  std::optional<double> tolerance, std::optional<double> gap_tolerance,
-                  std::optional<int> first_ball, const std::string& walls, bool from_start, bool identify) {
+std::string audit(const Case& the_case, Text log, Texts columns, MaybeNumber tolerance,
+                  MaybeNumber gap_tolerance, std::optional<int> first_ball, Text walls, bool from_start,
+                  bool identify) {
   const app::AuditOptions options{log,        columns, tolerance,  gap_tolerance,
                                   first_ball, walls,   from_start, identify};
   return with_interrupt(options, app::audit, CaseAccess::spec(the_case)).json;
@@ -72,8 +73,7 @@ py::str name_of(std::size_t quantity) {
 py::dict digits_of(const app::Agreement& agreement) {
   py::dict digits;
   for (std::size_t k = 0; k < model::logged_count; ++k) {
-    const double found = agreement.digits(k);
-    // None where no difference at all was seen.
+    const double found = agreement.digits(k);  // None where no difference at all was seen
     digits[name_of(k)] = found < app::Agreement::most ? py::cast(found) : py::none();
   }
   return digits;
@@ -82,19 +82,17 @@ py::dict digits_of(const app::Agreement& agreement) {
 py::list bodies_of(const std::vector<run::Event>& events) {
   py::list rows;
   for (const auto& e : events) {
-    py::dict row;
-    row["ball"] = e.ball;
-    row["partner_kind"] = e.with_wall ? "wall" : "ball";
-    row["partner"] = e.partner;
+    const auto* kind = e.with_wall ? "wall" : "ball";
+    py::dict row("ball"_a = e.ball, "partner_kind"_a = kind, "partner"_a = e.partner);
     for (std::size_t k = 0; k < model::logged_count; ++k) row[name_of(k)] = e[k].str();
     rows.append(row);
   }
   return rows;
 }
 
-/// @return the agreement of each pair of scalars, and the events, with numbers as texts of all digits
+/// @return the agreement of each pair of scalars, and the events, numbers as texts of all digits
 /// @throws UndecidedError when no two scalars agree
-py::tuple certify(const Case& the_case, std::size_t collisions, int digits, const std::string& file) {
+py::tuple certify(const Case& the_case, std::size_t collisions, int digits, Text file) {
   const app::CertifyOptions options{file, collisions, digits};
   const auto found = with_interrupt(options, app::certify, CaseAccess::spec(the_case));
   if (!found.undecided.empty()) throw UndecidedError(found.undecided);
@@ -105,7 +103,7 @@ py::tuple certify(const Case& the_case, std::size_t collisions, int digits, cons
   return py::make_tuple(evidence, bodies_of(found.events));
 }
 
-py::dict shadow(const Case& the_case, const std::string& precision, const std::string& wider) {
+py::dict shadow(const Case& the_case, Text precision, Text wider) {
   app::require_wider(precision, wider, "wider");
   const auto found = with_interrupt([&](const std::atomic<bool>* flag) {
     return app::shadow(CaseAccess::spec(the_case), precision, wider, flag);
@@ -119,8 +117,7 @@ py::dict shadow(const Case& the_case, const std::string& precision, const std::s
 
 /// @return the precision, the units, the events, and for each parameter of `by`, event after event and as
 /// texts, the derivatives of the event's quantities and of the states of its bodies
-py::tuple sensitivity(const Case& the_case, const std::vector<std::string>& by, std::size_t events,
-                      unsigned digits) {
+py::tuple sensitivity(const Case& the_case, Texts by, std::size_t events, unsigned digits) {
   const run::SensitivityOptions options{.by = by, .events = events, .digits = digits, .file = ""};
   const auto found = with_interrupt(options, run::sensitivity, CaseAccess::spec(the_case));
   py::list of_numbers;
@@ -152,7 +149,7 @@ py::tuple find_digits(const Case& the_case) {
   return py::make_tuple(found.precision, CaseAccess::make(std::move(spec)));
 }
 
-py::dict estimate(const Case& the_case, const std::string& precision) {
+py::dict estimate(const Case& the_case, Text precision) {
   const auto found =
       with_interrupt(app::DigitsOptions(), app::estimate_run, CaseAccess::spec(the_case), precision);
   const double verifying = found.verifying > 0 ? found.trials + found.verifying * found.cpu_seconds() : 0;
@@ -164,8 +161,7 @@ py::dict estimate(const Case& the_case, const std::string& precision) {
 
 /// @return the events as CSV, the bits of the proof, and the bits that remain at its end
 /// @throws UndecidedError when the events cannot be proven
-py::tuple prove(const Case& the_case, std::size_t collisions, long most_bits,
-                const std::string& certificate) {
+py::tuple prove(const Case& the_case, std::size_t collisions, long most_bits, Text certificate) {
   const app::ProveOptions options{
       {.collisions = collisions, .most_bits = most_bits, .progress = nullptr}, "", certificate};
   const auto proof = with_interrupt(options, app::prove, CaseAccess::spec(the_case));
@@ -181,8 +177,7 @@ void in_folder(const app::RunOptions& options, const auto& work, const auto&... 
   if (result.end_reason == model::EndReason::undecided) throw UndecidedError(result.error);
 }
 
-void run_with_checkpoints(const Case& the_case, const std::string& precision, const std::string& folder,
-                          bool report, const std::string& interval) {
+void run_with_checkpoints(const Case& the_case, Text precision, Text folder, bool report, Text interval) {
   const auto& spec = CaseAccess::spec(the_case);
   run::parse_checkpoint_interval(interval);
   app::RunOptions options;
@@ -192,7 +187,7 @@ void run_with_checkpoints(const Case& the_case, const std::string& precision, co
   in_folder(options, app::run, precision, spec);
 }
 
-void resume(const std::string& folder, const std::string& interval) {
+void resume(Text folder, Text interval) {
   if (!interval.empty()) run::parse_checkpoint_interval(interval);
   app::RunOptions options;
   options.folder = folder;
@@ -200,9 +195,8 @@ void resume(const std::string& folder, const std::string& interval) {
 }
 
 /// @return names and texts of the files, the command that runs the first, and notes
-py::tuple deck_of(const Case& the_case, const std::string& code, const std::string& name, double contact_time,
-                  double speed, std::optional<double> duration, std::optional<double> frames, int steps,
-                  int facets) {
+py::tuple deck_of(const Case& the_case, Text code, Text name, double contact_time, double speed,
+                  MaybeNumber duration, MaybeNumber frames, int steps, int facets) {
   const auto deck = decks::make_deck(
       CaseAccess::spec(the_case),
       {code, name, contact_time, speed, duration.value_or(0), frames.value_or(0), steps, facets});
@@ -211,11 +205,10 @@ py::tuple deck_of(const Case& the_case, const std::string& code, const std::stri
   return py::make_tuple(files, deck.command, deck.notes);
 }
 
-py::dict import_dump(const Case& the_case, const std::string& dump, const std::string& out,
-                     const std::string& deck, std::optional<double> time_step,
+py::dict import_dump(const Case& the_case, Text dump, Text out, Text deck, MaybeNumber time_step,
                      std::optional<std::string> units, bool in_vessel) {
-  const dem::ImportOptions options{
-      .dump = dump, .log = out, .deck = deck, .time_step = time_step, .units = units, .in_vessel = in_vessel};
+  dem::ImportOptions options{.dump = dump, .log = out, .deck = deck, .time_step = time_step, .units = units};
+  options.in_vessel = in_vessel;
   const auto imported = with_interrupt(options, dem::import_dump, CaseAccess::spec(the_case));
   py::dict classes;
   const auto& facts = imported.facts;
@@ -235,18 +228,15 @@ py::list machines_in_python() {
   return all;
 }
 
-std::string new_case(const std::string& machine, const std::vector<std::string>& balls,
-                     const std::string& powder, const std::string& speed, const std::string& restitution,
-                     const std::string& friction, const std::string& target_dose, const std::string& time,
-                     const std::string& jar, const std::string& fill, const std::string& ratio) {
+std::string new_case(Text machine, Texts balls, Text powder, Text speed, Text restitution, Text friction,
+                     Text target_dose, Text time, Text jar, Text fill, Text ratio) {
   return machines::new_case(
       {machine, balls, powder, speed, restitution, friction, target_dose, time, jar, fill, ratio});
 }
 
 /// @return whether a run failed, and the common result of the seeds
-std::pair<bool, std::string> seeds(const std::string& file, const std::vector<std::string>& settings,
-                                   const std::string& precision, std::uint64_t count,
-                                   const std::string& folder, int jobs) {
+std::pair<bool, std::string> seeds(Text file, Texts settings, Text precision, std::uint64_t count,
+                                   Text folder, int jobs) {
   const app::SeedsOptions options{{file, folder, jobs, true}, settings, precision, count};
   const auto result = with_interrupt(options, app::seeds);
   return {result && result->counts.failed > 0, result ? result->optimum : ""};
@@ -278,7 +268,7 @@ const Binding tools([](Module& m) {
   m.def<Unlocked>("compare", &compare);
   m.def("audit", &audit);
   m.def("prove", &prove);
-  m.def<Unlocked>("check_certificate", [](const Case& the_case, const std::string& certificate) {
+  m.def<Unlocked>("check_certificate", [](const Case& the_case, Text certificate) {
     return app::check_certificate(CaseAccess::spec(the_case), certificate);
   });
   m.def("certify", &certify);
@@ -290,15 +280,14 @@ const Binding tools([](Module& m) {
   m.attr("logged_quantities") = quantities;
   m.def("find_digits", &find_digits);
   m.def("estimate", &estimate);
-  m.def<Unlocked>("report", [](const std::string& folder) { return report::write_report(folder).string(); });
-  m.def<Unlocked>("report_of_runs", [](const std::vector<std::string>& folders, const std::string& file) {
-    report::write_comparison(folders, file);
-  });
+  m.def<Unlocked>("report", [](Text folder) { return report::write_report(folder).string(); });
+  m.def<Unlocked>("report_of_runs",
+                  [](Texts folders, Text file) { report::write_comparison(folders, file); });
   m.def("run_with_checkpoints", &run_with_checkpoints);
   m.def("resume", &resume);
   m.def("deck", &deck_of);
   m.def("import_dump", &import_dump);
-  m.def<Unlocked>("limit", [](const std::vector<std::string>& logs, const std::string& run, double from) {
+  m.def<Unlocked>("limit", [](Texts logs, Text run, double from) {
     return dem::to_json(dem::limit_of(logs, run, from));
   });
   m.def("machines", &machines_in_python);
