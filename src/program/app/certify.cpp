@@ -24,8 +24,7 @@ namespace edmill::app {
 
 namespace {
 
-/// Results of work(0) and work(1), which run concurrently. If both of them throw, the exception of the first
-/// is propagated.
+/// Results of work(0) and work(1), which run concurrently. If both throw, that of the first counts.
 auto of_both(const auto& work) {
   auto later = std::async(std::launch::async, work, 1);
   auto first = work(0);
@@ -40,8 +39,8 @@ std::string chosen(double digits) {
 using run::Event;
 using run::Number;
 
-/// Estimates the number of events to the end of the case by a run in double, which is close to the true one.
-/// @param progress  called with the scalar and the number of events so far
+/// Estimates the number of events to the end of the case by a run in double.
+/// @param progress  called with the number of events so far
 double count_events(const casefile::CaseSpec& spec, const std::atomic<bool>* interrupt,
                     const auto& progress) {
   constexpr double longest = 5;  // [s] of processor time
@@ -55,23 +54,8 @@ double count_events(const casefile::CaseSpec& spec, const std::atomic<bool>* int
     events += static_cast<double>(more);
     if (spec.end_time && run::cpu_seconds() - begin > longest)
       return events * (spec.end_time->to<double>() - first) / (source->reached() - first);
-    progress("double", events);
+    progress(events);
   }
-}
-
-/// Takes events of two runs as long as these have the same bodies. @return how many
-std::size_t take(Agreement& agreement, const std::vector<Event>& one, const std::vector<Event>& two) {
-  std::size_t same = 0;
-  while (same < std::min(one.size(), two.size()) && agreement.take(one[same], two[same])) ++same;
-  return same;
-}
-
-/// Decimal digits to which numbers with this difference agree, relative to their largest magnitude, or
-/// absolute in SI units if they are zero up to rounding. @return Agreement::most when there is no difference
-double digits_of(const Number& difference, const Number& size) {
-  constexpr double zero = 1e-20;  // [SI]
-  if (!(difference > 0)) return Agreement::most;
-  return -static_cast<double>(log10(size > zero ? Number(difference / size) : difference));
 }
 
 std::string digits_text(double digits) {
@@ -108,12 +92,10 @@ class Certifier {
   Certifier(const casefile::CaseSpec& spec, const CertifyOptions& options)
       : spec_(spec),
         options_(options),
-        expected_(
-            options.collisions > 0
-                ? static_cast<double>(options.collisions)
-                : count_events(spec, options.interrupt, [&](const std::string& precision, double events) {
-                    options.progress(precision, static_cast<std::size_t>(events));
-                  })) {}
+        expected_(options.collisions > 0 ? static_cast<double>(options.collisions)
+                                         : count_events(spec, options.interrupt, [&](double events) {
+                                             options.progress("double", static_cast<std::size_t>(events));
+                                           })) {}
 
   /// Compares pairs of fixed scalars, then of `mpfr` with the number of digits that the last pair suggests,
   /// and with more digits if these do not suffice.
@@ -150,7 +132,7 @@ class Certifier {
     const auto begin = std::chrono::steady_clock::now();
     SideBySide runs(spec_, narrow, wide, options_.collisions == 0, options_.interrupt);
     std::vector<Event> events;
-    // Only as many digits are kept as are written: all digits of a long sequence would fill the memory.
+    // All digits of a long sequence would fill the memory: only those that are written are kept.
     const mpfr::Digits kept(static_cast<unsigned>(options_.digits) + 10);
     while (const std::size_t left = options_.left_after(events.size())) {
       auto taken = runs.next(std::min<std::size_t>(256, left));
@@ -191,27 +173,30 @@ class Certifier {
 
 }  // namespace
 
+void Largest::take(const Number& one, const Number& two) {
+  difference = std::max(difference, Number(abs(one - two)));
+  size = std::max(size, Number(abs(two)));
+}
+
+double Largest::digits() const {
+  constexpr double zero = 1e-20;  // [SI]
+  if (!(difference > 0)) return Agreement::most;
+  return -static_cast<double>(log10(size > zero ? Number(difference / size) : difference));
+}
+
 bool Agreement::take(const Event& one, const Event& two) {
   if (!one.same_bodies(two)) return false;
-  for (std::size_t k = 0; k < model::logged_count; ++k) {
-    const Number difference = abs(one[k] - two[k]), size = abs(two[k]);
-    largest_difference_[k] = std::max(largest_difference_[k], difference);
-    largest_size_[k] = std::max(largest_size_[k], size);
-    if (k == model::time && difference > 0)
-      growth_.add(static_cast<double>(events_), static_cast<double>(log10(difference)));
-  }
+  for (std::size_t k = 0; k < model::logged_count; ++k) largest_[k].take(one[k], two[k]);
+  if (const Number difference = abs(one.time - two.time); difference > 0)
+    growth_.add(static_cast<double>(events_), static_cast<double>(log10(difference)));
   ++events_;
   bodies_ += one.with_wall ? 1 : 2;
   return true;
 }
 
-double Agreement::digits(std::size_t quantity) const {
-  return digits_of(largest_difference_[quantity], largest_size_[quantity]);
-}
-
 double Agreement::least_digits() const {
   double least = most;
-  for (std::size_t k = 0; k < model::logged_count; ++k) least = std::min(least, digits(k));
+  for (const auto& quantity : largest_) least = std::min(least, quantity.digits());
   return least;
 }
 
@@ -231,8 +216,10 @@ std::vector<run::Event> SideBySide::next(std::size_t count) {
   if (diverged_ || uneven_) return {};
   auto [one, two] = of_both([&](int k) { return sources_[k]->next(count); });
   if (interrupt_ && *interrupt_) return {};
-  const std::size_t same = take(agreement_, one, two);
-  if (same < std::min(one.size(), two.size()))
+  const std::size_t both = std::min(one.size(), two.size());
+  std::size_t same = 0;
+  while (same < both && agreement_.take(one[same], two[same])) ++same;
+  if (same < both)
     diverged_ = {one[same], two[same]};
   else  // a wider scalar follows a collapse for some events more
     uneven_ = one.size() != two.size() && !sources_[0]->has_collapsed() && !sources_[1]->has_collapsed();
@@ -257,16 +244,10 @@ void SideBySide::drop_lost_digits() {
 
 double SideBySide::digits_of_states() const {
   const auto one = sources_[0]->states(), two = sources_[1]->states();
-  constexpr std::size_t kinds = 3, per_ball = 3 * kinds;
-  std::array<run::Number, kinds> difference{}, size{};
-  for (std::size_t k = 0; k < one.size(); ++k) {
-    const std::size_t kind = k % per_ball / 3;
-    difference[kind] = std::max(difference[kind], run::Number(abs(one[k] - two[k])));
-    size[kind] = std::max(size[kind], run::Number(abs(two[k])));
-  }
+  std::array<Largest, 3> kinds;  // of three components each
+  for (std::size_t k = 0; k < one.size(); ++k) kinds[k / 3 % kinds.size()].take(one[k], two[k]);
   double least = Agreement::most;
-  for (std::size_t kind = 0; kind < kinds; ++kind)
-    least = std::min(least, digits_of(difference[kind], size[kind]));
+  for (const auto& kind : kinds) least = std::min(least, kind.digits());
   return least;
 }
 
@@ -389,8 +370,8 @@ RunEstimate estimate_digits(const casefile::CaseSpec& spec, const std::string& p
   RunEstimate e;
   const std::clock_t begin = std::clock();
   e.precision = precision;
-  e.events = count_events(spec, options.interrupt, [&](const std::string& scalar, double events) {
-    options.progress(scalar, static_cast<std::size_t>(events), events);
+  e.events = count_events(spec, options.interrupt, [&](double events) {
+    options.progress("double", static_cast<std::size_t>(events), events);
   });
   find_lost_digits(e, precision.empty() ? 200 : 40, spec, options);
   if (precision.empty()) {

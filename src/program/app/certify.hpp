@@ -19,8 +19,18 @@
 
 namespace edmill::app {
 
-/// Agreement of two sequences of events. Digits of a quantity are -log10 of the largest difference over the
-/// largest magnitude of that quantity so far, so that values near zero do not count as disagreement.
+/// Largest difference and largest magnitude of a quantity so far in two runs.
+struct Largest {
+  run::Number difference{}, size{};
+
+  void take(const run::Number& one, const run::Number& two);
+  /// Digits to which the runs agree: -log10 of the difference over the magnitude, so that values near zero do
+  /// not count as disagreement; absolute in SI units if both are zero up to rounding. Agreement::most when
+  /// there is no difference.
+  double digits() const;
+};
+
+/// Agreement of two sequences of events.
 class Agreement {
  public:
   /// Takes the next event of both runs. @return false, and takes nothing, when the bodies differ
@@ -29,19 +39,17 @@ class Agreement {
   std::size_t events() const { return events_; }
   /// Number of balls involved, summed over the events: two where balls collide.
   std::size_t bodies() const { return bodies_; }
-  /// @param quantity  of model::logged_quantities
-  /// @return digits to which all events taken agree; `most` when no difference was seen.
-  double digits(std::size_t quantity) const;
+  /// Digits to which all events taken agree. @param quantity  of model::logged_quantities
+  double digits(std::size_t quantity) const { return largest_[quantity].digits(); }
   double least_digits() const;
   static constexpr double most = 1e7;
 
-  /// Digits lost per event, by least squares over the times of the events; none when there are fewer
-  /// than ten with a difference.
+  /// By least squares over the times of the events; none when fewer than ten have a difference.
   std::optional<double> digits_lost_per_event() const;
 
  private:
   std::size_t events_ = 0, bodies_ = 0;
-  std::array<run::Number, model::logged_count> largest_difference_{}, largest_size_{};
+  std::array<Largest, model::logged_count> largest_{};
   numerics::Line growth_;  ///< log10 of the differences in time
 };
 
