@@ -36,8 +36,15 @@ std::string chosen(double digits) {
   return fmt::format("mpfr:{}", static_cast<unsigned>(std::clamp(digits, 60.0, double{most_digits})));
 }
 
-using run::Event;
-using run::Number;
+using run::Event, run::Number;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// Digits of the wider run that verifies a run with `digits`.
+unsigned wider_than(unsigned digits) { return digits + std::max(20u, digits / 20); }
 
 /// Estimates the number of events to the end of the case by a run in double.
 /// @param progress  called with the number of events so far
@@ -129,13 +136,14 @@ class Certifier {
 
   /// @return whether these two scalars settle the matter: the events are certain, or cannot be
   bool side_by_side(const std::string& narrow, const std::string& wide) {
-    const auto begin = std::chrono::steady_clock::now();
+    const auto begin = Clock::now();
     SideBySide runs(spec_, narrow, wide, options_.collisions == 0, options_.interrupt);
     std::vector<Event> events;
     // All digits of a long sequence would fill the memory: only those that are written are kept.
     const mpfr::Digits kept(static_cast<unsigned>(options_.digits) + 10);
-    while (const std::size_t left = options_.left_after(events.size())) {
-      auto taken = runs.next(std::min<std::size_t>(256, left));
+    const std::size_t wanted = options_.collisions > 0 ? options_.collisions : SIZE_MAX;
+    while (events.size() < wanted) {
+      auto taken = runs.next(std::min<std::size_t>(256, wanted - events.size()));
       Interruption::check();
       if (taken.empty()) break;
       for (auto& event : taken) {
@@ -144,8 +152,7 @@ class Certifier {
       }
       options_.progress(wide, events.size());
     }
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-    result.evidence.push_back({narrow, wide, runs.agreement(), took.count()});
+    result.evidence.push_back({narrow, wide, runs.agreement(), seconds_since(begin)});
     options_.found(result.evidence.back());
     const bool all = !runs.diverged() && !runs.uneven();
     if (all) expected_ = static_cast<double>(events.size());
@@ -251,8 +258,6 @@ double SideBySide::digits_of_states() const {
   return least;
 }
 
-unsigned wider_than(unsigned digits) { return digits + std::max(20u, digits / 20); }
-
 Certification certify(const casefile::CaseSpec& spec, const CertifyOptions& options) try {
   if (options.collisions == 0 && !spec.end_time)
     throw InputError(spec.file + ": no run.end_time: set it, or give --collisions");
@@ -321,8 +326,7 @@ std::string by_rule(const run::Event& event) {
       event.ball, event.time.str(17));
 }
 
-/// Measures the decimal digits lost per event in two runs with many digits, until all of them are lost, or
-/// `enough`.
+/// Measures the decimal digits lost per event in two runs of many digits, until all or `enough` are lost.
 void find_lost_digits(RunEstimate& e, double enough, const casefile::CaseSpec& spec,
                       const DigitsOptions& options) try {
   constexpr unsigned digits = 200;
@@ -404,12 +408,11 @@ double time_per_event(const std::string& precision, const casefile::CaseSpec& sp
   return events == 0 ? 0 : took / static_cast<double>(events);
 }
 
-/// Processor time of a run that drops the digits that it has lost, relative to one that keeps all: by
-/// Simpson's rule.
+/// Processor time of a run that drops lost digits, relative to one that keeps all: by Simpson's rule.
 double share_of_verifying(const RunEstimate& e, const casefile::CaseSpec& spec,
                           const DigitsOptions& options) {
   const double first = casefile::digits_of(e.precision), last = first - e.lost_per_event * e.events;
-  const auto time_with = [&](double digits) { return time_per_event(chosen(digits), spec, options); };
+  const auto time_with = [&](double n) { return time_per_event(chosen(n), spec, options); };
   return (e.seconds_per_event + 4 * time_with((first + last) / 2) + time_with(last)) /
          (6 * e.seconds_per_event);
 }
@@ -452,15 +455,13 @@ std::string RunEstimate::text() const {
   };
   row("events", fmt::format("about {:.0f}", events));
   row("digits lost", fmt::format("{:.4f} per event", lost_per_event));
-  if (digits > 0)
-    row("precision", fmt::format("{}, for {} right digits at the end", precision, digits));
-  else
-    row("precision", precision + (right_events > events
-                                      ? ", which lasts to the end"
-                                      : fmt::format(", used up after about {:.0f} events", right_events)));
+  row("precision", precision + (digits > 0 ? fmt::format(", for {} right digits at the end", digits)
+                                : right_events > events
+                                    ? ", which lasts to the end"
+                                    : fmt::format(", used up after about {:.0f} events", right_events)));
+  const auto* of_run = outputs ? " for the run without its outputs" : verifying > 0 ? " for the run" : "";
   row("processor time",
-      duration(cpu_seconds()) + (verifying > 0 || outputs ? " for the run" : "") +
-          (outputs ? " without its outputs" : "") +
+      duration(cpu_seconds()) + of_run +
           (verifying > 0 ? fmt::format(", and {} before it to find the digits and verify them",
                                        duration(trials + verifying * cpu_seconds()))
                          : ""));
@@ -468,8 +469,6 @@ std::string RunEstimate::text() const {
   if (!undecided.empty()) row("undecided", undecided);
   return out;
 }
-
-double FoundDigits::left() const { return std::min(agreement.least_digits(), states); }
 
 std::uint64_t FoundDigits::right() const {
   return static_cast<std::uint64_t>(std::min(left(), casefile::digits_of(narrow)));
@@ -482,7 +481,7 @@ std::string FoundDigits::text() const {
 
 FoundDigits find_digits(const casefile::CaseSpec& spec, const DigitsOptions& options) try {
   const Interruption scope(options.interrupt);
-  const auto begin = std::chrono::steady_clock::now();
+  const auto begin = Clock::now();
   FoundDigits found;
   const auto estimate = estimate_digits(spec, "", options);
   found.undecided = estimate.undecided;
@@ -501,7 +500,7 @@ FoundDigits find_digits(const casefile::CaseSpec& spec, const DigitsOptions& opt
       options.progress(found.precision, runs.agreement().events(), estimate.events);
     }
     found.agreement = runs.agreement();
-    found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    found.seconds = seconds_since(begin);
     const bool all = !runs.diverged() && !runs.uneven();
     found.states = all ? runs.digits_of_states() : 0;
     if (!found.undecided.empty()) break;

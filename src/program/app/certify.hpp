@@ -1,7 +1,8 @@
-// Certainty of results: where runs of a case in two scalars diverge, the events on which they agree, how many
-// digits a run needs to end with a given number of correct ones, and the events proven in ball arithmetic.
+// Certainty of results: where runs in two scalars diverge and how far they agree, how many digits a run needs
+// to end with a given number of correct ones, and events proven in ball arithmetic.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -53,9 +54,8 @@ class Agreement {
   numerics::Line growth_;  ///< log10 of the differences in time
 };
 
-/// Two runs that advance together, each on its own thread. If their numbers of digits are variable, both drop
-/// digits that the narrower one has lost, by their agreement so far, except for a margin, which keeps the
-/// added error small compared with its own.
+/// Two runs that advance together, each on its own thread. Where numbers of digits are variable, both drop
+/// those that the narrower one has lost, except for a margin that keeps the added error small.
 class SideBySide {
  public:
   /// @pre `wide` is wider than `narrow`
@@ -63,9 +63,8 @@ class SideBySide {
   SideBySide(const casefile::CaseSpec& spec, const std::string& narrow, const std::string& wide, bool to_end,
              const std::atomic<bool>* interrupt = nullptr);
 
-  /// Takes up to `count` further events of both.
-  /// @return those of the wider run that have the same bodies in both; none when there are no more, or after
-  /// an interrupt
+  /// Takes up to `count` further events of both. @return those of the wider run that have the same bodies in
+  /// both; none when there are no more, or after an interrupt
   std::vector<run::Event> next(std::size_t count);
 
   const Agreement& agreement() const { return agreement_; }
@@ -75,7 +74,7 @@ class SideBySide {
   bool uneven() const { return uneven_; }
   /// Digits that both have dropped since the start.
   unsigned dropped_digits() const { return dropped_; }
-  /// Digits to which positions, velocities and spins agree now, relative to the largest of each kind.
+  /// Digits to which positions, velocities and spins agree now, relative to the largest of a kind.
   double digits_of_states() const;
 
  private:
@@ -106,12 +105,7 @@ struct CertifyOptions {
   int digits = 25;
   const std::atomic<bool>* interrupt = nullptr;
   std::function<void(const std::string& precision, std::size_t events)> progress = [](const auto&, auto) {};
-  std::function<void(const Evidence&)> found = [](const auto&) {};  ///< called with each pair of scalars
-
-  /// Number of events that are still required.
-  std::size_t left_after(std::size_t events) const {
-    return collisions == 0 ? SIZE_MAX : collisions - events;
-  }
+  std::function<void(const Evidence&)> found = [](const auto&) {};  ///< of a pair of scalars
 };
 
 struct Certification {
@@ -122,13 +116,10 @@ struct Certification {
 };
 
 /// Raises the precision until two scalars agree on the first events, in order and in the digits required, and
-/// writes the events with the evidence. The scalars are those with a fixed number of digits first, then
-/// `mpfr` with a number of digits that follows from those lost so far.
+/// writes them with the evidence: first scalars of fixed digits, then `mpfr` with digits by those lost so
+/// far.
 /// @throws InputError for a case that ends before the required number of events, or has no end
 Certification certify(const casefile::CaseSpec& spec, const CertifyOptions& options);
-
-/// Digits of the wider run that verifies a run with `digits`.
-unsigned wider_than(unsigned digits);
 
 /// Two runs of a case side by side.
 struct Shadow : Evidence {
@@ -137,7 +128,7 @@ struct Shadow : Evidence {
   bool interrupted = false;
   std::size_t balls = 0;
 
-  /// Where the runs diverge: event, time, quantities, and how fast digits are lost.
+  /// Where they diverge, in which quantities, and how fast digits are lost.
   std::string text() const;
 };
 
@@ -151,7 +142,7 @@ Shadow shadow(const casefile::CaseSpec& spec, const std::string& precision, cons
 
 struct DigitsOptions {
   const std::atomic<bool>* interrupt = nullptr;
-  /// Called now and then: what runs, how many events it has, and about how many it will have.
+  /// Called now and then: what runs, its number of events, and about how many it will have.
   std::function<void(const std::string& precision, std::size_t events, double expected)> progress =
       [](const auto&, auto, auto) {};
 };
@@ -161,7 +152,7 @@ struct RunEstimate {
   std::string precision{};       ///< of the run
   double events = 0;             ///< to its end
   double lost_per_event = 0;     ///< decimal digits
-  double right_events = 0;       ///< number after which no digit is left; more than `events` if they suffice
+  double right_events = 0;       ///< after which no digit is left; more than `events` if they suffice
   double seconds_per_event = 0;  ///< of processor time
   double verifying = 0;          ///< cost of the runs that verify the digits, relative to the run
   double trials = 0;             ///< processor time that the trials took [s]
@@ -175,7 +166,7 @@ struct RunEstimate {
   std::string text() const;
 };
 
-/// Estimates by short trials how many digits a case loses per event, how many events it has, and their cost.
+/// Estimates by short trials the events of a case, the digits lost per event, and the cost.
 /// @param precision  of the run; empty to find the one that `spec.digits` requires
 RunEstimate estimate_run(const casefile::CaseSpec& spec, const std::string& precision,
                          const DigitsOptions& options);
@@ -191,14 +182,14 @@ struct FoundDigits {
   bool interrupted = false;
 
   /// Digits that both runs have in common to the end.
-  double left() const;
+  double left() const { return std::min(agreement.least_digits(), states); }
   /// Digits of the run that are right to its end, rounded down.
   std::uint64_t right() const;
   std::string text() const;
 };
 
-/// Estimates the digits needed, and runs the case to its end with that number and with a larger one. Repeats
-/// this with more digits until both runs agree on all events to `spec.digits` digits. @pre spec.digits
+/// Estimates the digits needed, and runs the case to its end with that number and a larger one; with more,
+/// until both agree on all events to `spec.digits` digits. @pre spec.digits
 FoundDigits find_digits(const casefile::CaseSpec& spec, const DigitsOptions& options);
 
 struct ProveOptions : prove::ProofOptions {
