@@ -14,31 +14,24 @@ constexpr const char *mpfr = "MPFR", *arb = "Arb", *pages = "pugixml", *threads 
 }  // namespace
 
 namespace app {
-Certification certify(const casefile::CaseSpec&, const CertifyOptions&) { refuse("certify", mpfr); }
-void require_wider(const std::string&, const std::string&, const std::string&) { refuse("--shadow", mpfr); }
-Shadow shadow(const casefile::CaseSpec&, const std::string&, const std::string&, const std::atomic<bool>*) {
-  refuse("--shadow", mpfr);
-}
-FoundDigits find_digits(const casefile::CaseSpec&, const DigitsOptions&) { refuse("--digits", mpfr); }
-FoundDigits estimate_run(const casefile::CaseSpec&, const std::string&, const DigitsOptions&) {
-  refuse("--estimate", mpfr);
-}
-Proof prove(const casefile::CaseSpec&, const ProveOptions&) { refuse("prove", arb); }
-std::size_t right_events(const std::string&, const casefile::CaseSpec&, const Proof&) {
-  refuse("prove", arb);
-}
-std::vector<std::string> check_certificate(const casefile::CaseSpec&, const std::string&) {
-  refuse("prove", arb);
-}
+using casefile::CaseSpec;
+using Text = const std::string&;
+using Flag = const std::atomic<bool>*;
+
+Evidence certify(const CaseSpec&, const Options&) { refuse("certify", mpfr); }
+void require_wider(Text, Text, Text) { refuse("--shadow", mpfr); }
+Evidence shadow(const CaseSpec&, Text, Text, Flag) { refuse("--shadow", mpfr); }
+Evidence find_digits(const CaseSpec&, const Options&) { refuse("--digits", mpfr); }
+Evidence estimate_run(const CaseSpec&, Text, const Options&) { refuse("--estimate", mpfr); }
+Proof prove(const CaseSpec&, const Options&) { refuse("prove", arb); }
+std::size_t right_events(Text, const CaseSpec&, const Proof&) { refuse("prove", arb); }
+std::vector<std::string> check_certificate(const CaseSpec&, Text) { refuse("prove", arb); }
 std::optional<StudyResult> sweep(const StudyOptions&) { refuse("sweep", threads); }
 std::optional<StudyResult> optimize(const StudyOptions&) { refuse("optimize", threads); }
 std::optional<StudyResult> seeds(const SeedsOptions&) { refuse("--seeds", threads); }
 std::string limit_drawing(const dem::Limit&) { refuse("limit --draw", pages); }
-Bifurcation bifurcation(const casefile::CaseSpec&, const BifurcationOptions&) {
-  refuse("bifurcation", pages);
-}
-std::string what_decides(const casefile::CaseSpec&, const std::string&, const io::Facts&, double,
-                         const std::atomic<bool>*) {
+Bifurcation bifurcation(const CaseSpec&, const BifurcationOptions&) { refuse("bifurcation", pages); }
+std::string what_decides(const CaseSpec&, Text, const io::Facts&, double, Flag) {
   refuse("run --check", threads);
 }
 }  // namespace app
@@ -50,10 +43,9 @@ Sensitivities sensitivity(const casefile::CaseSpec&, const SensitivityOptions&) 
 }  // namespace run
 
 namespace report {
-std::filesystem::path write_report(const std::filesystem::path&) { refuse("a report", pages); }
-void write_comparison(const std::vector<std::string>&, const std::filesystem::path&) {
-  refuse("a report", pages);
-}
+using Folder = const std::filesystem::path&;
+std::filesystem::path write_report(Folder) { refuse("a report", pages); }
+void write_comparison(const std::vector<std::string>&, Folder) { refuse("a report", pages); }
 std::string mill_drawing(const model::Mill<double>&) { refuse("a drawing", pages); }
 }  // namespace report
 

@@ -1,9 +1,8 @@
 // The declarations of app/certify.hpp that the commands need, for builds without MPFR and Arb. The functions
-// report what is missing.
+// report what is missing, so that all options and all results are of one kind.
 #pragma once
 
 #include <atomic>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,57 +10,31 @@
 
 namespace edmill::app {
 
-struct Evidence {
-  double seconds = 0;
-  std::string text() const { return {}; }
+/// A callback that is never called.
+struct Uncalled {
+  void operator=(const auto&) {}
 };
-struct CertifyOptions {
-  std::string file;
-  std::size_t collisions = 0;
-  int digits = 25;
-  const std::atomic<bool>* interrupt = nullptr;
-  std::function<void(const std::string& precision, std::size_t events)> progress;
-  std::function<void(const Evidence&)> found;
-};
-struct Certification {
-  std::string undecided;
-  bool interrupted = false;
-};
-Certification certify(const casefile::CaseSpec& spec, const CertifyOptions& options);
-
-struct Shadow : Evidence {
-  bool interrupted = false;
-};
-void require_wider(const std::string& precision, const std::string& wider, const std::string& what);
-Shadow shadow(const casefile::CaseSpec& spec, const std::string& precision, const std::string& wider,
-              const std::atomic<bool>* interrupt);
-
-struct DigitsOptions {
-  const std::atomic<bool>* interrupt = nullptr;
-  std::function<void(const std::string& precision, std::size_t events, double expected)> progress;
-};
-struct FoundDigits : Evidence {
-  std::string precision, undecided;
-  bool interrupted = false;
-  std::uint64_t right() const { return 0; }
-};
-FoundDigits find_digits(const casefile::CaseSpec& spec, const DigitsOptions& options);
-FoundDigits estimate_run(const casefile::CaseSpec& spec, const std::string& precision,
-                         const DigitsOptions& options);
-
-struct ProveOptions {
+struct Options {
   std::string file, certificate;
   std::size_t collisions = 0;
+  int digits = 25;
   long most_bits = 16384;
   const std::atomic<bool>* interrupt = nullptr;
-  std::function<void(long bits, std::size_t events)> progress;
+  Uncalled progress, found;
+};
+struct Evidence {
+  std::string precision, undecided;
+  double seconds = 0;
+  bool interrupted = false;
+  std::string text() const { return {}; }
+  std::uint64_t right() const { return 0; }
+};
+struct Attempt {
+  long bits;
+  std::size_t events;
+  std::string undecided;
 };
 struct Proof {
-  struct Attempt {
-    long bits;
-    std::size_t events;
-    std::string undecided;
-  };
   std::vector<Attempt> attempts;
   std::vector<int> events;
   std::string impossible;
@@ -69,7 +42,17 @@ struct Proof {
   double seconds = 0;
   bool interrupted = false;
 };
-Proof prove(const casefile::CaseSpec& spec, const ProveOptions& options);
+using CertifyOptions = Options;
+using DigitsOptions = Options;
+using ProveOptions = Options;
+
+Evidence certify(const casefile::CaseSpec& spec, const Options& options);
+void require_wider(const std::string& precision, const std::string& wider, const std::string& what);
+Evidence shadow(const casefile::CaseSpec& spec, const std::string& precision, const std::string& wider,
+                const std::atomic<bool>* interrupt);
+Evidence find_digits(const casefile::CaseSpec& spec, const Options& options);
+Evidence estimate_run(const casefile::CaseSpec& spec, const std::string& precision, const Options& options);
+Proof prove(const casefile::CaseSpec& spec, const Options& options);
 std::size_t right_events(const std::string& precision, const casefile::CaseSpec& spec, const Proof& proof);
 std::vector<std::string> check_certificate(const casefile::CaseSpec& spec, const std::string& certificate);
 
