@@ -26,12 +26,14 @@
 #include "edmill/run.hpp"
 #include "identify/identify.hpp"
 #include "io/input_file.hpp"
+#include "io/json_file.hpp"
 #include "io/json_text.hpp"
 #include "machines/machines.hpp"
 #include "model/mill.hpp"
 #include "model/parts/surface.hpp"
 #include "output/scene.hpp"
 #include "run/case_access.hpp"
+#include "run/event_source.hpp"
 
 namespace edmill::browser {
 
@@ -39,12 +41,24 @@ namespace {
 
 using io::content_of, io::JsonText;
 
-/// The text of a case with another value of a key, or another section.
-std::string with_setting(const std::string& text, const std::string& key, const std::string& value) {
-  const auto root = toml::parse(text);
+std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+/// The case is the file /case of the page's own memory; settings over it are the lines of /settings.
+casefile::CaseSpec the_case() {
+  auto settings = lines_of(content_of("/settings"));
+  std::erase(settings, "");
+  return casefile::parse_case(content_of("/case"), "case.toml", settings);
+}
+
+/// The text of a case with another value of a key, or another section.
+std::string with_setting(const std::string& text, const std::string& key, const std::string& value) {
+  const auto root = toml::parse(text);
+  auto lines = lines_of(text);
   const auto dot = key.rfind('.');
   const auto* node = casefile::node_at(root, key);
   const auto* table = dot == key.npos ? nullptr : casefile::node_at(root, key.substr(0, dot));
@@ -93,11 +107,10 @@ std::string text_with_values(const casefile::CaseSpec& spec, bool log) try {
 /// A run that a page shows while it is computed.
 class Session : private Observer<double> {
  public:
-  /// @param settings  "section.key=value" over the text, whose own outputs are left out
-  /// @param log       whether collisions.csv is written
+  /// @param log  whether collisions.csv is written; the outputs of the case are left out
   /// @throws InputError with all problems of the case
-  Session(const std::string& text, const std::vector<std::string>& settings, bool log)
-      : spec_(read(text, settings, log)),
+  explicit Session(bool log)
+      : spec_(read(log)),
         mill_(casefile::build_mill<double>(spec_)),
         run_(CaseAccess::make(spec_)),
         log_(log) {
@@ -105,7 +118,7 @@ class Session : private Observer<double> {
     run_.attach(*this);
   }
 
-  /// Writes what is constant during the run as JSON: radii, walls as meshes, names of partners, the period.
+  /// Writes what is constant as JSON: radii, walls as meshes, names of partners, the period.
   void scene(JsonText& json) const {
     json.add("version", version(), "period", mill_.motion.period(), "start",
              spec_.statistics_start.to<double>());
@@ -151,22 +164,20 @@ class Session : private Observer<double> {
       advance_to(time += step);
   }
 
-  /// The present state as JSON: places, the vessel's frame, rates with intervals, counts by approach speed.
+  /// The present state as JSON: places, frames, rates with intervals, counts by approach speed.
   void frame(JsonText& json) {
     const double now = run_.time();
     const auto summary = run_.summary();
     json.add("time", now, "impacts", impacts_, "ended", !going_on_, "end_reason", summary.end_reason);
     std::vector<Vector<double>> places;
     for (int k = 0; k < run_.ball_count(); ++k) places.push_back(run_.ball(k).position);
-    json.add("places", places);
-    const auto frame = output::frame_of(mill_.motion, now);
-    json.add("vessel", std::array{frame.origin, frame.x, frame.y, frame.z});
+    const auto frame_of = [now](const auto& motion) {
+      const auto frame = output::frame_of(motion, now);
+      return std::array{frame.origin, frame.x, frame.y, frame.z};
+    };
     std::vector<std::array<Vec3<double>, 4>> bodies;
-    for (const auto& body : mill_.bodies) {
-      const auto own = output::frame_of(body.motion, now);
-      bodies.push_back({own.origin, own.x, own.y, own.z});
-    }
-    json.add("bodies", bodies);
+    for (const auto& body : mill_.bodies) bodies.push_back(frame_of(body.motion));
+    json.add("places", places, "vessel", frame_of(mill_.motion), "bodies", bodies);
     if (impacts_ > 0)
       json.add_group("last", "ball", last_.ball, "partner", last_.partner, "with_wall", last_.with_wall,
                      "approach_speed", last_.approach_speed, "separation_speed", last_.separation_speed,
@@ -174,14 +185,14 @@ class Session : private Observer<double> {
     if (now > summary.start_time) {
       json.add("dose", summary.milling_dose);
       json.begin("results");
-      results(json, nlohmann::json::parse(summary.json));
+      results(json, io::facts_in(nlohmann::json::parse(summary.json), "summary.json"));
       json.end();
       json.add("collisions", summary.collisions, "dose_by_partner", summary.dose_by_partner);
     }
     json.add("speeds", by_speed_);
   }
 
-  /// The case with the settings in it, as a file that the command line runs: with the same log, if any.
+  /// The case with the settings in it, as a file that the command line runs, with the same log.
   std::string case_text() const { return text_with_values(spec_, log_); }
 
   /// Ends the run and adds the SHA-256 of collisions.csv, as the command line writes it.
@@ -196,30 +207,26 @@ class Session : private Observer<double> {
   static constexpr const char* folder = "/run";
 
   /// Adds the results in summary.json that the page shows, milling time first.
-  static void results(JsonText& json, const nlohmann::json& summary) {
-    const auto number = [&](const char* path) -> std::optional<double> {
-      const nlohmann::json::json_pointer place(path);
-      if (!summary.contains(place) || !summary[place].is_number()) return std::nullopt;
-      return summary[place].get<double>();
+  static void results(JsonText& json, const io::Facts& summary) {
+    if (const auto time = summary.find("target/milling_time"))
+      json.add("milling time", time_with_interval(*time, summary.find("target/milling_time_half_width")));
+    const auto add_rate = [&](const char* name, const std::string& key, const char* unit) {
+      if (const auto rate = summary.find(key))
+        json.add(name, with_interval(*rate, summary.find("intervals/" + key)) + unit);
     };
-    if (const auto time = number("/target/milling_time"))
-      json.add("milling time", time_with_interval(*time, number("/target/milling_time_half_width")));
-    for (const auto& [name, key, unit] :
-         {std::array{"milling dose rate", "milling_dose_rate", " W"},
-          std::array{"impacts above 1 m/s", "fast_impact_rate", " per second"}})
-      if (const auto rate = number((std::string("/") + key).c_str()))
-        json.add(name, with_interval(*rate, number((std::string("/intervals/") + key).c_str())) + unit);
-    if (const auto half = number("/impact_energy_by_dose/median"))
+    add_rate("milling dose rate", "milling_dose_rate", " W");
+    add_rate("impacts above 1 m/s", "fast_impact_rate", " per second");
+    const std::string energy = "impact_energy_by_dose/";
+    if (const auto half = summary.find(energy + "median"))
       json.add("impact energy", "half of the impacts' dose below " + energy_text(*half) + ", 90 % below " +
-                                    energy_text(*number("/impact_energy_by_dose/90_percent")));
-    if (const auto speed = number("/mean_impact_speed"))
+                                    energy_text(summary.number(energy + "90_percent")));
+    if (const auto speed = summary.find("mean_impact_speed"))
       json.add("mean impact speed", fmt::format("{:.3g} m/s", *speed));
   }
 
-  static casefile::CaseSpec read(const std::string& text, const std::vector<std::string>& settings,
-                                 bool log) {
+  static casefile::CaseSpec read(bool log) {
     constexpr std::size_t most_balls = 5000;
-    auto spec = casefile::parse_case(text, "case.toml", settings);
+    auto spec = the_case();
     if (spec.precision != "double" || spec.digits)
       throw InputError("case.toml: found " +
                        (spec.digits ? "run.digits" : "run.precision = \"" + spec.precision + "\"") +
@@ -244,43 +251,29 @@ class Session : private Observer<double> {
   casefile::CaseSpec spec_;
   model::Mill<double> mill_;
   Run<double> run_;
-  std::array<std::uint64_t, 40> by_speed_{};  ///< impacts, in classes of equal ratio from 1 mm/s to 10 m/s
+  std::array<std::uint64_t, 40> by_speed_{};  ///< in classes of equal ratio from 1 mm/s to 10 m/s
   std::uint64_t impacts_ = 0;
   Impact<double> last_{};
   bool log_, going_on_ = true, finished_ = false;
 };
 
 std::unique_ptr<Session> session;
-
-const char* kept(std::string text) {
-  static std::string last;
-  last = std::move(text);
-  return last.c_str();
-}
+std::string last_answer;
 
 /// Returns the JSON that `work` fills, or the problems that it throws.
 const char* answer(const auto& work) {
-  JsonText problems;
+  JsonText json;
   try {
-    JsonText json;
     work(json);
-    return kept(json.finish());
   } catch (const InputError& error) {
-    problems.add("problems", error.problems());
+    json = {};
+    json.add("problems", error.problems());
   } catch (const std::exception& error) {
-    problems.add("problems", std::vector<std::string>{error.what()});
+    json = {};
+    json.add("problems", std::vector<std::string>{error.what()});
   }
-  return kept(problems.finish());
-}
-
-/// The case is the file /case of the page's own memory, settings over it are the lines of /settings.
-std::string case_text() { return content_of("/case"); }
-std::vector<std::string> settings() {
-  std::vector<std::string> lines;
-  std::istringstream in(content_of("/settings"));
-  for (std::string line; std::getline(in, line);)
-    if (!line.empty()) lines.push_back(line);
-  return lines;
+  last_answer = json.finish();
+  return last_answer.c_str();
 }
 
 Session& running() {
@@ -316,7 +309,7 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_begin(int log) {
   return answer([&](JsonText& json) {
     session.reset();
     std::filesystem::remove_all("/run");
-    session = std::make_unique<Session>(case_text(), settings(), log != 0);
+    session = std::make_unique<Session>(log != 0);
     session->scene(json);
   });
 }
@@ -364,7 +357,7 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_finish() {
 
 EMSCRIPTEN_KEEPALIVE const char* edmill_first_impacts(int most) {
   return answer([&](JsonText& json) {
-    Run<double> run(CaseAccess::make(casefile::parse_case(case_text(), "case.toml", settings())));
+    Run<double> run(CaseAccess::make(the_case()));
     FirstImpacts found(most);
     run.attach(found);
     run.finish();
@@ -376,7 +369,7 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_first_impacts(int most) {
 /// @param identify  true to search for the mistake behind violations
 EMSCRIPTEN_KEEPALIVE const char* edmill_audit(int identify) {
   return answer([&](JsonText& json) {
-    const auto spec = casefile::parse_case(case_text(), "case.toml", settings());
+    const auto spec = the_case();
     auto options = audit::options_of(spec);
     options.log = "/log";
     const auto built = casefile::build_case<double>(spec);
@@ -419,3 +412,13 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_compare() {
 }
 
 }  // namespace edmill::browser
+
+namespace edmill::run {
+
+/// Runs that judges make, in double, which is the only scalar of the page.
+std::unique_ptr<EventSource> make_source(const std::string&, const casefile::CaseSpec& spec, bool to_end,
+                                         const std::atomic<bool>* interrupt) {
+  return make_source_in<double>(spec, to_end, interrupt);
+}
+
+}  // namespace edmill::run
