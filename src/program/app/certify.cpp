@@ -72,8 +72,8 @@ std::string digits_text(double digits) {
 void write_reference(std::ostream& out, const casefile::CaseSpec& spec, const CertifyOptions& options,
                      const Certification& found) {
   out << fmt::format(
-      "# edmill certified events 1\n# case {}, digest {}\n# edmill {} ({}), {}\n# {} events, each value "
-      "correct to {} digits of the quantity's largest size\n",
+      "# edmill certified events 1\n# case {}, digest {}\n# edmill {} ({}), {}\n# {} events, each "
+      "value correct to {} digits of the quantity's largest size\n",
       one_line(std::filesystem::path(spec.file).filename().string()), spec.digest, version(), commit(),
       compiler(), found.events.size(), options.digits);
   for (const auto& pair : found.evidence) out << "# " << pair.text() << '\n';
@@ -163,8 +163,8 @@ class Certifier {
         std::find_if(events.begin(), events.end(), [](const Event& event) { return event.by_rule; });
     if (by_rule != events.end()) {
       result.undecided = fmt::format(
-          "event {}, {}, has another contact of its ball at the same time in every scalar: a rule and not "
-          "the equations orders them",
+          "event {}, {}, has another contact of its ball at the same time in every scalar: a rule "
+          "and not the equations orders them",
           by_rule - events.begin(), describe(*by_rule));
       return true;
     }
@@ -322,7 +322,8 @@ namespace {
 
 std::string by_rule(const run::Event& event) {
   return fmt::format(
-      "a rule and not the equations orders two contacts of ball {} at {} s: no number of digits decides it",
+      "a rule and not the equations orders two contacts of ball {} at {} s: no number of digits "
+      "decides it",
       event.ball, event.time.str(17));
 }
 

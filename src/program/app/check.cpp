@@ -185,10 +185,9 @@ CheckedCase check(const casefile::CaseSpec& spec) {
                                                               : " of the volume between the bodies"));
     for (const auto& gap : casefile::narrow_gaps(spec, m))
       row("narrow gap",
-          fmt::format(
-              "{} and {}: {:.3g} mm at {:.4g} s, less than a ball: balls that are squeezed there end the "
-              "run as stalled",
-              gap.one, gap.other, 1000 * gap.width, gap.time));
+          fmt::format("{} and {}: {:.3g} mm at {:.4g} s, less than a ball: balls that are squeezed "
+                      "there end the run as stalled",
+                      gap.one, gap.other, 1000 * gap.width, gap.time));
     if (spec.powder_mass)
       row("charge ratio", fmt::format("{:.4g} on {:g} kg of powder", mass / spec.powder_mass->to<double>(),
                                       spec.powder_mass->to<double>()));
@@ -232,9 +231,9 @@ std::string LogDescription::json() const {
     list += fmt::format("{}{{\"name\": {}, \"unit\": {}}}", list.empty() ? "" : ", ",
                         io::JsonText::of(column.name), io::JsonText::of(column.unit));
   return fmt::format(
-      "{{\n  \"format\": \"collision log\",\n  \"version\": {},\n  \"kind\": \"{}\",\n  "
-      "\"units\": \"SI\",\n  \"frame\": \"inertial\",\n  \"columns\": [{}],\n  \"skipped\": {},\n  "
-      "\"rows\": {},\n  \"first\": {},\n  \"last\": {},\n  \"balls\": {},\n  \"walls\": {}\n}}\n",
+      "{{\n  \"format\": \"collision log\",\n  \"version\": {},\n  \"kind\": \"{}\",\n  \"units\": "
+      "\"SI\",\n  \"frame\": \"inertial\",\n  \"columns\": [{}],\n  \"skipped\": {},\n  \"rows\": "
+      "{},\n  \"first\": {},\n  \"last\": {},\n  \"balls\": {},\n  \"walls\": {}\n}}\n",
       version, kind, list, io::JsonText::of(skipped), rows, io::JsonText::of(first), io::JsonText::of(last),
       balls, walls);
 }

@@ -184,21 +184,19 @@ std::string outputs() {
 /// docs/reference.md: commands with options, exit codes, keys of files, outputs, keys of
 /// summary.json and of documents.
 std::string reference(const CLI::App& app) {
-  return "# Reference\n\nPrinted by `edmill reference` from the tables with which the program reads command "
-         "lines and files. Variables have a page\nof their own: [variables.md](variables.md).\n\n## "
-         "Commands\n\n" +
+  return "# Reference\n\nPrinted by `edmill reference` from the tables with which the program "
+         "reads command lines and files. Variables have a page\nof their own: "
+         "[variables.md](variables.md).\n\n## Commands\n\n" +
          commands(app) + "## Exit codes\n\n" + codes() + "## Types of outputs\n\n" + outputs() +
-         "## Keys of files\n\nCase files, sweep files and optimisation files are TOML. A quantity is a text "
-         "with a unit, `\"38 mm\"`; a number without\nunit may be plain. Components of vectors without a "
-         "unit are SI. Decimals are exact in every scalar, and have a point. Powers can be written `m/s2`, "
-         "`m/s^2` or `m/s\u00b2`.\n\n"
-         "### Units\n\n" +
+         "## Keys of files\n\nCase files, sweep files and optimisation files are TOML. A quantity is "
+         "a text with a unit, `\"38 mm\"`; a number without\nunit may be plain. Components of vectors "
+         "without a unit are SI. Decimals are exact in every scalar, and have a point. Powers can be "
+         "written `m/s2`, `m/s^2` or `m/s\u00b2`.\n\n### Units\n\n" +
          units() + sections() +
          "## Keys of summary.json\n\nThe result of a run; docs/files.md says how to read it.\n\n" +
          io::summary_reference() +
-         "\n## Keys of documents\n\nContents of the file that `--json FILE` names, in SI; values that do not "
-         "exist are null, and "
-         "`*` is any name or number.\n\n" +
+         "\n## Keys of documents\n\nContents of the file that `--json FILE` names, in SI; values that "
+         "do not exist are null, and `*` is any name or number.\n\n" +
          app::document_keys();
 }
 

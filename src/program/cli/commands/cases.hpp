@@ -36,20 +36,23 @@ struct New {
   void add_options(CLI::App& command) {
     command.add_option(
         "--mill", wanted_.machine,
-        "mill, one of those that edmill machines lists: \"pm100\" or \"Retsch PM 100\" (default: spex8000)");
-    command.add_option("--jar", wanted_.jar,
-                       "volume of the jar, \"250ml\", or its inner diameter and height, \"75x57mm\" "
-                       "(default: the usual jar of the mill)");
+        "mill, one of those that edmill machines lists: \"pm100\" or \"Retsch PM 100\" (default: "
+        "spex8000)");
+    command.add_option(
+        "--jar", wanted_.jar,
+        "volume of the jar, \"250ml\", or its inner diameter and height, \"75x57mm\" (default: the "
+        "usual jar of the mill)");
     add_list(command, "--balls", wanted_.balls,
-             "number, diameter and optional material of balls, \"10x12.7mm\" or \"10x12.7mm:zirconia\"; with "
-             "--fill or --bpr the diameter alone; can be repeated (default: \"10x10mm:steel\")");
+             "number, diameter and optional material of balls, \"10x12.7mm\" or \"10x12.7mm:zirconia\"; "
+             "with --fill or --bpr the diameter alone; can be repeated (default: \"10x10mm:steel\")");
     command.add_option("--fill", wanted_.fill,
                        "share of the jar that the balls fill, including the gaps between them, \"30%\": "
                        "determines the number of balls");
     command.add_option("--powder", wanted_.powder, "mass of the powder, \"5g\" (default: none)");
-    command.add_option("--bpr", wanted_.ratio,
-                       "ratio of the mass of the balls to that of the powder, 10: determines the number of "
-                       "balls, or the mass of the powder");
+    command.add_option(
+        "--bpr", wanted_.ratio,
+        "ratio of the mass of the balls to that of the powder, 10: determines the number of balls, "
+        "or the mass of the powder");
     command.add_option("--target-dose", wanted_.target_dose,
                        "target dose of the powder, \"10 kJ/g\" (default: none)");
     command.add_option("--speed", wanted_.speed, "speed of the drive (default: the usual speed of the mill)");

@@ -58,8 +58,8 @@ class RunCommand {
     if (estimate_) return print_estimate(spec, by_digits ? "" : scalar);
     if (by_digits && !shadow_.empty())
       throw InputError(
-          "--shadow cannot be combined with --digits or run.digits: such a run is already checked against a "
-          "wider one");
+          "--shadow cannot be combined with --digits or run.digits: such a run is already checked "
+          "against a wider one");
     if (!shadow_.empty()) app::require_wider(scalar, shadow_, "option '--shadow'");
     auto options = options_of_run();
     if (by_digits) {
@@ -100,7 +100,8 @@ class RunCommand {
     options.begun = listen_for_signals;
     options.without_locks = [](const std::filesystem::path& place) {
       io::tell(
-          "edmill: {}: this file system has no locks: make sure that no other process writes to the folder\n",
+          "edmill: {}: this file system has no locks: make sure that no other process writes to "
+          "the folder\n",
           place.string());
     };
     return options;
@@ -203,11 +204,11 @@ struct Run : RunCommand {
         ->excludes("--precision");
     command.add_flag("--estimate", estimate_,
                      "estimate events, digits, time and memory of the run without running it");
-    auto* check =
-        command.add_flag("--check", check_,
-                         "also find out what the dose rate depends on, by six more runs with another seed, "
-                         "half of the least separation speed, and other restitution and friction (default "
-                         "with --report if the run has fewer than a million impacts)");
+    auto* check = command.add_flag(
+        "--check", check_,
+        "also find out what the dose rate depends on, by six more runs with another seed, half of "
+        "the least separation speed, and other restitution and friction (default with --report if "
+        "the run has fewer than a million impacts)");
     command.add_option("--checkpoint", checkpoint_, every + " (default: never)")->excludes("--shadow");
     command.add_flag("--report", report_, "also write report.html and the tables that it shows");
     check->excludes("--checkpoint");
@@ -219,10 +220,10 @@ struct Run : RunCommand {
                     "their common result and the steady states in which they settle");
     seeds->excludes("--shadow", "--checkpoint", "--report", "--check", "--digits");
     command.add_flag("--quiet", quiet_, quiet_run);
-    command.add_option(
-        "--until-precision", until_precision_,
-        "run until the 95 % interval of the dose rate is this fraction of the rate, \"1%\" or 0.01, for up "
-        "to 100 times the end time of the case, or to a run.end_time given with --set");
+    command.add_option("--until-precision", until_precision_,
+                       "run until the 95 % interval of the dose rate is this fraction of the rate, \"1%\" or "
+                       "0.01, for up to 100 times the end time of the case, or to a run.end_time given with "
+                       "--set");
     command.add_option("--target-dose", target_,
                        "target dose of the powder, \"10 kJ/g\": also report the milling time");
   }

@@ -134,9 +134,10 @@ struct Bifurcation : CaseCommand<app::BifurcationOptions> {
                 "number of impacts of ball 0 with walls before the first phase is drawn (default: 1000)");
     add_checked(command, "--keep", options_.keep, CLI::Range(1, 100000),
                 "number of phases drawn for each value (default: 100)");
-    command.add_option("--above", above_,
-                       "lowest approach speed of impacts that count, \"2 cm/s\", which excludes the hops of "
-                       "a ball at rest (default: all impacts)");
+    command.add_option(
+        "--above", above_,
+        "lowest approach speed of impacts that count, \"2 cm/s\", which excludes the hops of a "
+        "ball at rest (default: all impacts)");
     command.add_option("--out", options_.file,
                        "file for the drawing (SVG; default: out/<case name>.bifurcation.svg); its points are "
                        "written beside it (CSV)");
@@ -173,8 +174,8 @@ struct Bifurcation : CaseCommand<app::BifurcationOptions> {
 struct Sensitivity : CaseCommand<run::SensitivityOptions> {
   static constexpr const char* name = "sensitivity";
   static constexpr const char* what =
-      "compute the derivatives of the first events with respect to parameters of the case and the initial "
-      "state";
+      "compute the derivatives of the first events with respect to parameters of the case and the "
+      "initial state";
 
   void add_options(CLI::App& command) {
     given_.add_to(command);
