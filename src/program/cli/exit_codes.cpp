@@ -124,29 +124,26 @@ int after_output(int code) {
 }
 
 /// Runs a command, and prints the errors that it throws. @return the exit code
-int exit_code_of(const std::function<int()>& command) {
-  const std::string no_memory = "not enough memory";
-  try {
-    return command();
-  } catch (const InputError& error) {
-    for (const auto& problem : error.problems()) print_problem(problem);
-    return bad_input;
-  } catch (const InterruptedError& error) {
-    return after_signals(failed(error.what(), interrupted));
-  } catch (const UndecidedError& error) {
-    return failed(error.what(), undecided);
-  } catch (const io::PipeClosed& error) {
-    end_by_pipe_signal();
-    return failed(error.what());
-  } catch (const casefile::OutOfMemory& error) {
-    return failed(error.what());
-  } catch (const std::bad_alloc&) {
-    return failed(no_memory);
-  } catch (const std::length_error&) {
-    return failed(no_memory);
-  } catch (const std::exception& error) {
-    return failed(error.what());
-  }
+int exit_code_of(const std::function<int()>& command) try {
+  return command();
+} catch (const InputError& error) {
+  for (const auto& problem : error.problems()) print_problem(problem);
+  return bad_input;
+} catch (const InterruptedError& error) {
+  return after_signals(failed(error.what(), interrupted));
+} catch (const UndecidedError& error) {
+  return failed(error.what(), undecided);
+} catch (const io::PipeClosed& error) {
+  end_by_pipe_signal();
+  return failed(error.what());
+} catch (const casefile::OutOfMemory& error) {
+  return failed(error.what());
+} catch (const std::bad_alloc&) {
+  return failed("not enough memory");
+} catch (const std::length_error&) {
+  return failed("not enough memory");
+} catch (const std::exception& error) {
+  return failed(error.what());
 }
 
 }  // namespace

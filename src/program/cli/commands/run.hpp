@@ -24,8 +24,8 @@
 
 namespace edmill::cli {
 
-/// Reserves the folder of a run before its number of digits is searched, so that errors of the folder are
-/// reported first. Removes folders that it has made and that are still empty.
+/// Reserves the folder of a run before its number of digits is searched, so that errors of the folder come
+/// first. Removes folders that it has made and that are still empty.
 class ReservedFolder {
  public:
   ReservedFolder(const std::string& folder, bool saves, const casefile::CaseSpec& spec) {
@@ -73,10 +73,6 @@ class RunCommand {
     io::print("{}", result.text());
     return plus_signal(result.interrupted ? interrupted : ok);
   }
-  int resume_run() {
-    auto options = options_of_run();
-    return with_progress(options, [&] { return app::resume(checkpoint_, options); });
-  }
 
   std::string folder_;      ///< of the results; out/<name of the case> when empty
   std::string precision_;   ///< scalar of the run; that of the case when empty
@@ -86,7 +82,6 @@ class RunCommand {
   double uncertainty_ = 0.1;  ///< of restitution and friction
   bool estimate_ = false;     ///< estimate the cost of the run, and do not run
 
- private:
   app::RunOptions options_of_run() const {
     if (!checkpoint_.empty()) run::parse_checkpoint_interval(checkpoint_);
     app::RunOptions options;
@@ -125,6 +120,7 @@ class RunCommand {
     return plus_signal(code_of(result.end_reason));
   }
 
+ private:
   /// Does trial runs, which write nothing, with a progress line. @return the result of `work`
   auto after_trials(const casefile::CaseSpec& spec, const auto& work) const {
     app::DigitsOptions options;
@@ -137,7 +133,7 @@ class RunCommand {
     return casefile::with_memory_for(spec, [&] { return work(options); });
   }
 
-  /// Prints the time and memory that the run will need. @param scalar  empty where the case asks for digits
+  /// Prints the cost of the run. @param scalar  empty where the case asks for digits
   int print_estimate(const casefile::CaseSpec& spec, const std::string& scalar) const {
     const auto found =
         after_trials(spec, [&](const auto& options) { return app::estimate_run(spec, scalar, options); });
@@ -146,8 +142,7 @@ class RunCommand {
     return after_signals(scalar.empty() && !found.undecided.empty() ? undecided : ok);
   }
 
-  /// Finds the scalar of a case that asks for digits, and prints the evidence; `undecided` when no number of
-  /// digits suffices.
+  /// Finds the scalar of a case that asks for digits, and prints the evidence.
   int choose_digits(casefile::CaseSpec& spec, std::string& scalar) const {
     const auto found =
         after_trials(spec, [&](const auto& options) { return app::find_digits(spec, options); });
@@ -163,8 +158,7 @@ class RunCommand {
   }
 };
 
-/// Prints the outcome of a study. @return an exit code; `ok` also after an interrupt, since the caller adds
-/// the signal
+/// Prints the outcome of a study. @return `ok` also after an interrupt: the caller adds the signal
 inline int end_of_study(const std::optional<app::StudyResult>& result, bool quiet) {
   if (!result) return ok;
   if (!result->estimate.empty()) {
@@ -250,14 +244,11 @@ struct Run : RunCommand {
   }
 
   int run_seeds(const std::vector<std::string>& settings) {
-    app::SeedsOptions options;
-    options.file = given_.file;
-    options.folder = folder_.empty() ? "out/" + name_of(given_.file) : folder_;
-    options.quiet = quiet_;
-    options.estimate = estimate_;
-    options.settings = settings;
-    options.precision = precision_;
-    options.count = seeds_;
+    const auto folder = folder_.empty() ? "out/" + name_of(given_.file) : folder_;
+    app::SeedsOptions options{{.file = given_.file, .folder = folder, .quiet = quiet_, .estimate = estimate_},
+                              settings,
+                              precision_,
+                              seeds_};
     return interruptible(options, [&] { return end_of_study(app::seeds(options), quiet_); });
   }
 
@@ -290,7 +281,10 @@ struct Resume : RunCommand {
     command.add_option("--checkpoint", checkpoint_, every + " (default: as before)");
     command.add_flag("--quiet", quiet_, quiet_run);
   }
-  int run() { return resume_run(); }
+  int run() {
+    auto options = options_of_run();
+    return with_progress(options, [&] { return app::resume(checkpoint_, options); });
+  }
 };
 
 struct Report {

@@ -115,7 +115,7 @@ struct Prove : CaseCommand<app::ProveOptions> {
     return differences.empty() ? ok : outputs_differ;
   }
 
-  std::string checked_;   ///< a certificate whose header is to be that of the case; else one is proven
+  std::string checked_;   ///< a certificate whose header is to be that of the case
   bool compare_ = false;  ///< also print how many events each scalar gets right
 };
 
