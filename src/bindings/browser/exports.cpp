@@ -48,7 +48,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// The case is the file /case of the page's own memory; settings over it are the lines of /settings.
+/// The case is the file /case of the page's own memory; /settings has the settings over it.
 casefile::CaseSpec the_case() {
   auto settings = lines_of(content_of("/settings"));
   std::erase(settings, "");
@@ -332,8 +332,7 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_machines() {
   });
 }
 
-/// A case of a mill. The lines of /wanted are mill, jar, balls, fill, powder, target dose and speed, as for
-/// `edmill new`.
+/// A case as by `edmill new`. Lines of /wanted: mill, jar, balls, fill, powder, target dose, speed.
 EMSCRIPTEN_KEEPALIVE const char* edmill_new() {
   return answer([&](JsonText& json) {
     machines::Wanted wanted;

@@ -1,4 +1,4 @@
-// Runs of cases by the core alone, for machines that have none of the libraries of the whole program.
+// Runs of cases by the core alone, for machines without the libraries of the whole program.
 #include <string>
 #include <vector>
 

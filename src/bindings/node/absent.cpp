@@ -1,5 +1,5 @@
-// Substitutes for parts that the npm package lacks in addition to those that the core alone lacks: wide
-// scalars, ball arithmetic, pages, and studies, which run on threads. Each call is refused in one sentence.
+// Substitutes for what the npm package lacks besides what the core alone lacks: wide scalars, ball
+// arithmetic, pages, and studies, which run on threads. Each call is refused in one sentence.
 #include "app/certify.hpp"
 #include "app/judge.hpp"
 #include "app/study.hpp"

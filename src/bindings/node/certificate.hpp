@@ -1,4 +1,4 @@
-// The command that checks a certificate, by the checker that has no code of edmill (verification/checker).
+// Checks a certificate by verification/checker, which has no code of edmill.
 #pragma once
 
 #include <CLI/CLI.hpp>

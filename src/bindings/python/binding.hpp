@@ -47,7 +47,7 @@ class Binding {
 
 /// Calls Python from where no lock or object of Python is left to destroy. Python ends a daemon thread that
 /// waits for its lock when the interpreter ends, by unwinding the stack (pthread_exit), which the destructors
-/// of C++ do not permit: the thread sleeps instead until the process has ended, as in Python 3.14.
+/// of C++ do not permit: the thread sleeps instead to the end, as in Python 3.14.
 template <class Call>
 auto call_python(const Call& call) {
   try {

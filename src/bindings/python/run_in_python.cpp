@@ -24,7 +24,7 @@ namespace {
 using run::AnyRun;
 using run::SeenImpact;
 
-/// Converts numbers of a run to Python: floats of double, Decimals with all digits of wider scalars.
+/// Converts numbers of a run to Python: of double to floats, of wider scalars to Decimals.
 struct Numbers {
   bool wide;
 
@@ -212,7 +212,7 @@ class CallingLaw : public run::LawInTexts {
   }
 
  private:
-  /// An impact needs an answer: after Ctrl-C the law is asked again, and the run ends after the impact.
+  /// An impact needs an answer: after Ctrl-C the law is asked again, and the run ends after it.
   template <class Ask>
   std::string ask(const char* what, const Ask& of_law) const {
     std::string answer;

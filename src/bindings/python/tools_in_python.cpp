@@ -138,8 +138,7 @@ py::tuple sensitivity(const Case& the_case, Texts by, std::size_t events, unsign
   return py::make_tuple(found.precision, found.units, bodies_of(found.events), of_numbers);
 }
 
-/// @return the precision in which a run has the digits that the case requires, and the case with the number
-/// of correct digits
+/// @return the precision that gives the digits required, and the case with those that it gives
 /// @throws UndecidedError when no number of digits suffices
 py::tuple find_digits(const Case& the_case) {
   const auto found = with_interrupt(app::DigitsOptions(), app::find_digits, CaseAccess::spec(the_case));

@@ -327,7 +327,7 @@ std::string by_rule(const run::Event& event) {
       event.ball, event.time.str(17));
 }
 
-/// Measures the decimal digits lost per event in two runs of many digits, until all or `enough` are lost.
+/// Measures the decimal digits lost per event in two runs, until all or `enough` are lost.
 void find_lost_digits(RunEstimate& e, double enough, const casefile::CaseSpec& spec,
                       const DigitsOptions& options) try {
   constexpr unsigned digits = 200;
@@ -409,7 +409,7 @@ double time_per_event(const std::string& precision, const casefile::CaseSpec& sp
   return events == 0 ? 0 : took / static_cast<double>(events);
 }
 
-/// Processor time of a run that drops lost digits, relative to one that keeps all: by Simpson's rule.
+/// Processor time of a run that drops lost digits over one that keeps all, by Simpson's rule.
 double share_of_verifying(const RunEstimate& e, const casefile::CaseSpec& spec,
                           const DigitsOptions& options) {
   const double first = casefile::digits_of(e.precision), last = first - e.lost_per_event * e.events;

@@ -54,7 +54,7 @@ class Agreement {
   numerics::Line growth_;  ///< log10 of the differences in time
 };
 
-/// Two runs that advance together, each on its own thread. Where numbers of digits are variable, both drop
+/// Two runs that advance together, each on its own thread. Scalars of variable digits drop
 /// those that the narrower one has lost, except for a margin that keeps the added error small.
 class SideBySide {
  public:
@@ -115,9 +115,8 @@ struct Certification {
   bool interrupted = false;
 };
 
-/// Raises the precision until two scalars agree on the first events, in order and in the digits required, and
-/// writes them with the evidence: first scalars of fixed digits, then `mpfr` with digits by those lost so
-/// far.
+/// Raises the precision, at last by those digits that were lost so far, until two scalars agree on the
+/// first events in the digits required, and writes them with the evidence.
 /// @throws InputError for a case that ends before the required number of events, or has no end
 Certification certify(const casefile::CaseSpec& spec, const CertifyOptions& options);
 
@@ -203,7 +202,7 @@ prove::Proof prove(const casefile::CaseSpec& spec, const ProveOptions& options);
 std::size_t right_events(const std::string& precision, const casefile::CaseSpec& spec,
                          const prove::Proof& proof);
 
-/// Differences between the header of a certificate and the case, a line each; empty if it is of this case.
+/// Differences between the header of a certificate and the case, a line each.
 /// @throws InputError if the file is not a certificate
 std::vector<std::string> check_certificate(const casefile::CaseSpec& spec, const std::string& certificate);
 

@@ -54,7 +54,7 @@ std::string unit_of(const std::string& column) {
   return "";
 }
 
-/// @throws InputError when a comment before the header, "# collision log 2", names an unknown version
+/// @throws InputError when a comment before the header names another version
 void check_version(const std::string& file) {
   io::InputFile in(file, "a collision log");
   std::string line;

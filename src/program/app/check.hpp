@@ -1,5 +1,4 @@
-// A case checked as a run would check it, in SI with its derived numbers; a log checked against
-// docs/log-format.md.
+// Checks a case as a run would, with its derived numbers in SI; checks a log by docs/log-format.md.
 #pragma once
 
 #include <cstdint>
@@ -44,7 +43,7 @@ struct LogDescription {
   std::string json() const;
 };
 
-/// True if the first line of a file that is no comment is the header of a CSV file, and not of a case.
+/// True if the first line that is no comment is the header of a CSV file, and not of a case.
 bool is_log(const std::string& file);
 
 /// @throws InputError with the problems of the header, or the first ten of the rows

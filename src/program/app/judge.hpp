@@ -1,4 +1,4 @@
-// Judges logs: by another log, or by the physics of a case, with a search for the causes of violations.
+// Judges logs by another log, or by the physics of a case, with a search for causes.
 #pragma once
 
 #include <atomic>

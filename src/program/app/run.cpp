@@ -13,7 +13,7 @@ namespace edmill::app {
 
 namespace {
 
-/// Returns the text of `what_decides` and writes it to a file in the folder; empty if it is not required.
+/// Writes the text of `what_decides`, if it is required, to a file in the folder, and returns it.
 std::string checked(const casefile::CaseSpec& spec, const io::Facts& facts, const RunOptions& options) {
   constexpr double few_impacts = 1e6;  // six runs of a second each; their times would differ from run to run
   const bool quick = facts.text("precision") == "double" && facts.number("impacts_since_start") < few_impacts;
@@ -74,7 +74,7 @@ io::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::strin
   return c;
 }
 
-/// Removes the temporary files and the checkpoint of a run that was killed when its results were in place.
+/// Removes what a run left that was killed when its results were in place.
 RunResult removed_leftovers(const casefile::CaseSpec& spec, const RunOptions& options) {
   const auto& bytes = options.checkpoint->result;
   run::RunFolder(options.folder, spec, options.checkpoint).remove_checkpoint(bytes);

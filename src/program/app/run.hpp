@@ -18,15 +18,14 @@ namespace edmill::app {
 struct RunOptions : run::RunSetup {
   std::string folder;   ///< of the outputs
   bool report = false;  ///< write the page report.html, and the tables that it shows
-  bool check = false;   ///< find what decides the dose rate; with a report also where that takes seconds
+  bool check = false;   ///< find what decides the dose rate; a report does where it takes seconds
   /// Finds what decides the dose rate of a run that has ended, as text (app/study.hpp).
   std::function<std::string(const casefile::CaseSpec&, const io::Facts&)> what_decides = {};
   /// Called when the run has results to keep: before that, an interrupted program may end at once.
   std::function<void()> begun = [] {};
-  /// Called where the file system has no locks, so that nothing keeps a second run out of the folder.
+  /// Called where the file system has no locks, which keep a second run out of the folder.
   std::function<void(const std::filesystem::path&)> without_locks = [](const auto&) {};
-  /// The contents of checkpoints besides the state, if the run makes any; if it has a state, the run
-  /// continues from there.
+  /// Contents of checkpoints besides the state, if any are made. The run continues from a state.
   std::optional<io::Checkpoint> checkpoint;
 };
 
@@ -54,7 +53,7 @@ RunResult run(const std::string& precision, casefile::CaseSpec spec, const RunOp
 io::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::string& precision, bool report,
                                 const std::string& interval);
 
-/// Continues the run of `options.folder` from its checkpoint. @param interval  empty to keep the previous one
+/// Continues the run of `options.folder`. @param interval  empty to keep the previous one
 /// @throws InputError when the checkpoint is not valid for this program
 RunResult resume(const std::string& interval, RunOptions options);
 

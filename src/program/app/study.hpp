@@ -1,5 +1,5 @@
-// Many runs of a case: sweeps and optimisations, on threads and on ranks of MPI; the phases of one ball's
-// impacts against a parameter; variations of uncertain parameters, to find what decides the dose rate.
+// Many runs of a case: sweeps and optimisations, on threads and on ranks of MPI; phases of a ball's impacts
+// against a parameter; variations of uncertain parameters: what decides the dose rate.
 #pragma once
 
 #include <atomic>
@@ -21,7 +21,7 @@ struct StudyOptions {
   bool quiet = false;     ///< no progress line on standard error
   bool estimate = false;  ///< only say how long it will take
   std::atomic<bool>* interrupt = nullptr;
-  study::Study::Progress progress = nullptr;  ///< called in place of the progress line, when it is quiet
+  study::Study::Progress progress = nullptr;  ///< in place of the line, when it is quiet
 };
 
 struct StudyResult {
@@ -43,8 +43,7 @@ struct SeedsOptions : StudyOptions {  ///< the file is the case, the folder is r
   std::uint64_t count = 0;
 };
 
-/// Runs a case with successive seeds, beginning with the seed of the case. The combined result is in
-/// `optimum` and on a page.
+/// Runs a case with successive seeds from its own on. The result is in `optimum` and on a page.
 /// @throws InputError
 std::optional<StudyResult> seeds(const SeedsOptions& options);
 
@@ -52,8 +51,8 @@ struct BifurcationOptions {
   std::string over;         ///< key of a number that the case gives
   double from = 0, to = 0;  ///< in its unit
   std::size_t steps = 400;
-  std::size_t skip = 1000;  ///< impacts of ball 0 with walls before the first phase, while the motion settles
-  std::size_t keep = 100;   ///< of which phases are kept
+  std::size_t skip = 1000;    ///< impacts of ball 0 with walls before the first phase
+  std::size_t keep = 100;     ///< of which phases are kept
   double least_approach = 0;  ///< slower impacts do not count [m/s]
   std::string file;           ///< SVG; the points are written beside it as CSV
   const std::atomic<bool>* interrupt = nullptr;
@@ -82,7 +81,7 @@ Bifurcation bifurcation(const casefile::CaseSpec& spec, const BifurcationOptions
 struct Variation {
   std::string what;              ///< "restitution - 0.1"
   std::string number;            ///< that it varies: "restitution"; empty for the case as it is
-  study::RunRecord record = {};  ///< none where the case allows no such value, or the run did not end
+  study::RunRecord record = {};  ///< none where there is no such case, or it did not end
   bool known = false;            ///< precise enough to show a difference of 5 %
   bool differs = false;          ///< from the case as it is, by more than both intervals
 };
@@ -103,8 +102,7 @@ struct Variations {
 Variations vary(const casefile::CaseSpec& spec, const std::string& precision, const study::RunRecord& own,
                 double uncertainty, const std::atomic<bool>* interrupt);
 
-/// The text for a run that has reached its end and has an interval; empty for other runs, or after an
-/// interrupt.
+/// The text for a run to its end that has an interval; empty for others, or after an interrupt.
 std::string what_decides(const casefile::CaseSpec& spec, const std::string& precision, const io::Facts& run,
                          double uncertainty, const std::atomic<bool>* interrupt);
 

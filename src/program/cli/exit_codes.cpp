@@ -59,8 +59,8 @@ void note_hangup(int, char**, char**) { hangup_is_ignored = is_ignored(SIGHUP); 
                                                                              char**) = note_hangup;
 #endif
 
-/// GMP ends the program when there is no memory; from here on it throws `std::bad_alloc`. Its functions are
-/// those of the whole process, so that the program may set them and the library may not.
+/// From here on GMP throws `std::bad_alloc` when there is no memory, instead of ending the program. Its
+/// functions are those of the whole process: the program may set them, the library may not.
 void throw_for_lack_of_memory() {
 #ifndef EDMILL_WITHOUT_MPFR
   static const auto or_throw = [](void* memory) { return memory ? memory : throw std::bad_alloc(); };
@@ -71,8 +71,7 @@ void throw_for_lack_of_memory() {
 #endif
 }
 
-/// Grows the stack to its final size at the start: if it could not grow later, the program would end without
-/// a message.
+/// Grows the stack to its final size: where it cannot grow later, a program ends without a message.
 /// @throws std::bad_alloc
 [[gnu::noinline]] void grow_stack() {
   std::array<volatile char, 1 << 20> room;
@@ -80,8 +79,7 @@ void throw_for_lack_of_memory() {
   for (std::size_t k = room.size(); k >= 4096; k -= 4096) room[k - 1] = as_much[k];
 }
 
-/// A standard descriptor that is closed is opened on /dev/null, so that no file gets its number. Using it
-/// fails all the same.
+/// Opens closed standard descriptors on /dev/null, so that no file gets their numbers.
 void open_standard_descriptors() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) continue;
@@ -90,8 +88,8 @@ void open_standard_descriptors() {
   }
 }
 
-/// Makes a write to a file that is too large, or to a pipe that nobody reads, fail instead of killing the
-/// program. If SIGHUP was ignored at the start, as by nohup, it stays ignored, whatever libraries do.
+/// Lets a write to a file that is too large, or to a pipe that nobody reads, fail instead of killing
+/// the program. A SIGHUP that was ignored at the start, as by nohup, stays ignored.
 void begin_with_signals() {
   if (hangup_is_ignored) std::signal(SIGHUP, SIG_IGN);
   pipes_end_us = !is_ignored(SIGPIPE);

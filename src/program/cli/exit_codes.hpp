@@ -66,7 +66,7 @@ void print_problem(const std::string& problem);
 /// Says why a command has no result. @return the exit code
 int tell_undecided(const std::string& why);
 
-/// Executes a command as the whole program: prepares standard streams and signals, and prints errors.
+/// Executes a command as the whole program, with its streams and signals, and prints errors.
 /// @return the exit code
 int as_program(const std::function<int()>& command);
 
@@ -74,7 +74,7 @@ int as_program(const std::function<int()>& command);
 /// SIGINT or SIGTERM ends the program at once.
 std::atomic<bool>& interrupt_flag();
 
-/// From now on SIGINT, SIGTERM, SIGHUP, SIGXCPU and SIGUSR1 set the flag; before, they end the program.
+/// From now on SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1 set the flag and do not end the program.
 void listen_for_signals();
 
 /// Adds the signal number to the code `interrupted`; returns any other code unchanged.

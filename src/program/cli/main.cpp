@@ -70,8 +70,7 @@ std::string man_page(const CLI::App& app) {
   return page;
 }
 
-/// For bash: source it, or install it as share/bash-completion/completions/edmill. For zsh after
-/// bashcompinit.
+/// To source in bash, or for share/bash-completion/completions/edmill; in zsh after bashcompinit.
 std::string bash_completion(const CLI::App& app) {
   std::string commands, cases;
   for (const auto* command : app.get_subcommands({})) {
@@ -181,8 +180,7 @@ std::string outputs() {
   return text + '\n';
 }
 
-/// docs/reference.md: commands with options, exit codes, keys of files, outputs, keys of
-/// summary.json and of documents.
+/// docs/reference.md: commands, exit codes, outputs, keys of files, of summary.json and documents.
 std::string reference(const CLI::App& app) {
   return "# Reference\n\nPrinted by `edmill reference` from the tables with which the program "
          "reads command lines and files. Variables have a page\nof their own: "
@@ -274,7 +272,7 @@ std::vector<std::string> options_of(const CLI::App& command) {
   return names;
 }
 
-/// The first word that begins with a hyphen but is none of the options; negative numbers may be values.
+/// The first word with a hyphen that is none of the options; negative numbers may be values.
 std::string unknown_option(const std::vector<std::string>& words, const std::vector<std::string>& options) {
   for (const auto& word : words) {
     if (word == "--") break;

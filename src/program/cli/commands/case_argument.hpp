@@ -62,7 +62,7 @@ inline std::string name_of(const std::string& case_file) {
 template <class Options>
 class CaseCommand {
  protected:
-  /// Sets the default name of the output file, beside other outputs of the case, unless a name is given.
+  /// Unless a name is given, the output file is beside other outputs of the case.
   void name_file(const std::string& ending) {
     if (options_.file.empty()) options_.file = "out/" + name_of(given_.file) + ending;
   }
