@@ -128,7 +128,7 @@ $('flight-time').addEventListener('input', show_flight);
 $('gap-step').addEventListener('click', search_step);
 $('gap-again').addEventListener('click', begin_search);
 $('law').addEventListener('input', show_law);
-$('law').addEventListener('submit', event => event.preventDefault());
+on_submit('law', () => {});
 $('diverge').addEventListener('click', diverge);
 $('prove').addEventListener('click', check_proof);
 show_flight();

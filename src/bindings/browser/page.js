@@ -3,10 +3,12 @@
 const cases = read('cases');
 const most_bytes = 4e8, most_of_case = 1e6;
 
+const element = (kind, text) => Object.assign(document.createElement(kind), {textContent: text});
+
 function problems(list) {
   $('problems').hidden = list.length === 0;
   const lines = list.map(text => text.replace(/^--set /, 'Setting '));
-  $('problems').replaceChildren(...lines.map(text => Object.assign(document.createElement('li'), {textContent: text})));
+  $('problems').replaceChildren(...lines.map(text => element('li', text)));
 }
 
 // ---- Choices
@@ -53,12 +55,6 @@ function show_values(values) {
     if (!$(field).disabled || key in values) $(field).placeholder = values[key] ?? '';
 }
 
-/// The case of a mill that is sold, as `edmill new` writes it, or problems.
-async function new_case() {
-  const {answer} = await ask({what: 'new', wanted: [$('case').value, ...of_machine.map(written), written('speed')]});
-  return answer;
-}
-
 // ---- Running
 
 let going = false, run_number = 0, ended = false, chunk = 0.03;
@@ -88,6 +84,13 @@ function give_up(what, list = []) {
   problems(list);
 }
 
+/// Asks the engine for a task; no answer where another has begun, or after problems, which are shown.
+async function ask_for(own, message, sorry = 'The run has stopped.') {
+  const got = await ask(message);
+  if (own === run_number && got.answer.problems) give_up(sorry, got.answer.problems);
+  return own === run_number ? got : {};
+}
+
 async function begin() {
   if ($('said').textContent === placing) mill.stop();
   give_up(placing);
@@ -95,24 +98,21 @@ async function begin() {
   const own = run_number;
   const name = $('case').value;
   if (!(name in cases)) {
-    const made = await new_case();
+    const wanted = [name, ...of_machine.map(written), written('speed')];
+    const made = (await ask({what: 'new', wanted})).answer;
     if (own !== run_number) return;
     if (name !== $('case').value) return give_up('Another mill was chosen.');
     if (made.problems) return give_up('The mill has problems.', made.problems);
     text = made.case;
   }
-  const {answer} = await ask({what: 'begin', text, settings: settings(), log: $('keep').checked});
-  if (own !== run_number) return;
-  if (answer.problems) return give_up('The case has problems.', answer.problems);
-  scene = answer;
+  const {answer} = await ask_for(own, {what: 'begin', text, settings: settings(), log: $('keep').checked}, 'The case has problems.');
+  if (!answer) return;
+  scene = {...answer, size: 0, meshes: Object.values(answer.walls)};
   show_values(scene.values);
-  scene.size = 0;
-  scene.meshes = Object.values(scene.walls);
   view.target = scene.middle;
   rates = [], last_dose = [0, 0], ended = false, chunk = 0.03;
-  const first = (await ask({what: 'advance', time: 0})).answer;
-  if (own !== run_number) return;
-  if (first.problems) return give_up('The run has stopped.', first.problems);
+  const {answer: first} = await ask_for(own, {what: 'advance', time: 0});
+  if (!first) return;
   take(first);
   $('version').textContent = scene.version;
   going = true;
@@ -122,12 +122,8 @@ async function begin() {
 
 /// The next state at a time, or after one impact; whether the run has gone on. A chunk that it was sets the size of the next one.
 async function advance(time, own, of_chunk = false) {
-  const {answer, milliseconds} = await ask({what: 'advance', time});
-  if (own !== run_number) return false;
-  if (answer.problems) {
-    give_up('The run has stopped.', answer.problems);
-    return false;
-  }
+  const {answer, milliseconds} = await ask_for(own, {what: 'advance', time});
+  if (!answer) return false;
   const before = frame.impacts;
   take(answer);
   if (time < 0 && answer.impacts === before && !answer.ended) say('No impact in the next hundred drive periods.');
@@ -152,20 +148,18 @@ async function play(own) {
 
 async function finish(own) {
   going = false;
-  const {answer} = await ask({what: 'finish'});
-  if (own !== run_number) return;
-  if (answer.problems) return give_up('The run has stopped.', answer.problems);
+  const {answer} = await ask_for(own, {what: 'finish'});
+  if (!answer) return;
   ended = true;
   show_facts({'ended by': frame.end_reason, ...(answer.digest ? {'SHA-256 of collisions.csv': answer.digest} : {})});
   say('The run has ended.');
 }
 
 function save(name, content) {
-  const link = document.createElement('a');
-  link.href = URL.createObjectURL(new Blob([content], {type: 'text/plain'}));
-  link.download = name;
+  const href = URL.createObjectURL(new Blob([content], {type: 'text/plain'}));
+  const link = Object.assign(document.createElement('a'), {href, download: name});
   link.click();
-  URL.revokeObjectURL(link.href);
+  URL.revokeObjectURL(href);
 }
 
 // ---- Verifying
@@ -218,12 +212,16 @@ function give(input, file) {
 
 // ---- Events
 
+function on_submit(form, action) {
+  $(form).addEventListener('submit', event => {
+    event.preventDefault();
+    action();
+  });
+}
+
 $('examples').append(...Object.keys(cases).map(name => new Option(name, name)));
 $('case').addEventListener('change', () => choose($('case').value));
-$('choices').addEventListener('submit', event => {
-  event.preventDefault();
-  begin();
-});
+on_submit('choices', begin);
 $('pause').addEventListener('click', () => {
   going = !going;
   say(going ? 'Running.' : 'Paused.');
@@ -271,10 +269,7 @@ for (const what of ['dragover', 'drop'])
       give(!file.name.endsWith('.toml') ? 'log' : see ? 'open' : 'judged-case', file);
   });
 view.listen(draw);
-$('judge').addEventListener('submit', event => {
-  event.preventDefault();
-  judge('audit');
-});
+on_submit('judge', () => judge('audit'));
 $('compare').addEventListener('click', () => judge('compare'));
 $('judge-stop').addEventListener('click', () => judging.stop());
 

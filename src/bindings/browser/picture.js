@@ -68,8 +68,7 @@ function show_facts(more = {}) {
       `${number(frame.last.separation_speed, 3)} m/s apart, ${number(1000 * frame.last.milling_dose, 3)} mJ`;
   }
   Object.assign(facts, more);
-  $('facts').replaceChildren(...Object.entries(facts).flatMap(([name, value]) =>
-    [Object.assign(document.createElement('dt'), {textContent: name}), Object.assign(document.createElement('dd'), {textContent: value})]));
+  $('facts').replaceChildren(...Object.entries(facts).flatMap(([name, value]) => [element('dt', name), element('dd', value)]));
 }
 
 let last_dose = [0, 0];
