@@ -146,8 +146,7 @@ def certify(case: Case | Mapping | str | os.PathLike, collisions: int | None = N
 
 @dataclasses.dataclass(frozen=True)
 class Derivative:
-    """Derivatives with respect to one parameter of a case, or one number of the initial state; SI per unit of it. Numbers are
-    `decimal.Decimal` where more than 17 digits were asked for."""
+    """Derivatives by a parameter of a case or a number of the initial state, SI per its unit; with more than 17 digits Decimals."""
     by: str
     unit: str  #: of the parameter as the case has it, "rpm"; empty for a ratio
     quantities: dict[str, np.ndarray]  #: of time, approach_speed, slip_speed, milling_dose and wall_work, by event
@@ -181,8 +180,7 @@ def sensitivity(case: Case | Mapping | str | os.PathLike, by: Iterable[str], eve
 
 
 def estimate(case: Case | Mapping | str | os.PathLike, *, digits: int | None = None, precision: str | None = None) -> dict[str, Any]:
-    """As `edmill run --estimate`: what a run will take, from short trials: events, digits lost per event, precision for the
-    `digits` at the end, processor time [s] and memory [bytes]."""
+    """As `edmill run --estimate`, from trials: events, digits lost per event, precision for `digits`, processor time [s], memory [bytes]."""
     case = case_of(case)
     if digits is not None:
         case = case.with_settings(f"run.digits={whole('digits', digits, 1, 100_000)}")

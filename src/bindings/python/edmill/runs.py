@@ -95,8 +95,7 @@ class Run:
 
     @property
     def impact_energy(self) -> float | None:
-        """Kinetic energy of the approach along the normal, M/2 v^2, below which impacts give half of their dose [J]; None without
-        impacts. Contacts at rest are left out."""
+        """Energy of the approach, M/2 v_n^2, below which impacts other than contacts at rest give half of their dose [J]; None without any."""
         return self.summary.get("impact_energy_by_dose", {}).get("median")
 
     def _rates(self, kind: str) -> dict[str, Value]:
@@ -296,8 +295,7 @@ def read_run(folder: str | pathlib.Path) -> Run:
 
 
 def resume(folder: str | pathlib.Path, checkpoint: str | None = None) -> Run:
-    """Continues a run that was ended, from its checkpoint, as `edmill resume`. @param checkpoint  how often to save
-    (default: as before)"""
+    """Continues a run from its checkpoint, as `edmill resume`. `checkpoint`: how often to save (default: as before)."""
     place = checks.place("folder", folder)
     require("checkpoint", checkpoint, checkpoint is None or isinstance(checkpoint, str), 'a text such as "10 min"')
     _edmill.resume(place, checkpoint or "")
@@ -305,8 +303,7 @@ def resume(folder: str | pathlib.Path, checkpoint: str | None = None) -> Run:
 
 
 def report(folder: str | pathlib.Path, *others: str | pathlib.Path, out: str | pathlib.Path = "comparison.html") -> pathlib.Path:
-    """Makes the report of a run's folder, as `edmill report`; of several, the page `out` that compares them. Returns the page's
-    path."""
+    """As `edmill report`: makes the page of a run's folder; of several, the page `out` that compares them. Returns its path."""
     places = [checks.place("folder", one) for one in (folder, *others)]
     if len(places) == 1:
         return pathlib.Path(_edmill.report(places[0]))

@@ -36,8 +36,7 @@ class Study:
         return self.tables["runs"]
 
     def to_dataframe(self):
-        """`points` as a `pandas.DataFrame`: values of the keys that vary are numbers in SI where they have units. `attrs["units"]` has
-        the unit of each column."""
+        """`points` as a `pandas.DataFrame`, with SI numbers for quantities that vary; `attrs["units"]` has the unit of each column."""
         frame = self.points.to_dataframe()
         units = {name: field[2].partition(" [")[2][:-1] for name, field in self.points.dtype.fields.items() if len(field) > 2}
         columns = list(frame.columns)
@@ -161,10 +160,8 @@ def sweep(source: Case | Mapping | str | os.PathLike, folder: str | os.PathLike 
     else:
         require("source", source, not isinstance(source, Case), "a sweep file, or a case together with `over`")
         require("seeds", seeds, seeds is None, "none: a sweep file has `replicas`")
-    if folder is not None:
-        return _study(_edmill.sweep, "sweep", source, folder, jobs, progress)
-    temporary = tempfile.TemporaryDirectory(prefix="edmill-sweep-")
-    study = _study(_edmill.sweep, "sweep", source, temporary.name, jobs, progress)
+    temporary = tempfile.TemporaryDirectory(prefix="edmill-sweep-") if folder is None else None
+    study = _study(_edmill.sweep, "sweep", source, temporary.name if temporary else folder, jobs, progress)
     study._temporary = temporary
     return study
 
@@ -175,8 +172,7 @@ def optimize(source: Mapping | str | os.PathLike, folder: str | os.PathLike, job
 
 
 def seeds(case: Case, count: int, folder: str | os.PathLike, precision: str | None = None, jobs: int = 0) -> Study:
-    """As `edmill run --seeds`: so many runs, with the seed of the case and the next ones. `points` has one row, whose `states` says
-    in how many steady states they settle."""
+    """As `edmill run --seeds`: `count` runs from the case's seed on; the one row of `points` counts their steady `states`."""
     case, count = case_of(case), whole("count", count, 2, 100000)
     with tempfile.NamedTemporaryFile("w", suffix=".toml", dir=".", encoding="utf-8") as file:
         file.write(case.text)
@@ -199,7 +195,6 @@ class Variations(dict):
 
 
 def what_decides(case: Case, uncertainty: float = 0.1) -> Variations:
-    """As `edmill run --check`: the run again with another seed, half of the least separation speed, and restitution and
-    friction changed by their uncertainty."""
+    """As `edmill run --check`: runs with another seed, half of the least separation speed, uncertain restitution and friction."""
     require("uncertainty", uncertainty, isinstance(uncertainty, (int, float)) and 0 < uncertainty <= 1, "a number above 0, 1 at most")
     return Variations(*_edmill.vary(case_of(case)._case, float(uncertainty)))

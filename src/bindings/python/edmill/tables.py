@@ -51,8 +51,7 @@ def _column(cells: list[str]) -> np.ndarray:
 
 
 def read_table(file: str | pathlib.Path) -> Records:
-    """A CSV file of edmill: its columns have the names of the header without units, which `dtype.fields` keep as titles.
-    Empty cells are NaN."""
+    """A CSV file of edmill; columns are named without units, which `dtype.fields` keep as titles. Empty cells are NaN."""
     with open(file, newline="", encoding="utf-8") as stream:
         header, *rows = csv.reader(itertools.dropwhile(lambda line: line.startswith("#"), stream))
     names = [title.split(" [")[0] for title in header]
