@@ -9,11 +9,10 @@ Quantities are strings with units; numbers without a unit are for counts and rat
 """
 from ._edmill import InputError, UndecidedError, __version__
 from .callbacks import ContactLaw, Impact, Running
-from .case import Case, EditError
+from .case import Case, EditError, machines, new, variables
 from .dem import Deck, export, import_dump, limit
 from .judges import (Agreement, Certification, CertifiedEvent, Derivative, Judgement, Proof, ProvenEvent, Sensitivities, Shadow,
                      audit, certify, check, check_certificate, compare, estimate, prove, sensitivity, shadow)
-from .machines import machines, new, variables
 from .runs import Interrupted, Run, read_run, report, resume, run
 from .studies import Study, Variations, optimize, seeds, sweep, what_decides
 from .tables import Records

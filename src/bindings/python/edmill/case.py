@@ -1,4 +1,4 @@
-"""Cases: everything that a run depends on."""
+"""Cases, everything that a run depends on; commercial mills, new cases for them, and the variables of outputs."""
 from __future__ import annotations
 
 import html
@@ -204,3 +204,23 @@ class Case:
 def case_of(given: Case | Mapping[str, Any] | str | os.PathLike) -> Case:
     """Returns a case unchanged, or makes one from a file or dictionary."""
     return given if isinstance(given, Case) else Case(given)
+
+
+def machines() -> dict[str, dict[str, tuple[str, str]]]:
+    """Mills by name, each with the keys of its case, their values and sources."""
+    return {name: {key: (value, source) for key, value, source in rows} for name, rows in _edmill.machines()}
+
+
+def new(mill: str = "spex8000", balls: Sequence[str] = (), *, jar: str = "", fill: str = "", powder: str = "", bpr: float | str = "",
+        target_dose: str = "", speed: str = "", restitution: float | str = "", friction: float | str = "", time: str = "10 s") -> Case:
+    """A case of a mill, as `edmill new`: `balls` are "10x12.7mm", or "10x12.7mm:zirconia" (10 of 10 mm where nothing is given), or
+    "12.7mm" where `fill`, "30%" of the jar, or `powder` and `bpr`, their mass over its, say how many."""
+    wanted = [checked_text("mill", mill), texts("balls", balls, '"10x12.7mm"'), checked_text("powder", powder), checked_text("speed", speed),
+              str(restitution), str(friction), checked_text("target_dose", target_dose), checked_text("time", time), checked_text("jar", jar),
+              checked_text("fill", fill), str(bpr)]
+    return Case.parse(_edmill.new_case(*wanted), f"{mill}.toml")
+
+
+def variables() -> list[dict[str, str]]:
+    """The variables of an impact that outputs can show: name, unit and meaning."""
+    return [{"name": name, "unit": unit, "meaning": meaning} for name, unit, meaning in _edmill.variables()]
