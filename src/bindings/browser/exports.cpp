@@ -107,8 +107,7 @@ std::string text_with_values(const casefile::CaseSpec& spec, bool log) try {
 /// A run that a page shows while it is computed.
 class Session : private Observer<double> {
  public:
-  /// @param log  whether collisions.csv is written; the outputs of the case are left out
-  /// @throws InputError with all problems of the case
+  /// @param log  whether collisions.csv is written. @throws InputError with the case's problems
   explicit Session(bool log)
       : spec_(read(log)),
         mill_(casefile::build_mill<double>(spec_)),
@@ -364,8 +363,7 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_first_impacts(int most) {
   });
 }
 
-/// The log is the file /log.
-/// @param identify  true to search for the mistake behind violations
+/// The log is the file /log. @param identify  true to search for the mistake behind violations
 EMSCRIPTEN_KEEPALIVE const char* edmill_audit(int identify) {
   return answer([&](JsonText& json) {
     const auto spec = the_case();

@@ -45,9 +45,9 @@ class Binding {
   }
 };
 
-/// Calls Python from where no lock or object of Python is left to destroy. Python ends a daemon thread that
-/// waits for its lock when the interpreter ends, by unwinding the stack (pthread_exit), which the destructors
-/// of C++ do not permit: the thread sleeps instead to the end, as in Python 3.14.
+/// Calls Python from where no lock or object of Python is left to destroy. When the interpreter ends, Python
+/// ends a daemon thread that waits for its lock by unwinding the stack (pthread_exit), which destructors of
+/// C++ do not permit: the thread sleeps instead to the end, as in Python 3.14.
 template <class Call>
 auto call_python(const Call& call) {
   try {

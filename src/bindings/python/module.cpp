@@ -152,7 +152,6 @@ struct RunOfPython {
 /// ends the run after Ctrl-C.
 class Caller : public run::Watcher {
  public:
-  /// @param observers  callables that receive each impact and the run
   /// @param interrupted  set here, and by laws during which Ctrl-C came
   Caller(const std::vector<py::object>& observers, const py::object& progress, const Numbers& numbers,
          bool& interrupted)

@@ -91,7 +91,6 @@ py::list bodies_of(const std::vector<run::Event>& events) {
 }
 
 /// @return the agreement of each pair of scalars, and the events, numbers as texts of all digits
-/// @throws UndecidedError when no two scalars agree
 py::tuple certify(const Case& the_case, std::size_t collisions, int digits, Text file) {
   const app::CertifyOptions options{file, collisions, digits};
   const auto found = with_interrupt(options, app::certify, CaseAccess::spec(the_case));
@@ -139,7 +138,6 @@ py::tuple sensitivity(const Case& the_case, Texts by, std::size_t events, unsign
 }
 
 /// @return the precision that gives the digits required, and the case with those that it gives
-/// @throws UndecidedError when no number of digits suffices
 py::tuple find_digits(const Case& the_case) {
   const auto found = with_interrupt(app::DigitsOptions(), app::find_digits, CaseAccess::spec(the_case));
   if (!found.undecided.empty()) throw UndecidedError(found.undecided);
@@ -159,7 +157,6 @@ py::dict estimate(const Case& the_case, Text precision) {
 }
 
 /// @return the events as CSV, the bits of the proof, and the bits that remain at its end
-/// @throws UndecidedError when the events cannot be proven
 py::tuple prove(const Case& the_case, std::size_t collisions, long most_bits, Text certificate) {
   const app::ProveOptions options{
       {.collisions = collisions, .most_bits = most_bits, .progress = nullptr}, "", certificate};

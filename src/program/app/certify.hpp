@@ -131,8 +131,7 @@ struct Shadow : Evidence {
   std::string text() const;
 };
 
-/// @param what  source of the request, for the message: "option '--shadow'"
-/// @throws InputError when `wider` is not wider than `precision`
+/// @throws InputError when `wider` is not wider. @param what  asks for it: "option '--shadow'"
 void require_wider(const std::string& precision, const std::string& wider, const std::string& what);
 
 /// Runs the case in both scalars to its end. @pre `wider` is wider than `precision`
@@ -202,8 +201,7 @@ prove::Proof prove(const casefile::CaseSpec& spec, const ProveOptions& options);
 std::size_t right_events(const std::string& precision, const casefile::CaseSpec& spec,
                          const prove::Proof& proof);
 
-/// Differences between the header of a certificate and the case, a line each.
-/// @throws InputError if the file is not a certificate
+/// Differences between a certificate's header and the case, a line each. @throws InputError
 std::vector<std::string> check_certificate(const casefile::CaseSpec& spec, const std::string& certificate);
 
 }  // namespace edmill::app

@@ -20,8 +20,7 @@ struct CheckedCase {
   std::string text() const;
 };
 
-/// @throws InputError when its balls do not fit
-/// @throws UndecidedError when no scalar can decide about a first contact
+/// @throws InputError when its balls do not fit, UndecidedError when no scalar decides a contact
 CheckedCase check(const casefile::CaseSpec& spec);
 
 /// An SVG of how the vessel moves. @throws InputError when the file cannot be written

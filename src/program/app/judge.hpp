@@ -23,8 +23,7 @@ struct Judged {
   std::string json, junit, table;
 };
 
-/// Compares two collision logs, or only their dose rates if one of them is a log of contacts.
-/// @throws InputError
+/// Compares two logs, or only their dose rates if one is a log of contacts. @throws InputError
 Judged compare(const compare::ComparisonOptions& options);
 
 /// Options of an audit, which override the case's section [audit].

@@ -43,13 +43,11 @@ struct RunResult {
   }
 };
 
-/// Runs the case in the scalar of this name and writes its folder.
-/// @pre `precision` is one of casefile::precisions()
+/// Runs the case in one of casefile::precisions() and writes its folder.
 /// @throws InterruptedError when the interrupt comes before the first event
 RunResult run(const std::string& precision, casefile::CaseSpec spec, const RunOptions& options);
 
-/// The part of a run's checkpoints that is known at its start.
-/// @throws InputError for a case that cannot be read again
+/// What checkpoints have from the start. @throws InputError for a case that cannot be read again
 io::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::string& precision, bool report,
                                 const std::string& interval);
 

@@ -32,8 +32,7 @@ struct StudyResult {
   std::string estimate;  ///< how long it will take, as text, where only that is asked for
 };
 
-/// @return nothing on ranks that only do runs of rank 0
-/// @throws InputError
+/// @return nothing on ranks that only do runs of rank 0. @throws InputError
 std::optional<StudyResult> sweep(const StudyOptions& options);
 std::optional<StudyResult> optimize(const StudyOptions& options);
 
@@ -43,8 +42,7 @@ struct SeedsOptions : StudyOptions {  ///< the file is the case, the folder is r
   std::uint64_t count = 0;
 };
 
-/// Runs a case with successive seeds from its own on. The result is in `optimum` and on a page.
-/// @throws InputError
+/// Runs a case with successive seeds; the result is in `optimum` and on a page. @throws InputError
 std::optional<StudyResult> seeds(const SeedsOptions& options);
 
 struct BifurcationOptions {
@@ -73,8 +71,7 @@ struct Bifurcation {
   bool interrupted = false;
 };
 
-/// Runs the case in double once for each value, each from its initial state.
-/// @throws InputError for a key that the case does not give as a number
+/// Runs the case in double once for each value. @throws InputError for a key without a number
 Bifurcation bifurcation(const casefile::CaseSpec& spec, const BifurcationOptions& options);
 
 /// A run of the case with one change.
@@ -96,9 +93,8 @@ struct Variations {
 };
 
 /// Repeats a run on all cores with another seed, half of the least separation speed, restitution and friction
-/// smaller and larger. Without outputs: nothing is written.
+/// smaller and larger. Nothing is written.
 /// @param own  record of the run itself, which is not repeated
-/// @param uncertainty  of restitution and friction, above 0
 Variations vary(const casefile::CaseSpec& spec, const std::string& precision, const study::RunRecord& own,
                 double uncertainty, const std::atomic<bool>* interrupt);
 

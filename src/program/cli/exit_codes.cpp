@@ -72,7 +72,6 @@ void throw_for_lack_of_memory() {
 }
 
 /// Grows the stack to its final size: where it cannot grow later, a program ends without a message.
-/// @throws std::bad_alloc
 [[gnu::noinline]] void grow_stack() {
   std::array<volatile char, 1 << 20> room;
   const std::vector<char> as_much(2 * room.size());  // throws where the stack would end the program
@@ -107,8 +106,7 @@ void end_by_pipe_signal() {
 
 /// Whether all of standard output was written. When not, one message says why, unless its reader did not want
 /// more, which ends the program by SIGPIPE.
-/// @param code  of the command
-/// @return the exit code
+/// @param code  of the command @return the exit code
 int after_output(int code) {
   const int error = io::output_error();
   // These commands have reported their error.

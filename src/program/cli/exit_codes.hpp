@@ -66,8 +66,7 @@ void print_problem(const std::string& problem);
 /// Says why a command has no result. @return the exit code
 int tell_undecided(const std::string& why);
 
-/// Executes a command as the whole program, with its streams and signals, and prints errors.
-/// @return the exit code
+/// Executes a command as the whole program, with streams, signals and errors. @return the exit code
 int as_program(const std::function<int()>& command);
 
 /// Becomes true at the first signal after `listen_for_signals`, or when another rank has seen one; a second

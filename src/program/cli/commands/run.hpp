@@ -233,7 +233,6 @@ struct Run : RunCommand {
 
  private:
   /// Adds the settings of --until-precision: the stop rule, and a distant end time if none is set.
-  /// @throws InputError when it is no part of 1
   void run_until_precision(const casefile::CaseSpec& spec, std::vector<std::string>& settings) const {
     const double part = part_of_one("--until-precision", until_precision_);
     settings.push_back(fmt::format("run.dose_rate_precision={}", part));
