@@ -1,29 +1,22 @@
 // Convex bodies inside the vessel: boxes and cylinders whose edges may be rounded, seen from outside.
 #pragma once
 
-#include <array>
-#include <boost/container/static_vector.hpp>
-#include <cmath>
+#include <algorithm>
 #include <optional>
 #include <utility>
-#include <vector>
 
-#include "base/scalar.hpp"
-#include "base/trigonometry.hpp"
-#include "model/parts/axis_distance.hpp"
 #include "model/parts/partners.hpp"
 #include "model/parts/surface.hpp"
 #include "model/parts/vessel_frame.hpp"
 
 namespace edmill::model {
 
-/// All points within `rounding` of a core: a box, or a cylinder about y. Half edges of the core may be zero,
-/// so that it is a point, a segment, a rectangle or a disc. The space around the body is a vessel
-/// (vessel.hpp) with one wall: its gap is |u|^2 - (rounding + R)^2, where u is the vector from the nearest
-/// point of the core to the ball's centre. It is smooth in the region of the points with the same coordinates
-/// outside of the core's: `enter` chooses the region of a ball, and the functions after the gap are its
-/// borders, each a little beyond the plane or cylinder where the region ends, as in RoundedVessel. theory.md,
-/// section 2
+/// All points within `rounding` of a core: a box, or a cylinder about y, whose half edges may be zero. The
+/// space around the body is a vessel (vessel.hpp) with one wall: its gap is |u|^2 - (rounding + R)^2, with
+/// the vector u from the nearest point of the core to the ball's centre. It is smooth in the region of the
+/// points with the same coordinates outside of the core's: `enter` chooses the region of a ball, and the
+/// functions after the gap are its borders, a little beyond its ends, as in RoundedVessel. theory.md, section
+/// 2
 template <class Real>
 class RoundedBody {
  public:
@@ -36,8 +29,7 @@ class RoundedBody {
 
   RoundedBody() = default;
   /// @param is_round  whether the core is a cylinder of radius half[0] = half[2] > 0 about y
-  /// @param half      half edges of the core [m]
-  /// @param rounding  [m]
+  /// @param half, rounding  half edges of the core [m], [m]
   RoundedBody(bool is_round, const Vec3<Real>& half, const Real& rounding)
       : is_round_(is_round), half_(half), rounding_(rounding), distance_(rounding) {}
   template <class To>
@@ -45,9 +37,8 @@ class RoundedBody {
     RoundedBody<To> to(is_round_, vector_cast<To>(half_), static_cast<To>(rounding_));
     return to.among(static_cast<To>(largest_ball_), static_cast<To>(domain_ * (1 + rounding_margin<Real>())));
   }
-  /// The body with bounds that are valid for the balls of a case.
-  /// @param largest_ball  radius [m]
-  /// @param domain        no ball's centre is farther from the body's origin [m]
+  /// The body with bounds for the balls of a case: the largest radius [m], and a distance from the body's
+  /// origin that no ball's centre exceeds [m].
   RoundedBody among(const Real& largest_ball, const Real& domain) const {
     using std::sqrt;
     RoundedBody body(*this);
@@ -62,10 +53,7 @@ class RoundedBody {
   const Vec3<Real>& half() const { return half_; }
   const Real& rounding() const { return rounding_; }
   /// An upper bound on the distance of the body's points from its origin [m].
-  Real size() const {
-    const Real across = is_round_ ? half_[0] : Real(half_[0] + half_[2]);
-    return across + half_[1] + rounding_;
-  }
+  Real size() const { return (is_round_ ? half_[0] : Real(half_[0] + half_[2])) + half_[1] + rounding_; }
   /// The volume, by Steiner's formula [m3].
   Real solid_volume() const {
     const Real pi = numerics::pi<Real>(), r = rounding_;
@@ -84,11 +72,8 @@ class RoundedBody {
 
   /// The region of p becomes that of the functions. @return its number
   int enter(const Vec3<Real>& p) {
-    if (is_round_) {
-      outside_ = {squared_across(p) > half_[0] * half_[0] ? 1 : 0, side(1, p), 0};
-    } else {
-      for (int i = 0; i < 3; ++i) outside_[i] = side(i, p);
-    }
+    outside_ = {side(0, p), side(1, p), side(2, p)};
+    if (is_round_) outside_ = {squared_across(p) > half_[0] * half_[0], outside_[1], 0};
     return 9 * outside_[0] + 3 * outside_[1] + outside_[2];
   }
 
@@ -96,8 +81,8 @@ class RoundedBody {
   static int wall_count() { return 1; }
   static int function_count() { return static_cast<int>(functions); }
   static std::vector<WallInfo> walls() { return {{"body", "the body"}}; }
-  /// The parts of the surface: of a box the faces x-, x+, y-, y+, z-, z+ and all of its rounded edges; of a
-  /// cylinder the lower and the upper edge, the side, the lower and the upper end. Parts may have no area.
+  /// Of a box the faces x-, x+, y-, y+, z-, z+ and all of its rounded edges; of a cylinder the lower and the
+  /// upper edge, the side, the lower and the upper end. Parts may have no area.
   std::vector<WallSurface<Real>> surfaces() const {
     const Real &a = half_[0], &b = half_[1], &c = half_[2], &r = rounding_;
     if (!is_round_) {
@@ -112,8 +97,7 @@ class RoundedBody {
       return faces;
     }
     const Vec3<Real> top{Real(0), b, Real(0)}, end{Real(0), Real(b + r), Real(0)};
-    const Frame<Real> middle{Vec3<Real>::Zero(), Vec3<Real>::UnitX(), Vec3<Real>::UnitY(),
-                             Vec3<Real>::UnitZ()};
+    const auto middle = frame_at<Real>(Vec3<Real>::Zero());
     const auto at = [&](const Vec3<Real>& place, int up) {
       return Frame<Real>{place * Real(up), middle.x, middle.y * Real(up), middle.z * Real(up)};
     };
@@ -175,34 +159,24 @@ class RoundedBody {
   }
   PerWall<Real> rates(const Vec3<Real>& p, const Vec3<Real>& v) const {
     const Real moved = p[0] * v[0] + p[2] * v[2];
-    Real sum = is_side() ? moved : Real(0);
-    if (!is_side())
-      for (int i = 0; i < 3; ++i)
-        if (counts(i)) sum += excess(i, p) * excess_rate(i, p, v);
-    PerWall<Real> all{Real(2 * sum)};
-    for (int f = 1; f < function_count(); ++f)
-      all[f] = !is_border(f)        ? Real(0)
-               : is_round_ && f < 3 ? Real(sign(f) * 2 * moved)
-                                    : Real(sign(f) * v[axis(f)]);
-    return all;
+    if (is_side()) return derivatives(moved, moved, v);
+    Real sum(0);
+    for (int i = 0; i < 3; ++i)
+      if (counts(i)) sum += excess(i, p) * excess_rate(i, p, v);
+    return derivatives(sum, moved, v);
   }
   PerWall<Real> curvatures(const Vec3<Real>& p, const Vec3<Real>& v, const Vec3<Real>& a) const {
     const Real bent = (v[0] * v[0] + p[0] * a[0]) + (v[2] * v[2] + p[2] * a[2]);
-    Real sum = is_side() ? bent : Real(0);
-    if (!is_side())
-      for (int i = 0; i < 3; ++i)
-        if (counts(i)) {
-          const Real rate = excess_rate(i, p, v);
-          Real second = outside_[i] < 0 ? Real(-a[i]) : a[i];
-          if (is_round_ && i == 0) second = (bent - rate * rate) / across(p);
-          sum += rate * rate + excess(i, p) * second;
-        }
-    PerWall<Real> all{Real(2 * sum)};
-    for (int f = 1; f < function_count(); ++f)
-      all[f] = !is_border(f)        ? Real(0)
-               : is_round_ && f < 3 ? Real(sign(f) * 2 * bent)
-                                    : Real(sign(f) * a[axis(f)]);
-    return all;
+    if (is_side()) return derivatives(bent, bent, a);
+    Real sum(0);
+    for (int i = 0; i < 3; ++i)
+      if (counts(i)) {
+        const Real rate = excess_rate(i, p, v);
+        Real second = outside_[i] < 0 ? Real(-a[i]) : a[i];
+        if (is_round_ && i == 0) second = (bent - rate * rate) / across(p);
+        sum += rate * rate + excess(i, p) * second;
+      }
+    return derivatives(sum, bent, a);
   }
 
   PerWall<bool> active(const Vec3<Real>&) const {
@@ -230,10 +204,7 @@ class RoundedBody {
     const Real near = distance_ + way;
     if (squared_norm<Real>(from_core(p)) > near * near) return {};
     auto on = active(p);
-    for (int f = 1; f < function_count(); ++f) {
-      auto& own = on[f];
-      if (own && !(is_round_ && f < 3)) own = !(border(f, p) > way);
-    }
+    for (int f = is_round_ ? 3 : 1; f < function_count(); ++f) on[f] = on[f] && !(border(f, p) > way);
     return on;
   }
 
@@ -263,22 +234,18 @@ class RoundedBody {
   ErrorBounds<Real> curved_errors(int f, const ErrorBounds<Real>& coordinate, const Real& u,
                                   const Real& frame_speed, const Real& acceleration,
                                   const Real& beyond) const {
-    const Real& v = frame_speed;
+    const Real &v = frame_speed, &a = acceleration;
     const Real most = rounding_ + largest_ball_ + 3 * beyond, slack = 4 * slack_ * slack_;
     const Real inside = half_[0] + half_[1] + half_[2];
     auto e = coordinate;  // of an excess
     e.value += 4 * u * (inside + most);
-    Real far = most;
-    if (is_round_) {
-      const Real R = half_[0] + most;
-      auto square = squared_distance_errors(coordinate, u, v, acceleration, R);
-      square.value += slack;
-      if (f > 0) return square;
-      e = larger(e, distance_errors(coordinate, u, v, acceleration, R, Real(4 / (3 * half_[0]))));
-      far += half_[0] / 4;
-      return larger(square, squares(e, u, v, acceleration, far, slack));
-    }
-    return squares(e, u, v, acceleration, far, slack);
+    if (!is_round_) return squares(e, u, v, a, most, slack);
+    const Real R = half_[0] + most;
+    auto square = squared_distance_errors(coordinate, u, v, a, R);
+    square.value += slack;
+    if (f > 0) return square;
+    e = larger(e, distance_errors(coordinate, u, v, a, R, Real(4 / (3 * half_[0]))));
+    return larger(square, squares(e, u, v, a, Real(most + half_[0] / 4), slack));
   }
 
   Vec3<Real> normal(int, const Vec3<Real>& p) const {
@@ -316,6 +283,15 @@ class RoundedBody {
     return outside_[i] < 0 ? Real(-v[i]) : v[i];
   }
 
+  /// Of the gap, as twice the given one, and of the borders.
+  /// @param across, along  of (x^2 + z^2) / 2 and of the coordinates
+  PerWall<Real> derivatives(const Real& half_of_gap, const Real& across, const Vec3<Real>& along) const {
+    PerWall<Real> all{Real(2 * half_of_gap)};
+    for (int f = 1; f < function_count(); ++f)
+      if (is_border(f)) all[f] = is_round_ && f < 3 ? sign(f) * 2 * across : sign(f) * along[axis(f)];
+    return all;
+  }
+
   // Borders: functions 2 i + 1 and 2 i + 2 belong to axis i. A region outside has the first of them, one
   // between the edges both; an edge of length zero has none.
   static int axis(int f) { return (f - 1) / 2; }
@@ -335,18 +311,17 @@ class RoundedBody {
     const int i = axis(f);
     const bool out = counts(i);
     if (is_round_ && f < 3) {
-      const Real a = out ? Real(half_[0] - slack_) : Real(half_[0] + slack_), square = squared_across(p);
-      return out ? Real(square - a * a) : Real(a * a - square);
+      const Real a = out ? Real(half_[0] - slack_) : Real(half_[0] + slack_);
+      return out ? Real(squared_across(p) - a * a) : Real(a * a - squared_across(p));
     }
     const Real along = sign(f) < 0 ? Real(-p[i]) : p[i];
-    return out ? Real((along - half_[i]) + slack_) : Real((along + half_[i]) + slack_);
+    return (out ? Real(along - half_[i]) : Real(along + half_[i])) + slack_;
   }
 
   /// Vector from the nearest point of the core to p.
   Vec3<Real> from_core(const Vec3<Real>& p) const {
     Vec3<Real> d;
-    for (int i = 0; i < 3; ++i)
-      d[i] = p[i] > half_[i] ? Real(p[i] - half_[i]) : p[i] < -half_[i] ? Real(p[i] + half_[i]) : Real(0);
+    for (int i = 0; i < 3; ++i) d[i] = p[i] - std::clamp(p[i], Real(-half_[i]), half_[i]);
     if (!is_round_) return d;
     const Real r = across(p), rest = r > half_[0] ? Real(1 - half_[0] / r) : Real(0);
     return {p[0] * rest, d[1], p[2] * rest};
@@ -354,19 +329,15 @@ class RoundedBody {
 
   /// From a point of the core to its nearest face: direction and length.
   std::pair<Vec3<Real>, Real> way_out(const Vec3<Real>& p) const {
-    std::pair<Vec3<Real>, Real> best{Vec3<Real>::UnitY(), half_[1] - magnitude(p[1])};
-    if (p[1] < 0) best.first = -best.first;
-    if (is_round_) {
-      const Real r = across(p);
-      if (half_[0] - r < best.second)
-        best = {r > 0 ? Vec3<Real>(p[0] / r, Real(0), p[2] / r) : Vec3<Real>(Vec3<Real>::UnitX()),
-                half_[0] - r};
-      return best;
-    }
-    for (const int i : {0, 2})
-      if (half_[i] - magnitude(p[i]) < best.second)
-        best = {Vec3<Real>(Vec3<Real>::Unit(i) * Real(p[i] < 0 ? -1 : 1)), half_[i] - magnitude(p[i])};
-    return best;
+    using Way = std::pair<Vec3<Real>, Real>;
+    const auto to_face = [&](int i) {
+      return Way(Vec3<Real>::Unit(i) * Real(p[i] < 0 ? -1 : 1), half_[i] - magnitude(p[i]));
+    };
+    const auto shorter = [](const Way& a, const Way& b) { return b.second < a.second ? b : a; };
+    if (!is_round_) return shorter(shorter(to_face(1), to_face(0)), to_face(2));
+    const Real r = across(p);
+    const Vec3<Real> outwards = r > 0 ? Vec3<Real>(p[0] / r, Real(0), p[2] / r) : Vec3<Real>(1, 0, 0);
+    return shorter(to_face(1), Way(outwards, half_[0] - r));
   }
 
   static ErrorBounds<Real> larger(const ErrorBounds<Real>& a, const ErrorBounds<Real>& b) {
@@ -385,7 +356,8 @@ class RoundedBody {
   Vec3<Real> half_ = Vec3<Real>::Zero();
   Real rounding_{0}, distance_{0};  ///< from the core to a ball's centre at contact
   Real largest_ball_{0}, domain_{0}, slack_{0};
-  std::array<int, 3> outside_{1, 1, 1};  ///< the region; of a cylinder across its axis, and along it
+  /// The region; of a cylinder across its axis, and along it.
+  std::array<int, 3> outside_{1, 1, 1};
 };
 
 /// Rings around y from below to above, for pictures.
@@ -393,7 +365,8 @@ template <class Real>
 Mesh mesh_of(const RoundedBody<Real>& body) {
   const Vec3<double> half = vector_cast<double>(body.half());
   const double rounding = static_cast<double>(body.rounding()), quarter = numerics::pi<double>() / 2;
-  const int steps = rounding > 0 ? 4 : 0, columns = body.is_round() ? 12 : steps + 1;  // of a quarter
+  const bool round = body.is_round();
+  const int steps = rounding > 0 ? 4 : 0, columns = round ? 12 : steps + 1;  // of a quarter
   Mesh mesh;
   std::vector<int> ring;
   for (int row = 0; row <= 2 * steps + 1; ++row) {
@@ -402,16 +375,11 @@ Mesh mesh_of(const RoundedBody<Real>& body) {
     std::vector<int> next;
     for (int q = 0; q < 4; ++q)
       for (int k = 0; k < columns; ++k) {
-        const double around = quarter * (q + (body.is_round() ? double(k) / columns
-                                              : steps == 0    ? 0.5
-                                                              : double(k) / steps));
+        const double share = round ? double(k) / columns : steps == 0 ? 0.5 : double(k) / steps;
+        const double around = quarter * (q + share);
         const double x = std::cos(around), z = std::sin(around), out = rounding * std::cos(up);
-        const double a = half[0] * (body.is_round()    ? x
-                                    : q == 0 || q == 3 ? 1
-                                                       : -1),
-                     c = half[2] * (body.is_round() ? z
-                                    : q < 2         ? 1
-                                                    : -1);
+        const double a = half[0] * (round ? x : q == 0 || q == 3 ? 1 : -1);
+        const double c = half[2] * (round ? z : q < 2 ? 1 : -1);
         next.push_back(static_cast<int>(mesh.points.size()));
         mesh.points.emplace_back(a + out * x, (above ? half[1] : -half[1]) + rounding * std::sin(up),
                                  c + out * z);

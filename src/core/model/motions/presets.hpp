@@ -1,8 +1,6 @@
 // The mills that a case can name, by their usual parameters. Vertical is Y; the axis of a jar is its y.
 #pragma once
 
-#include <array>
-
 #include "model/motions/joints.hpp"
 #include "model/motions/spex.hpp"
 #include "model/parts/parameter.hpp"
@@ -37,8 +35,7 @@ struct Chain {
   Joints<Number> joints() const { return given; }
 };
 
-/// [mill] type = "planetary": a jar on a disc, both about vertical axes. `ratio` is the jar's speed as seen
-/// from the disc over that of the disc: negative where the jar turns the other way, as in most mills.
+/// [mill] type = "planetary": a jar on a disc, both about vertical axes. In most mills `ratio` is negative.
 /// Source: Burgio et al., Il Nuovo Cimento D 13 (1991) 459, whose jar turns against the disc.
 template <class Number>
 struct Planetary {
@@ -52,8 +49,8 @@ struct Planetary {
     visit(Parameter{"speed", Dimension::angular_speed, "speed of the disc, about Y", Range::drive},
           part.period);
     visit(Parameter{"ratio",
-                    "speed of the jar relative to the disc, divided by that of the disc: negative if the jar "
-                    "turns the other way, -1 if it keeps its orientation in space"},
+                    "speed of the jar relative to the disc, divided by that of the disc: negative if "
+                    "the jar turns the other way, -1 if it keeps its orientation in space"},
           part.ratio);
   }
   Joints<Number> joints() const {
@@ -122,11 +119,10 @@ template <class Number>
 Joints<Number> spex_joints(const Number& arm, const Number& theta_max, const Number& gamma_max,
                            const Number& period) {
   const Number frequency = Number{1} / period, quarter = Number{1} / Number{4};
-  Joint<Number> theta = axis_joint<Number>(true, 2), shift{.rotates = false},
-                gamma = axis_joint<Number>(true, 0);
+  auto theta = axis_joint<Number>(true, 2), gamma = axis_joint<Number>(true, 0);
+  const Joint<Number> shift{.rotates = false, .shift = {arm}};
   theta.angle = quarter;
   theta.swings.push_back({theta_max, frequency, quarter});
-  shift.shift[0] = arm;
   gamma.swings.push_back({gamma_max, frequency, Number{}});
   return {{theta, shift, gamma}, period};
 }
@@ -152,10 +148,8 @@ struct SpexSizes {
   Number arm, theta_max, gamma_max, period;
 
   static void parameters(auto& part, auto&& visit) {
-    visit(part.keys[0], part.arm);
-    visit(part.keys[1], part.theta_max);
-    visit(part.keys[2], part.gamma_max);
-    visit(part.keys[3], part.period);
+    const auto* key = part.keys;
+    for (auto* number : {&part.arm, &part.theta_max, &part.gamma_max, &part.period}) visit(*key++, *number);
   }
   SpexMotion<Number> motion() const { return {arm, theta_max, gamma_max, period}; }
 };
@@ -170,8 +164,8 @@ struct Spex8000 : detail::SpexSizes<Number> {
                                        detail::spex_speed};
 };
 
-/// [mill] type = "spex_2d": the swing of the arm alone, in a plane. A planar model of this mill is that of
-/// Davis, McDermott and Koch, Metall. Trans. A 19 (1988) 2867; the lengths and angles are the thesis's.
+/// [mill] type = "spex_2d": the swing of the arm alone, with the thesis's sizes. A planar model of this mill
+/// is that of Davis, McDermott and Koch, Metall. Trans. A 19 (1988) 2867.
 template <class Number>
 struct Spex2d : detail::SpexSizes<Number> {
   static constexpr const char* name = "spex_2d";
@@ -184,8 +178,8 @@ template <class Number>
 struct StillMill : detail::SpexSizes<Number> {
   static constexpr const char* name = "still";
   static constexpr Parameter keys[] = {{"arm", Dimension::length,
-                                        "distance from the fulcrum to the centre of the vessel, whose x axis "
-                                        "is the laboratory's Y and whose y axis is -X",
+                                        "distance from the fulcrum to the centre of the vessel, whose "
+                                        "x axis is the laboratory's Y and whose y axis is -X",
                                         Range::not_negative, "0 m"},
                                        detail::no_angle,
                                        detail::no_angle,

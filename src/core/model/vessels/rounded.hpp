@@ -9,7 +9,6 @@
 
 #include "base/scalar.hpp"
 #include "base/trigonometry.hpp"
-#include "model/parts/axis_distance.hpp"
 #include "model/parts/parameter.hpp"
 #include "model/parts/partners.hpp"
 #include "model/parts/surface.hpp"
