@@ -266,11 +266,6 @@ class RoundedBody {
   int side(int i, const Vec3<Real>& p) const {
     return !(half_[i] > 0) ? 1 : p[i] > half_[i] ? 1 : p[i] < -half_[i] ? -1 : 0;
   }
-  static Real squared_across(const Vec3<Real>& p) { return p[0] * p[0] + p[2] * p[2]; }
-  static Real across(const Vec3<Real>& p) {
-    using std::sqrt;
-    return sqrt(squared_across(p));
-  }
   bool is_side() const { return is_round_ && outside_[0] != 0 && outside_[1] == 0; }
   /// True if an excess is part of the gap. The excess of a cylinder across its axis takes the place of x.
   bool counts(int i) const { return outside_[i] != 0; }

@@ -79,6 +79,17 @@ struct SweptBox {
   Vec3<Real> low, high;
 };
 
+/// The square of the distance r from the y axis, and r.
+template <class Real>
+Real squared_across(const Vec3<Real>& p) {
+  return p[0] * p[0] + p[2] * p[2];
+}
+template <class Real>
+Real across(const Vec3<Real>& p) {
+  using std::sqrt;
+  return sqrt(squared_across(p));
+}
+
 /// Bounds on the first k derivatives of the distance r, from those of its square.
 /// @param first  bound on the value that goes with them: of r, or of r less a constant
 /// @pre r is not below `least`
@@ -95,10 +106,8 @@ Majorant<Real> distance_bound(const CoordinateBounds<Real>& c, const Real& first
   return r;
 }
 
-/// Rounding errors of the distance.
-/// @param e        of a coordinate
-/// @param v, a     bounds on speed and acceleration
-/// @param R        the distance at most
+/// Rounding errors of the distance, which is at most R.
+/// @param e  of a coordinate  @param v, a  bounds on speed and acceleration
 /// @param inverse  of the least distance
 template <class Real>
 ErrorBounds<Real> distance_errors(const ErrorBounds<Real>& e, const Real& u, const Real& v, const Real& a,

@@ -1,14 +1,9 @@
 // Vessels whose ends are rounded: the points within a distance of a disc, a segment or a cylinder.
 #pragma once
 
-#include <array>
 #include <boost/container/static_vector.hpp>
-#include <cmath>
 #include <optional>
-#include <vector>
 
-#include "base/scalar.hpp"
-#include "base/trigonometry.hpp"
 #include "model/parts/parameter.hpp"
 #include "model/parts/partners.hpp"
 #include "model/parts/surface.hpp"
@@ -18,11 +13,10 @@ namespace edmill::model {
 
 /// All points within `rounding` of a core: a cylinder about y of radius a and half height b, or a segment if
 /// a is zero. The surface is smooth, but each gap function belongs to one wall, and is valid in the region of
-/// the points whose nearest point of the core is on the corresponding part. A search considers the walls of
-/// the region that the ball is in, and the borders of the region, which are functions after those of the
-/// walls. A border is a little beyond the plane or cylinder between two regions, where the two gap functions
-/// differ by less than their rounding: a ball that crosses it is well inside the next region. theory.md,
-/// section 2
+/// the points whose nearest point of the core is on the corresponding part. A search considers the walls and
+/// the borders of the ball's region. A border is a little beyond the plane or cylinder between two regions,
+/// where the two gap functions differ by less than their rounding: a ball that crosses it is well inside the
+/// next region. theory.md, section 2
 template <class Real>
 class RoundedVessel {
  public:
@@ -102,108 +96,70 @@ class RoundedVessel {
   }
   bool is_empty() const { return is_sharp_ ? !(a_ > 0 && b_ > 0) : !(rounding_ > 0); }
   bool contains(const Vec3<Real>& p) const {
-    if (is_empty()) return false;
-    const Vec3<Real> d = from_core(p);
-    return squared_norm<Real>(d) <= rounding_ * rounding_;
+    return !is_empty() && squared_norm<Real>(from_core(p)) <= rounding_ * rounding_;
   }
 
   PerWall<Real> gaps(const Vec3<Real>& p) const {
-    const Real square = p[0] * p[0] + p[2] * p[2], around = radial(square) - a_;
+    const Real square = squared_across(p), around = radial(p) - a_;
     PerWall<Real> all;
     for (int f = 0; f < function_count(); ++f) all.push_back(gap_at(f, p[1], square, around));
     return all;
   }
   Real gap(int f, const Vec3<Real>& p) const {
-    const Real square = p[0] * p[0] + p[2] * p[2];
-    return gap_at(f, p[1], square, f < 2 ? Real(radial(square) - a_) : Real(0));
+    return gap_at(f, p[1], squared_across(p), f < 2 ? Real(radial(p) - a_) : Real(0));
   }
   PerWall<Real> rates(const Vec3<Real>& p, const Vec3<Real>& u) const {
-    const Real square = p[0] * p[0] + p[2] * p[2], moved = p[0] * u[0] + p[2] * u[2];
-    const Real r = radial(square), around = r - a_, outwards = r > 0 ? Real(moved / r) : Real(0);
-    PerWall<Real> all;
-    for (int f = 0; f < function_count(); ++f) {
-      if (f < 2) {
-        const Real side(f == 0 ? -1 : 1), above = side * p[1] - b_;
-        all.push_back(-2 * ((a_ > 0 ? Real(around * outwards) : moved) + above * (side * u[1])));
-      } else {
-        const int along = along_y(f), across = across_y(f);
-        all.push_back(along != 0 ? Real(along * u[1]) : Real(across * 2 * moved));
-      }
-    }
-    return all;
+    const Real moved = p[0] * u[0] + p[2] * u[2];
+    const Real r = radial(p), around = r - a_, outwards = r > 0 ? Real(moved / r) : Real(0);
+    const Real radially = a_ > 0 ? Real(around * outwards) : moved;
+    return derivatives(p, u[1], moved, [&](const Real& side, const Real& above) {
+      return Real(radially + above * (side * u[1]));
+    });
   }
   PerWall<Real> curvatures(const Vec3<Real>& p, const Vec3<Real>& u, const Vec3<Real>& a) const {
-    const Real square = p[0] * p[0] + p[2] * p[2], moved = p[0] * u[0] + p[2] * u[2];
+    const Real moved = p[0] * u[0] + p[2] * u[2];
     const Real bent = (u[0] * u[0] + p[0] * a[0]) + (u[2] * u[2] + p[2] * a[2]);
-    const Real r = radial(square), around = r - a_;
-    const Real rate = r > 0 ? Real(moved / r) : Real(0),
-               second = r > 0 ? Real((bent - rate * rate) / r) : Real(0);
-    PerWall<Real> all;
-    for (int f = 0; f < function_count(); ++f) {
-      if (f < 2) {
-        const Real side(f == 0 ? -1 : 1), above = side * p[1] - b_;
-        const Real radially = a_ > 0 ? Real(rate * rate + around * second) : bent;
-        all.push_back(-2 * (radially + (u[1] * u[1] + above * (side * a[1]))));
-      } else {
-        const int along = along_y(f), across = across_y(f);
-        all.push_back(along != 0 ? Real(along * a[1]) : Real(across * 2 * bent));
-      }
-    }
-    return all;
+    const Real r = radial(p), around = r - a_, rate = r > 0 ? Real(moved / r) : Real(0);
+    const Real second = r > 0 ? Real((bent - rate * rate) / r) : Real(0);
+    const Real radially = a_ > 0 ? Real(rate * rate + around * second) : bent;
+    return derivatives(p, a[1], bent, [&](const Real& side, const Real& above) {
+      return Real(radially + (u[1] * u[1] + above * (side * a[1])));
+    });
   }
 
   /// The walls and borders of the region of p.
   PerWall<bool> active(const Vec3<Real>& p) const {
-    PerWall<bool> on(static_cast<std::size_t>(function_count()), false);
-    const std::size_t border = static_cast<std::size_t>(wall_count());
+    PerWall<bool> on(function_count(), false);
     if (is_sharp_) {
       on[2] = on[3] = on[4] = true;
       return on;
     }
-    const bool above = p[1] > b_, below = p[1] < -b_;
-    const bool outer = !(a_ > 0) || p[0] * p[0] + p[2] * p[2] > a_ * a_;
-    on[0] = below && outer;
-    on[1] = above && outer;
-    on[2] = !above && !below && outer;
-    on[border] = on[border + 1] = !above && !below;
-    on[border + 2] = above;
-    on[border + 3] = below;
-    if (a_ > 0) {
-      on[3] = below && !outer;
-      on[4] = above && !outer;
-      on[border + 4] = !outer;
-      on[border + 5] = outer;
-    }
+    const bool above = p[1] > b_, below = p[1] < -b_, outer = !(a_ > 0) || squared_across(p) > a_ * a_;
+    const int region = above ? (outer ? 1 : 4) : below ? (outer ? 0 : 3) : outer ? 2 : in_core;
+    if (region != in_core) on[region] = true;
+    for (int f = wall_count(); f < function_count(); ++f) on[f] = bounds_region(f, region);
     return on;
   }
   /// True if the gap function of this wall is valid at p, to within its rounding.
   bool is_valid(int wall, const Vec3<Real>& p) const {
     if (is_sharp_) return true;
-    const std::size_t border = static_cast<std::size_t>(wall_count());
-    for (std::size_t f = border; f < static_cast<std::size_t>(function_count()); ++f)
-      if (bounds_region(f - border, wall) && gap(static_cast<int>(f), p) < 0) return false;
+    for (int f = wall_count(); f < function_count(); ++f)
+      if (bounds_region(f, wall) && gap(f, p) < 0) return false;
     return true;
   }
-  /// How far a ball at p may move while the gaps of its region are smooth [m]; empty if there is no limit.
   /// The gap of an edge is not smooth near the axis.
   std::optional<Real> smooth_way(const Vec3<Real>& p) const {
-    using std::sqrt;
     if (is_sharp_ || !(a_ > 0) || !(p[1] > b_ || p[1] < -b_)) return std::nullopt;
-    const Real r = sqrt(p[0] * p[0] + p[2] * p[2]);
-    if (!(r > a_)) return std::nullopt;
-    return Real(r - a_ / 2);
+    const Real r = across(p);
+    return r > a_ ? std::optional(Real(r - a_ / 2)) : std::nullopt;
   }
   PerWall<bool> within(const Vec3<Real>& p, const Real& way) const {
     auto near = active(p);
-    const Real y = magnitude(p[1]);
-    const std::size_t border = static_cast<std::size_t>(wall_count());
     // Far inside: all of the surface is farther away than `way`.
-    const Vec3<Real> d = from_core(p);
-    const Real room = rounding_ - way;
-    const bool far = !is_sharp_ && room > 0 && squared_norm<Real>(d) < room * room;
-    for (std::size_t f = 0; f < border; ++f) near[f] = near[f] && !far;
-    const Real to_plane = y < b_ ? Real(b_ - y) : Real(y - b_);
-    for (std::size_t f = border; f < border + 4; ++f) near[f] = near[f] && !(to_plane > way);
+    const Real room = rounding_ - way, to_plane = magnitude<Real>(magnitude(p[1]) - b_);
+    const bool far = !is_sharp_ && room > 0 && squared_norm<Real>(from_core(p)) < room * room;
+    for (int f = 0; f < wall_count() + 4; ++f)
+      near[f] = near[f] && !(f < wall_count() ? far : to_plane > way);
     return near;
   }
 
@@ -221,22 +177,19 @@ class RoundedVessel {
                                   const Real& frame_speed, const Real& acceleration,
                                   const Real& beyond) const {
     const auto& y = coordinate;
-    const Real &v = frame_speed, R = a_ + rounding_ + beyond;
-    if (f >= 2)  // a squared distance from the axis
-    {
-      auto errors = squared_distance_errors(y, u, v, acceleration, Real(R));
-      errors.value += 4 * slack_ * slack_;
+    const Real &v = frame_speed, &a = acceleration, R = a_ + rounding_ + beyond, slack = 4 * slack_ * slack_;
+    if (f >= 2) {  // a squared distance from the axis
+      auto errors = squared_distance_errors(y, u, v, a, R);
+      errors.value += slack;
       return errors;
     }
     // The distance r from the axis, which is at least a/2, and its derivatives.
-    const Real inverse = a_ > 0 ? Real(2 / a_) : Real(0);
-    const Real bend = acceleration + v * v * inverse;
-    const auto [r0, r1, r2] = distance_errors(y, u, v, acceleration, R, inverse);
-    const Real far = rounding_ + beyond + a_ / 2;
-    return {4 * far * (r0 + y.value) + 8 * u * far * far + 4 * slack_ * slack_,
+    const Real inverse = a_ > 0 ? Real(2 / a_) : Real(0), bend = a + v * v * inverse;
+    const auto [r0, r1, r2] = distance_errors(y, u, v, a, R, inverse);
+    const Real far = rounding_ + beyond + a_ / 2, turned = far * (r2 + y.second) + bend * r0 + a * y.value;
+    return {4 * far * (r0 + y.value) + 8 * u * far * far + slack,
             3 * (far * (r1 + y.rate) + v * (r0 + y.value)) + 12 * u * far * v,
-            6 * v * (r1 + y.rate) + 3 * (far * (r2 + y.second) + bend * r0 + acceleration * y.value) +
-                24 * u * (v * v + far * bend)};
+            6 * v * (r1 + y.rate) + 3 * turned + 24 * u * (v * v + far * bend)};
   }
 
   /// Computed from the true distance, so that the normal does not depend on the gap function that found the
@@ -248,10 +201,9 @@ class RoundedVessel {
     return d * Real(-1 / norm<Real>(d));
   }
   Real overlap(int wall, const Vec3<Real>& p) const {
-    using std::sqrt;
     if (!is_sharp_) return norm<Real>(from_core(p)) - rounding_;
     if (is_cap(wall)) return (wall == 3 ? Real(-p[1]) : p[1]) - b_;
-    return sqrt(p[0] * p[0] + p[2] * p[2]) - a_;
+    return across(p) - a_;
   }
 
  private:
@@ -273,6 +225,16 @@ class RoundedVessel {
     return border == 4 ? Real((a_ + slack_) * (a_ + slack_) - square)
                        : Real(square - (a_ - slack_) * (a_ - slack_));
   }
+  /// @param along, across  derivatives of y and of (x^2 + z^2) / 2
+  /// @param of_edge        half of that of the gap of an edge, less the sign, from its side and y beyond it
+  PerWall<Real> derivatives(const Vec3<Real>& p, const Real& along, const Real& across,
+                            const auto& of_edge) const {
+    PerWall<Real> all;
+    for (const Real& side : {Real(-1), Real(1)}) all.push_back(-2 * of_edge(side, Real(side * p[1] - b_)));
+    for (int f = 2; f < function_count(); ++f)
+      all.push_back(along_y(f) != 0 ? Real(along_y(f) * along) : Real(across_y(f) * 2 * across));
+    return all;
+  }
   RoundedVessel sharp(const Real& by) const {
     RoundedVessel smaller(*this);
     smaller.is_sharp_ = true;
@@ -290,25 +252,18 @@ class RoundedVessel {
     return f < wall_count() ? 0 : signs[f - wall_count()];
   }
   int across_y(int f) const { return f == 2 || f == wall_count() + 4 ? -1 : 1; }
-  /// True if the border bounds the region of the wall.
-  static bool bounds_region(std::size_t border, int wall) {
-    constexpr std::array<std::array<bool, 6>, 5> of = {{{false, false, false, true, false, true},
-                                                        {false, false, true, false, false, true},
-                                                        {true, true, false, false, false, true},
-                                                        {false, false, false, true, true, false},
-                                                        {false, false, true, false, true, false}}};
-    return of[wall][border];
+  /// True if a border bounds the region of a wall, or that in the core.
+  bool bounds_region(int border, int region) const {
+    constexpr int of[6][6] = {{0, 0, 0, 1, 0, 1}, {0, 0, 1, 0, 0, 1}, {1, 1, 0, 0, 0, 1},
+                              {0, 0, 0, 1, 1, 0}, {0, 0, 1, 0, 1, 0}, {1, 1, 0, 0, 1, 0}};
+    return of[region][border - wall_count()] != 0;
   }
-  Real radial(const Real& square) const {
-    using std::sqrt;
-    return a_ > 0 ? Real(sqrt(square)) : Real(0);
-  }
+  Real radial(const Vec3<Real>& p) const { return a_ > 0 ? across(p) : Real(0); }
   /// Vector from the nearest point of the core to p.
   Vec3<Real> from_core(const Vec3<Real>& p) const {
-    using std::sqrt;
     const Real y = p[1] > b_ ? Real(p[1] - b_) : p[1] < -b_ ? Real(p[1] + b_) : Real(0);
     if (!(a_ > 0)) return {p[0], y, p[2]};
-    const Real r = sqrt(p[0] * p[0] + p[2] * p[2]);
+    const Real r = across(p);
     if (!(r > a_)) return {Real(0), y, Real(0)};
     const Real rest = 1 - a_ / r;
     return {p[0] * rest, y, p[2] * rest};
@@ -316,15 +271,16 @@ class RoundedVessel {
   /// Bound on the k-th derivative of r^2 - 2 a r + a^2 + (y - b)^2, where r >= a/2. The derivatives of r
   /// follow from those of its square.
   Real edge_bound(const CoordinateBounds<Real>& c, int k) const {
-    const Real drift = c.x[0] - (a_ + rounding_);
     Majorant<Real> y = c.y;
     y[0] = rounding_ + (c.y[0] - (b_ + rounding_));
-    if (!(a_ > 0))
-      return product_bound(c.x, 0, c.x, k) + product_bound(c.z, 0, c.z, k) + product_bound(y, 0, y, k);
-    const auto r = distance_bound(c, Real((a_ > rounding_ ? a_ : rounding_) + drift), Real(a_ * 49 / 100), k);
-    return product_bound(r, 0, r, k) + product_bound(y, 0, y, k);
+    const Real along = product_bound(y, 0, y, k);
+    if (!(a_ > 0)) return product_bound(c.x, 0, c.x, k) + product_bound(c.z, 0, c.z, k) + along;
+    const Real most = (a_ > rounding_ ? a_ : rounding_) + (c.x[0] - (a_ + rounding_));
+    const auto r = distance_bound(c, most, Real(a_ * 49 / 100), k);
+    return product_bound(r, 0, r, k) + along;
   }
 
+  static constexpr int in_core = 5;  ///< the number of the region without a wall
   Real a_{0}, b_{0}, rounding_{0}, slack_{0};
   bool is_sharp_ = false;
 };
