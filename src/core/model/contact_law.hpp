@@ -9,9 +9,7 @@
 #include "base/scalar.hpp"
 #include "edmill/contact_law.hpp"
 #include "edmill/errors.hpp"
-#include "model/laws/hertz.hpp"
-#include "model/laws/restitution_by_table.hpp"
-#include "model/laws/walton_braun.hpp"
+#include "model/laws/laws.hpp"
 
 namespace edmill::model {
 

@@ -8,12 +8,10 @@
 #include <variant>
 
 #include "model/vessels/algebraic.hpp"
-#include "model/vessels/box.hpp"
-#include "model/vessels/cylinder.hpp"
 #include "model/vessels/piston.hpp"
 #include "model/vessels/polyhedron.hpp"
 #include "model/vessels/rounded.hpp"
-#include "model/vessels/sphere.hpp"
+#include "model/vessels/simple.hpp"
 
 namespace edmill::model {
 

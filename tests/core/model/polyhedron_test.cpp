@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core.hpp"
-#include "model/vessels/box.hpp"
+#include "model/vessels/simple.hpp"
 #include "random_physics.hpp"
 
 namespace edmill::model {

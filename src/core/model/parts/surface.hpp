@@ -2,15 +2,13 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <numeric>
 #include <variant>
 #include <vector>
 
 #include "base/archive.hpp"
-#include "base/scalar.hpp"
 #include "base/trigonometry.hpp"
-#include "base/vector.hpp"
+#include "model/parts/vessel_frame.hpp"
 
 namespace edmill::model {
 
@@ -27,10 +25,9 @@ inline constexpr std::array<CoordinateInfo, 5> coordinate_infos = {{
     {"u", "m", "along the wall's first edge from its centre"},
     {"v", "m", "along the wall's second edge from its centre"},
 }};
-constexpr const CoordinateInfo& info_of(Coordinate c) { return coordinate_infos[static_cast<int>(c)]; }
+constexpr const CoordinateInfo& info_of(Coordinate c) { return coordinate_infos[int(c)]; }
 
-/// A position on a wall in coordinates from 0 to 1 that preserve area: equal parts of u and of v have equal
-/// areas.
+/// A position on a wall in coordinates from 0 to 1, equal parts of which have equal areas.
 template <class Real>
 struct WallPlace {
   Real u, v;
@@ -125,7 +122,7 @@ struct Disc : Revolved<Real, Disc<Real>> {
 
   Real radius;  ///< [m]
 
-  Real share(const Vec3<Real>& d) const { return (d[0] * d[0] + d[2] * d[2]) / (radius * radius); }
+  Real share(const Vec3<Real>& d) const { return squared_across(d) / (radius * radius); }
   auto ring(const Real& v) const {
     using std::sqrt;
     return typename Disc::Ring{radius * sqrt(v), Real(0)};
@@ -174,11 +171,7 @@ struct Edge : Revolved<Real, Edge<Real>> {
   // The origin of the frame is in the plane of the circle of the torus.
   Real core, rounding;  ///< radii of that circle and of the tube [m]
 
-  Real share(const Vec3<Real>& d) const {
-    using std::sqrt;
-    const Real r = sqrt(d[0] * d[0] + d[2] * d[2]);
-    return share_to(turns<Real>(d[1], Real(r - core)));
-  }
+  Real share(const Vec3<Real>& d) const { return share_to(turns<Real>(d[1], Real(across(d) - core))); }
   auto ring(const Real& v) const {
     const auto tilt = numerics::sin_cos_turns<Real>(tilt_at(v));
     return typename Edge::Ring{core + rounding * tilt.sin, rounding * tilt.cos};
@@ -269,8 +262,7 @@ struct Polygon : Rectangle<Real> {
 };
 template <class Real>
 Polygon<Real> polygon_of(const std::vector<Vec3<Real>>& corners) {
-  const Vec3<Real> edge = corners[1] - corners[0];
-  const Vec3<Real> x = edge / norm<Real>(edge);
+  const Vec3<Real> edge = corners[1] - corners[0], x = edge / norm<Real>(edge);
   const Vec3<Real> side = corners[2] - corners[0];
   const Vec3<Real> across = side - x * dot<Real>(side, x), y = across / norm<Real>(across);
   std::array<Real, 2> low{Real(0), Real(0)}, high = low;
@@ -306,7 +298,7 @@ class WallSurface {
   std::array<Coordinate, 2> coordinates() const {
     return visit([](const auto& s) { return s.coordinates; });
   }
-  /// The coordinates of a point p [m] of the wall; rounding may put them a little outside of 0 to 1.
+  /// The coordinates of a point p [m] of the wall; by rounding a little outside of 0 to 1.
   WallPlace<Real> map(const Vec3<Real>& p) const {
     return visit([&](const auto& s) { return s.map(p); });
   }
@@ -318,8 +310,7 @@ class WallSurface {
   Real area() const {
     return visit([](const auto& s) { return s.area(); });
   }
-  /// Begin of the k-th of n equal parts, in the unit of the coordinate.
-  /// @param axis  0 along u, 1 along v
+  /// Begin of the k-th of n equal parts along u (axis 0) or v (1), in the unit of the coordinate.
   Real edge(int axis, std::size_t k, std::size_t n) const {
     return visit([&](const auto& s) { return s.edge(axis, k, n); });
   }
