@@ -11,7 +11,11 @@
 
 namespace edmill::model {
 
-/// Both restitutions are constant.
+inline constexpr Parameter normal_restitution{
+    "restitution", "coefficient of restitution along the normal, e_n", {0, 1}};
+inline constexpr Parameter tangential_restitution{
+    "restitution_tangential", "tangential coefficient of restitution, e_t", {-1, 1}};
+
 template <class Number>
 struct ConstantRestitution {
   static constexpr const char* name = "constant";
@@ -20,18 +24,16 @@ struct ConstantRestitution {
   Number tangential{1};  ///< e_t
 
   static void parameters(auto& law, auto&& visit) {
-    visit(Parameter{"restitution", "coefficient of restitution along the normal, e_n", {0, 1}}, law.normal);
-    visit(Parameter{"restitution_tangential", "tangential coefficient of restitution, e_t", {-1, 1}},
-          law.tangential);
+    visit(normal_restitution, law.normal);
+    visit(tangential_restitution, law.tangential);
   }
 
   const Number& restitution(const Number&) const { return normal; }
-  const Number& restitution_of_slip(const Number&, const Number&, const Number&) const { return tangential; }
+  const Number& restitution_of_slip(const auto&...) const { return tangential; }
 };
 
 /// The tangential part of laws that define only the normal restitution: e_t = max(beta, 1 - mu c (|g_n| +
-/// g_n') / |g_t|). The contact slides throughout the impact, or its slip is reversed by the factor beta.
-/// (2.24')
+/// g_n') / |g_t|). The contact slides throughout, or its slip is reversed by the factor beta. (2.24')
 template <class Number>
 struct CoulombSlip {
   Number friction{0};         ///< mu
@@ -43,17 +45,16 @@ struct CoulombSlip {
           slip.min_tangential);
   }
 
-  Number restitution_of_slip(const Number& normal_change, const Number& slip_speed,
-                             const Number& compliance) const {
-    const Number sliding = friction * compliance * normal_change;
+  Number restitution_of_slip(const Number& normal_change, const Number& slip, const Number& c) const {
+    const Number sliding = friction * c * normal_change;
     // 1 - sliding / slip >= min_tangential, without dividing by a vanishing slip.
-    if (sliding >= (1 - min_tangential) * slip_speed) return slip_speed > 0 ? min_tangential : Number(1);
-    return 1 - sliding / slip_speed;
+    if (sliding >= (1 - min_tangential) * slip) return slip > 0 ? min_tangential : Number(1);
+    return 1 - sliding / slip;
   }
 };
 
-/// Coulomb friction while sliding, a lowest tangential restitution while sticking.
-/// Source: Walton and Braun 1986; Barahona 2011, (2.24), for balls of any mass as in theory.md, section 5.
+/// Coulomb friction while sliding, a lowest tangential restitution while sticking. Source: Walton and Braun
+/// 1986; Barahona 2011, (2.24), for balls of any mass as in theory.md, section 5.
 template <class Number>
 struct WaltonBraun {
   static constexpr const char* name = "walton-braun";
@@ -63,15 +64,13 @@ struct WaltonBraun {
   Number min_tangential{-1};  ///< lowest e_t
 
   static void parameters(auto& law, auto&& visit) {
-    visit(Parameter{"restitution", "coefficient of restitution along the normal, e_n", {0, 1}}, law.normal);
+    visit(normal_restitution, law.normal);
     CoulombSlip<Number>::parameters(law, visit);
   }
 
   const Number& restitution(const Number&) const { return normal; }
-  Number restitution_of_slip(const Number& normal_change, const Number& slip_speed,
-                             const Number& compliance) const {
-    const CoulombSlip<Number> slip{friction, min_tangential};
-    return slip.restitution_of_slip(normal_change, slip_speed, compliance);
+  Number restitution_of_slip(const Number& normal_change, const Number& slip, const Number& c) const {
+    return CoulombSlip<Number>{friction, min_tangential}.restitution_of_slip(normal_change, slip, c);
   }
 };
 
@@ -92,8 +91,7 @@ Number value_at(const LawTable<Number>& points, const Number& argument) {
   return low[1] * (1 - share) + high[1] * share;
 }
 
-/// Normal restitution by approach speed, linear between the points of a table. The interpolation is monotonic
-/// where the table is, and takes three lines in another code.
+/// Normal restitution by approach speed, linear between the points of a table: monotonic where the table is.
 template <class Number>
 struct RestitutionBySpeed : CoulombSlip<Number> {
   static constexpr const char* name = "restitution-by-speed";
@@ -106,7 +104,7 @@ struct RestitutionBySpeed : CoulombSlip<Number> {
   static constexpr const char* table_form =
       "points [speed, restitution], speeds rising from 0 or more, restitutions from 0 to 1";
 
-  LawTable<Number> points;  ///< approach speed [m/s], rising, and e_n
+  LawTable<Number> points;  ///< approach speed [m/s], rising, and e_n; not empty
 
   static void parameters(auto& law, auto&& visit) {
     for (auto& point : law.points)
@@ -115,21 +113,19 @@ struct RestitutionBySpeed : CoulombSlip<Number> {
   }
   void take_shape(const auto& from) { points.resize(from.points.size()); }
 
-  /// @pre there are points
-  Number restitution(const Number& approach_speed) const { return value_at(points, approach_speed); }
+  Number restitution(const Number& speed) const { return value_at(points, speed); }
 };
 
-/// A constant normal restitution, and a tangential one as a function of slip over approach speed. This
-/// describes the contacts of DEM codes, which stick for a part of their duration and slip for the rest
-/// (docs/dem.md). Beyond the last point a contact slides throughout: its tangential impulse remains that at
-/// this point.
+/// A constant normal restitution, and a tangential one as a function of slip over approach speed, as for the
+/// contacts of DEM codes, which stick for a part of their duration and slip for the rest (docs/dem.md).
+/// Beyond the last point a contact slides throughout: its tangential impulse remains that at this point.
 template <class Number>
 struct RestitutionBySlip {
   static constexpr const char* name = "restitution-by-slip";
   static constexpr Parameter table{
       "tangential_by_slip", Dimension::none,
-      "points of the ratio of slip speed to approach speed and e_t, `[[0, -0.4], [3, 0.1]]`; linear between "
-      "them, constant below the first, sliding beyond the last"};
+      "points of the ratio of slip speed to approach speed and e_t, `[[0, -0.4], [3, 0.1]]`; "
+      "linear between them, constant below the first, sliding beyond the last"};
   static constexpr Parameter table_rows[] = {
       {"slip", Dimension::none, "over the approach speed", Range::not_negative},
       {"restitution", Dimension::none, "e_t of a point", {-1, 1}}};
@@ -137,40 +133,33 @@ struct RestitutionBySlip {
       "points [slip over approach, e_t], ratios rising from 0 or more, e_t from -1 to 1";
 
   Number normal{0};
-  LawTable<Number> points;  ///< |g_t| / |g_n|, rising, and e_t
+  LawTable<Number> points;  ///< |g_t| / |g_n|, rising, and e_t; not empty
 
   static void parameters(auto& law, auto&& visit) {
-    visit(Parameter{"restitution", "coefficient of restitution along the normal, e_n", {0, 1}}, law.normal);
+    visit(normal_restitution, law.normal);
     for (auto& point : law.points)
       for (std::size_t k = 0; k < 2; ++k) visit(table_rows[k], point[k]);
   }
   void take_shape(const auto& from) { points.resize(from.points.size()); }
 
   const Number& restitution(const Number&) const { return normal; }
-  /// @pre there are points
   Number restitution_of_slip(const Number& normal_change, const Number& slip_speed, const Number&) const {
     const auto& last = points.back();
     // The slip over the approach, without a division by an approach of zero.
     const Number slip = slip_speed * (1 + normal);
-    if (!(slip < last[0] * normal_change)) {
-      if (!(slip > 0)) return last[1];
-      return 1 - (1 - last[1]) * last[0] * normal_change / slip;
-    }
-    return value_at(points, Number(slip / normal_change));
+    if (slip < last[0] * normal_change) return value_at(points, Number(slip / normal_change));
+    return slip > 0 ? Number(1 - (1 - last[1]) * last[0] * normal_change / slip) : last[1];
   }
 };
 
-/// Balls that are coated with powder: table 5.3 of Barahona 2011 after Ward et al. 2005, balls of steel with
-/// Al-Fe2O3. Between its points e_n is linear in the charge ratio and in the diameter; balls of two diameters
-/// count with the mean of both.
+/// Balls of steel that are coated with powder, Al-Fe2O3: table 5.3 of Barahona 2011 after Ward et al. 2005.
+/// Between its points e_n is linear in the charge ratio and in the diameter, or the mean of two.
 template <class Number>
 struct PowderLoad : CoulombSlip<Number> {
   static constexpr const char* name = "powder-load";
-  static constexpr std::array<int, 3> charge_ratios{25, 50, 100};                ///< [1/10]
-  static constexpr std::array<int, 4> diameters{2360, 3160, 4760, 9520};         ///< [um]
-  static constexpr std::array<std::array<int, 4>, 3> percent{{{56, 54, 53, 50},  //
-                                                              {64, 60, 56, 52},
-                                                              {80, 74, 64, 55}}};
+  static constexpr std::array charge_ratios{25, 50, 100};         ///< [1/10]
+  static constexpr std::array diameters{2360, 3160, 4760, 9520};  ///< [um]
+  static constexpr int percent[3][4] = {{56, 54, 53, 50}, {64, 60, 56, 52}, {80, 74, 64, 55}};
 
   Number charge_ratio{5};  ///< mass of the balls over that of the powder
 
@@ -210,8 +199,8 @@ inline constexpr Parameter effective_modulus{
     "effective modulus E*, with 1/E* = (1 - nu_i^2)/E_i + (1 - nu_j^2)/E_j", Range::positive};
 
 /// Viscoelastic spheres: M x" + k (x^(3/2) + 3/2 A x^(1/2) x') = 0 with k = 4/3 E* R^(1/2), until the force
-/// vanishes. The restitution depends only on v* = (3/2 A)^(1/2) ((k/M)^2 v)^(1/10). Sources: Ramirez,
-/// Poeschel, Brilliantov and Schwager 1999; the rational approximation by Mueller and Poeschel 2011.
+/// vanishes. e_n depends only on v* = (3/2 A)^(1/2) ((k/M)^2 v)^(1/10). Sources: Ramirez, Poeschel,
+/// Brilliantov and Schwager 1999; the rational approximation by Mueller and Poeschel 2011.
 template <class Number>
 struct Viscoelastic : CoulombSlip<Number> {
   static constexpr const char* name = "viscoelastic";
@@ -228,11 +217,9 @@ struct Viscoelastic : CoulombSlip<Number> {
 
   Number restitution(const Number& approach_speed, const ContactBodies<Number>& bodies) const {
     using std::sqrt;
-    const Number stiffness = 4 * modulus * sqrt(bodies.effective_radius()) / 3;
-    const Number by_mass = stiffness / bodies.effective_mass;
-    const Number scaled = sqrt(3 * dissipative_time / 2) *
-                          sqrt(numerics::fifth_root(Number(by_mass * by_mass * approach_speed)));
-    return by_scaled_speed(scaled);
+    const Number by_mass = 4 * modulus * sqrt(bodies.effective_radius()) / 3 / bodies.effective_mass;
+    const Number root = numerics::fifth_root(Number(by_mass * by_mass * approach_speed));
+    return by_scaled_speed(Number(sqrt(3 * dissipative_time / 2) * sqrt(root)));
   }
   /// e_n(v*).
   static Number by_scaled_speed(const Number& v) {
@@ -243,8 +230,7 @@ struct Viscoelastic : CoulombSlip<Number> {
 };
 
 /// Elastic, perfectly plastic: Hertz's force up to a contact pressure, a constant pressure beyond, elastic
-/// unloading. e_n is 1 below the yield speed and falls as v^(-1/4) far above it. Source: Thornton 1997, (40)
-/// and (33).
+/// unloading. e_n is 1 below the yield speed, and falls as v^(-1/4). Source: Thornton 1997, (40) and (33).
 template <class Number>
 struct ElasticPlastic : CoulombSlip<Number> {
   static constexpr const char* name = "elastic-plastic";
@@ -254,9 +240,8 @@ struct ElasticPlastic : CoulombSlip<Number> {
 
   static void parameters(auto& law, auto&& visit) {
     visit(effective_modulus, law.modulus);
-    visit(Parameter{"yield_pressure", Dimension::pressure, "contact pressure at which yielding begins",
-                    Range::positive},
-          law.yield_pressure);
+    constexpr const char* meaning = "contact pressure at which yielding begins";
+    visit(Parameter{"yield_pressure", Dimension::pressure, meaning, Range::positive}, law.yield_pressure);
     CoulombSlip<Number>::parameters(law, visit);
   }
 

@@ -43,8 +43,7 @@ struct Planetary {
   Number radius, period, ratio;
 
   static void parameters(auto& part, auto&& visit) {
-    visit(Parameter{"radius", Dimension::length,
-                    "distance from the axis of the disc to the centre of the jar", Range::positive},
+    visit(positive_length("radius", "distance from the axis of the disc to the centre of the jar"),
           part.radius);
     visit(Parameter{"speed", Dimension::angular_speed, "speed of the disc, about Y", Range::drive},
           part.period);

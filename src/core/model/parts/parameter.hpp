@@ -81,6 +81,11 @@ struct Parameter {
   constexpr Parameter undigested() const { return with(&Parameter::digest, Digest::none); }
 };
 
+/// A length above zero.
+constexpr Parameter positive_length(const char* key, const char* meaning) {
+  return {key, Dimension::length, meaning, Range::positive};
+}
+
 /// Calls use(number) with a number, or with each of three.
 void for_each_number(auto& value, const auto& use) {
   if constexpr (requires { value.begin(); }) {

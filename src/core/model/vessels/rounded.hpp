@@ -293,9 +293,8 @@ struct Capsule {
   Number diameter, height;
 
   static void parameters(auto& part, auto&& visit) {
-    visit(Parameter{"diameter", Dimension::length, "inner diameter", Range::positive}, part.diameter);
-    visit(Parameter{"height", Dimension::length, "inner height including the round ends", Range::positive},
-          part.height);
+    visit(positive_length("diameter", "inner diameter"), part.diameter);
+    visit(positive_length("height", "inner height including the round ends"), part.height);
   }
   RoundedVessel<Number> vessel() const {
     return {Number(0), Number((height - diameter) / 2), Number(diameter / 2)};
@@ -309,10 +308,9 @@ struct RoundedCylinder {
   Number diameter, height, edge;
 
   static void parameters(auto& part, auto&& visit) {
-    visit(Parameter{"diameter", Dimension::length, "inner diameter", Range::positive}, part.diameter);
-    visit(Parameter{"height", Dimension::length, "inner height", Range::positive}, part.height);
-    visit(Parameter{"edge_radius", Dimension::length, "radius of the edges of the caps", Range::positive},
-          part.edge);
+    visit(positive_length("diameter", "inner diameter"), part.diameter);
+    visit(positive_length("height", "inner height"), part.height);
+    visit(positive_length("edge_radius", "radius of the edges of the caps"), part.edge);
   }
   RoundedVessel<Number> vessel() const {
     return {Number(diameter / 2 - edge), Number(height / 2 - edge), edge};

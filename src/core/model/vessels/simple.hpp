@@ -9,10 +9,9 @@
 
 namespace edmill::model {
 
-/// A closed cylinder about the y axis of the vessel frame. The gaps to its caps are lengths [m]; that to the
-/// cylinder is q = (R_v-R)^2 - x^2 - z^2 [m^2], which is smooth on the axis and has the sign of the gap.
-/// (2.19'), (2.21'), (2.22'). Wall ids follow the thesis: 0 is the cap at y = -h/2, 1 the cap at y = +h/2, 2
-/// the cylinder.
+/// A closed cylinder about the y axis. The gaps to its caps are lengths [m]; that to the cylinder is q =
+/// (R_v-R)^2 - x^2 - z^2 [m^2], which is smooth on the axis and has the sign of the gap. (2.19'), (2.21'),
+/// (2.22'). Walls as in the thesis: 0 is the cap at y = -h/2, 1 that at y = +h/2, 2 the cylinder.
 template <class Real>
 struct CylinderVessel {
   using Scalar = Real;
@@ -52,19 +51,18 @@ struct CylinderVessel {
   CylinderVessel inset(const Real& by) const { return {radius - by, half_height - by}; }
   bool is_empty() const { return !(radius > 0 && half_height > 0); }
   bool contains(const Vec3<Real>& p) const {
-    return !is_empty() && p[0] * p[0] + p[2] * p[2] <= radius * radius && p[1] <= half_height &&
-           p[1] >= -half_height;
+    return !is_empty() && squared_across(p) <= radius * radius && magnitude(p[1]) <= half_height;
   }
   std::optional<Vec3<Real>> place(const Vec3<Real>& drawn) const {
-    if (drawn[0] * drawn[0] + drawn[2] * drawn[2] > 1) return std::nullopt;
+    if (squared_across(drawn) > 1) return std::nullopt;
     return Vec3<Real>{drawn[0] * radius, drawn[1] * half_height, drawn[2] * radius};
   }
 
   PerWall<Real> gaps(const Vec3<Real>& p) const {
-    return {half_height + p[1], half_height - p[1], radius * radius - (p[0] * p[0] + p[2] * p[2])};
+    return {half_height + p[1], half_height - p[1], radius * radius - squared_across(p)};
   }
   Real gap(int wall, const Vec3<Real>& p) const {
-    if (wall == 2) return radius * radius - (p[0] * p[0] + p[2] * p[2]);
+    if (wall == 2) return radius * radius - squared_across(p);
     return wall == 0 ? Real(half_height + p[1]) : Real(half_height - p[1]);
   }
   static PerWall<Real> rates(const Vec3<Real>& p, const Vec3<Real>& u) {
@@ -75,8 +73,7 @@ struct CylinderVessel {
   }
   PerWall<bool> within(const Vec3<Real>& p, const Real& way) const {
     const Real cap = half_height - way, side = radius - way;
-    const Real &x = p[0], &y = p[1], &z = p[2];
-    return {!(-y < cap), !(y < cap), !((side > 0) & (x * x + z * z < side * side))};
+    return {!(-p[1] < cap), !(p[1] < cap), !((side > 0) & (squared_across(p) < side * side))};
   }
 
   /// 0 the caps, 1 the cylinder.
@@ -86,30 +83,19 @@ struct CylinderVessel {
   }
 
   static constexpr bool is_flat(int wall) { return kind_of(wall) == 0; }
-  ErrorBounds<Real> curved_errors(int, const ErrorBounds<Real>& coordinate, const Real& u,
-                                  const Real& frame_speed, const Real& acceleration,
-                                  const Real& beyond) const {
-    const auto& y = coordinate;
-    const Real R = radius + beyond;
-    return {3 * R * y.value + 4 * u * R * R,
-            3 * R * y.rate + 3 * frame_speed * y.value + 6 * u * R * frame_speed,
-            6 * frame_speed * y.rate + 4 * R * y.second + 4 * acceleration * y.value +
-                12 * u * (frame_speed * frame_speed + R * acceleration)};
+  ErrorBounds<Real> curved_errors(int, const ErrorBounds<Real>& y, const Real& u, const Real& v,
+                                  const Real& a, const Real& beyond) const {
+    return squared_distance_errors(y, u, v, a, Real(radius + beyond));
   }
 
   Vec3<Real> normal(int wall, const Vec3<Real>& p) const {
     if (wall != 2) return {Real(0), Real(wall == 0 ? 1 : -1), Real(0)};
-    using std::sqrt;
-    const Real rho = sqrt(p[0] * p[0] + p[2] * p[2]);
+    const Real rho = across(p);
     return {-p[0] / rho, Real(0), -p[2] / rho};
   }
   Real overlap(int wall, const Vec3<Real>& p) const {
-    if (wall == 2) {
-      using std::sqrt;
-      return sqrt(p[0] * p[0] + p[2] * p[2]) - radius;
-    }
-    const Real side(wall == 0 ? 1 : -1);
-    return -side * p[1] - half_height;
+    if (wall == 2) return across(p) - radius;
+    return (wall == 0 ? Real(-p[1]) : p[1]) - half_height;
   }
 };
 
@@ -120,13 +106,13 @@ struct Cylinder {
   Number diameter, height;
 
   static void parameters(auto& part, auto&& visit) {
-    visit(Parameter{"diameter", Dimension::length, "inner diameter", Range::positive}, part.diameter);
-    visit(Parameter{"height", Dimension::length, "inner height", Range::positive}, part.height);
+    visit(positive_length("diameter", "inner diameter"), part.diameter);
+    visit(positive_length("height", "inner height"), part.height);
   }
   CylinderVessel<Number> vessel() const { return {diameter / 2, height / 2}; }
 };
 
-/// Walls 0 to 5 are those at x = -a, x = +a, y = -b, y = +b, z = -c, z = +c; all gaps are lengths [m].
+/// Walls 0 to 5 are at x = -a, x = +a, y = -b, y = +b, z = -c, z = +c; all gaps are lengths [m].
 template <class Real>
 struct BoxVessel {
   using Scalar = Real;
@@ -154,10 +140,7 @@ struct BoxVessel {
   Real extent() const { return half[0] + half[1] + half[2]; }
   Vec3<Real> half_sizes() const { return half; }
   Real volume() const { return 8 * half[0] * half[1] * half[2]; }
-  Real widest_ball() const {
-    const Real least = half[0] < half[1] ? half[0] : half[1];
-    return 2 * (least < half[2] ? least : half[2]);
-  }
+  Real widest_ball() const { return 2 * half.minCoeff(); }
 
   BoxVessel inset(const Real& by) const { return {{half[0] - by, half[1] - by, half[2] - by}}; }
   bool is_empty() const { return !(half[0] > 0 && half[1] > 0 && half[2] > 0); }
@@ -211,7 +194,7 @@ struct Box {
   std::array<Number, 3> size;
 
   static void parameters(auto& part, auto&& visit) {
-    visit(Parameter{"size", Dimension::length, "inner sizes along x, y, z", Range::positive}, part.size);
+    visit(positive_length("size", "inner sizes along x, y, z"), part.size);
   }
   BoxVessel<Number> vessel() const { return {{size[0] / 2, size[1] / 2, size[2] / 2}}; }
 };
@@ -268,16 +251,12 @@ struct SphereVessel {
     return {product_bound(c.x, 0, c.x, k) + product_bound(c.y, 0, c.y, k) + product_bound(c.z, 0, c.z, k)};
   }
   static constexpr bool is_flat(int) { return false; }
-  /// The gap is a sum of three squares; by Cauchy's inequality its terms are together at most sqrt(3) R.
-  ErrorBounds<Real> curved_errors(int, const ErrorBounds<Real>& coordinate, const Real& u,
-                                  const Real& frame_speed, const Real& acceleration,
-                                  const Real& beyond) const {
-    const auto& y = coordinate;
+  /// A sum of three squares; by Cauchy's inequality its terms are together at most sqrt(3) R.
+  ErrorBounds<Real> curved_errors(int, const ErrorBounds<Real>& y, const Real& u, const Real& v,
+                                  const Real& a, const Real& beyond) const {
     const Real R = radius + beyond;
-    return {4 * R * y.value + 5 * u * R * R,
-            4 * R * y.rate + 4 * frame_speed * y.value + 8 * u * R * frame_speed,
-            8 * frame_speed * y.rate + 5 * R * y.second + 5 * acceleration * y.value +
-                14 * u * (frame_speed * frame_speed + R * acceleration)};
+    return {4 * R * y.value + 5 * u * R * R, 4 * R * y.rate + 4 * v * y.value + 8 * u * R * v,
+            8 * v * y.rate + 5 * R * y.second + 5 * a * y.value + 14 * u * (v * v + R * a)};
   }
 
   Vec3<Real> normal(int, const Vec3<Real>& p) const { return p * Real(-1 / norm<Real>(p)); }
@@ -291,7 +270,7 @@ struct Sphere {
   Number diameter;
 
   static void parameters(auto& part, auto&& visit) {
-    visit(Parameter{"diameter", Dimension::length, "inner diameter", Range::positive}, part.diameter);
+    visit(positive_length("diameter", "inner diameter"), part.diameter);
   }
   SphereVessel<Number> vessel() const { return {diameter / 2}; }
 };
