@@ -7,7 +7,6 @@
 
 #include "model/parts/partners.hpp"
 #include "model/parts/surface.hpp"
-#include "model/parts/vessel_frame.hpp"
 
 namespace edmill::model {
 

@@ -9,11 +9,9 @@
 #include <vector>
 
 #include "base/errors.hpp"
-#include "base/scalar.hpp"
 #include "edmill/polynomial.hpp"
 #include "model/parts/partners.hpp"
 #include "model/parts/surface.hpp"
-#include "model/parts/vessel_frame.hpp"
 
 namespace edmill::model {
 
@@ -63,8 +61,8 @@ struct AlgebraicForm {
   }
 };
 
-/// A vessel whose wall k is where the k-th polynomial is zero. The polynomial is the gap, which need not be a
-/// length. The ball's radius is one of its variables, so that an inset only changes the radius.
+/// A vessel whose wall k is where the k-th polynomial, the gap, is zero; it need not be a length. The ball's
+/// radius is one of its variables, so that an inset only changes the radius.
 template <class Real>
 class AlgebraicVessel {
  public:
@@ -182,19 +180,17 @@ class AlgebraicVessel {
   static constexpr bool is_flat(int) { return false; }
   /// Error of a coordinate, propagated by the derivatives, and a rounding for each product and sum; a margin
   /// of one part in sixteen covers the squares of errors.
-  ErrorBounds<Real> curved_errors(int index, const ErrorBounds<Real>& y, const Real& u,
-                                  const Real& frame_speed, const Real& acceleration,
-                                  const Real& beyond) const {
+  ErrorBounds<Real> curved_errors(int index, const ErrorBounds<Real>& y, const Real& u, const Real& v,
+                                  const Real& a, const Real& beyond) const {
     const auto& wall = of(index);
     const Vec3<Real> sizes = half_sizes() + Vec3<Real>(beyond, beyond, beyond);
-    const Real &v = frame_speed, &a = acceleration;
     const Real value = wall.gap.size(sizes, radius_), first = wall.steepest(sizes, radius_),
                second = wall.bent(sizes, radius_), third = wall.third(sizes.maxCoeff(), radius_);
     const Real rounding = Real(static_cast<int>(wall.gap.terms.size()) + 2 * most_degree + 16) * u;
-    const Real more = Real(17) / 16;
+    const Real more = Real(17) / 16, bend = a * y.value + 2 * v * y.rate;
     return {more * (first * y.value) + rounding * value,
             more * (first * y.rate + second * (v * y.value)) + rounding * (first * v),
-            more * (first * y.second + second * (a * y.value + 2 * v * y.rate) + third * (v * v * y.value)) +
+            more * (first * y.second + second * bend + third * (v * v * y.value)) +
                 rounding * (first * a + second * (v * v))};
   }
 
@@ -257,8 +253,7 @@ class AlgebraicVessel {
       : shape_(std::move(shape)), radius_(radius) {}
 
   /// The radius of the ball about p that touches the wall, by Newton's method: inside, the gap decreases with
-  /// the radius, and more and more slowly. Where it increases, the ball is larger than the vessel is wide
-  /// there.
+  /// the radius, and more and more slowly. Where it increases, the ball is wider than the vessel.
   Real touching(int index, const Vec3<Real>& p) const {
     const auto& wall = of(index);
     const Real sharp = 8 * epsilon<Real>() * shape_->half_sizes.maxCoeff();

@@ -2,22 +2,17 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <boost/container/static_vector.hpp>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "base/errors.hpp"
-#include "base/scalar.hpp"
 #include "model/parts/parameter.hpp"
 #include "model/parts/partners.hpp"
 #include "model/parts/surface.hpp"
-#include "model/parts/vessel_frame.hpp"
 
 namespace edmill::model {
 
-/// Each wall is a plane with its unit normal n outwards; inside, n.p < d. The gap is the length d - n.p [m].
+/// Each wall is a plane with its unit normal n outwards. The gap is the length d - n.p [m].
 template <class Real>
 class PolyhedronVessel {
  public:
@@ -94,8 +89,7 @@ class PolyhedronVessel {
     return gaps;
   }
   Real gap(int wall, const Vec3<Real>& p) const {
-    const auto& plane = planes_[wall];
-    return plane.distance - dot<Real>(plane.normal, p);
+    return planes_[wall].distance - dot<Real>(planes_[wall].normal, p);
   }
   PerWall<Real> rates(const Vec3<Real>&, const Vec3<Real>& u) const {
     PerWall<Real> rates;
@@ -121,14 +115,11 @@ class PolyhedronVessel {
     return bounds;
   }
   static bool is_flat(int) { return false; }
-  /// Errors of the three coordinates, a rounding for each product and sum, and that of normalising the
-  /// normal.
-  ErrorBounds<Real> curved_errors(int wall, const ErrorBounds<Real>& coordinate, const Real& u,
-                                  const Real& frame_speed, const Real& acceleration,
-                                  const Real& beyond) const {
+  /// Errors of the three coordinates, a rounding for each product and sum, and that of the unit normal.
+  ErrorBounds<Real> curved_errors(int wall, const ErrorBounds<Real>& y, const Real& u, const Real& v,
+                                  const Real& a, const Real& beyond) const {
     const Real n = planes_[wall].normal.cwiseAbs().sum();
-    return {n * coordinate.value + 16 * u * (reach_ + beyond), n * coordinate.rate + 16 * u * frame_speed,
-            n * coordinate.second + 16 * u * acceleration};
+    return {n * y.value + 16 * u * (reach_ + beyond), n * y.rate + 16 * u * v, n * y.second + 16 * u * a};
   }
 
   Vec3<Real> normal(int wall, const Vec3<Real>&) const { return -planes_[wall].normal; }
@@ -273,8 +264,7 @@ struct Polyhedron {
   std::vector<typename PolyhedronVessel<Number>::Plane> planes() const {
     std::vector<typename PolyhedronVessel<Number>::Plane> planes;
     for (const auto& face : faces) {
-      const Vec3<Number> n{face.normal[0], face.normal[1], face.normal[2]};
-      const Vec3<Number> p{face.point[0], face.point[1], face.point[2]};
+      const Vec3<Number> n(face.normal.data()), p(face.point.data());
       planes.push_back({n, face.distance + dot<Number>(n, p) / norm<Number>(n)});
     }
     return planes;
