@@ -497,18 +497,10 @@ class Filling {
       crowd.push_back({radius, batch.gap_ball.template to<double>(), batch.gap_wall.template to<double>(),
                        random_place(vessel.inset(radius)), false});
     }
-    const auto moved = moved_walls();
-    const auto bodies = crowd_bodies();
-    return Crowd(vessel, moved, bodies, crowd, share).push_apart();
-  }
-  Vec3<double> random_place(const model::AnyVessel<double>& room) {
-    for (int tries = 0; tries < 10000; ++tries) {
-      const double x = random_.symmetric<double>(), z = random_.symmetric<double>();
-      if (const auto place = room.place({x, random_.symmetric<double>(), z})) return *place;
-    }
-    return {0, 0, 0};
-  }
-  std::vector<CrowdBody> crowd_bodies() const {
+    std::vector<double> moved;
+    const auto* pistons = mill_.vessel.pistons();
+    for (int wall = 0; pistons && wall < mill_.vessel.wall_count(); ++wall)
+      moved.push_back(static_cast<double>(pistons->of_wall(wall, result_.start).value));
     std::vector<CrowdBody> bodies;
     for (std::size_t k = 0; k < mill_.bodies.size(); ++k) {
       const auto& pose = body_poses_[k];
@@ -519,14 +511,14 @@ class Filling {
                          axis(pose.x), axis(pose.y), axis(pose.z)},
                         mill_.bodies[k].shape.template cast<double>()});
     }
-    return bodies;
+    return Crowd(vessel, moved, bodies, crowd, share).push_apart();
   }
-  std::vector<double> moved_walls() const {
-    std::vector<double> moved;
-    const auto* pistons = mill_.vessel.pistons();
-    for (int wall = 0; pistons && wall < mill_.vessel.wall_count(); ++wall)
-      moved.push_back(static_cast<double>(pistons->of_wall(wall, result_.start).value));
-    return moved;
+  Vec3<double> random_place(const model::AnyVessel<double>& room) {
+    for (int tries = 0; tries < 10000; ++tries) {
+      const double x = random_.symmetric<double>(), z = random_.symmetric<double>();
+      if (const auto place = room.place({x, random_.symmetric<double>(), z})) return *place;
+    }
+    return {0, 0, 0};
   }
   void add_crowd(const std::vector<Drawn>& drawn, const std::vector<CrowdBall>& crowd) {
     const std::size_t given = result_.states.size();
@@ -541,8 +533,7 @@ class Filling {
     for (;;) {
       const Vec3<Real> v{random_.symmetric<Real>(), random_.symmetric<Real>(), random_.symmetric<Real>()};
       const Real size = norm<Real>(v);
-      if (size > 1 || !(size > 0)) continue;
-      return v * (largest * random_.uniform<Real>() / size);
+      if (size > 0 && !(size > 1)) return v * (largest * random_.uniform<Real>() / size);
     }
   }
 

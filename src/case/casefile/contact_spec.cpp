@@ -149,11 +149,9 @@ void LawTable::PointsOf<Law>::read_from(Section& s, const char* key) {
   auto found = s.pairs(key, rows[0].dimension, rows[1].dimension);
   if (!s.has(key)) return;
   bool good = !found.empty();
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    for (std::size_t place = 0; place < 2; ++place)
-      good = good && in_range(found[k][place], rows[place].range);
-    if (k > 0) good = good && found[k - 1][0] < found[k][0];
-  }
+  for (std::size_t k = 0; k < found.size(); ++k)
+    good = good && in_range(found[k][0], rows[0].range) && in_range(found[k][1], rows[1].range) &&
+           (k == 0 || found[k - 1][0] < found[k][0]);
   if (!good) s.problem(key, fmt::format("a table of {} points", found.size()), Law::table_form);
   points[key] = std::move(found);
 }

@@ -52,24 +52,14 @@ std::string section_of(const std::string& path) {
 }  // namespace
 
 bool in_range(const Quantity& q, const Range& range) {
-  switch (range.kind) {
-    case Range::any:
-      return true;
-    case Range::not_negative:
-      return !q.negative();
-    case Range::positive:
-    case Range::count:
-    case Range::drive:
-      return q.positive();
-    case Range::quarter_turn:
-      return !q.negative() && rational(q) <= (q.pi_power == 1 ? Rational(1, 2) : Rational(157, 100));
-    case Range::share:
-      return q.positive() && rational(q) <= 1;
-    case Range::interval:
-      if (q.pi_power != 0) return q.to<double>() >= range.low && q.to<double>() <= range.high;
-      return rational(q) >= Rational(range.low) && rational(q) <= Rational(range.high);
-  }
-  return false;
+  if (range == Range::quarter_turn)
+    return !q.negative() && rational(q) <= (q.pi_power == 1 ? Rational(1, 2) : Rational(157, 100));
+  if (range == Range::share) return q.positive() && rational(q) <= 1;
+  if (range == Range::interval && q.pi_power != 0)
+    return q.to<double>() >= range.low && q.to<double>() <= range.high;
+  if (range == Range::interval)
+    return rational(q) >= Rational(range.low) && rational(q) <= Rational(range.high);
+  return range == Range::any || (range == Range::not_negative ? !q.negative() : q.positive());
 }
 
 std::string expected(const Parameter& p) {
@@ -78,10 +68,9 @@ std::string expected(const Parameter& p) {
   if (p.range == Range::share) return "a number above 0, up to 1";
   if (p.range == Range::interval) return fmt::format("a number from {} to {}", p.range.low, p.range.high);
   const auto what = noun(p.dimension);
-  const std::string article = std::string("aeiou").find(what[0]) == std::string::npos ? "a " : "an ";
-  return p.range == Range::any            ? article + what
-         : p.range == Range::not_negative ? article + what + " of 0 or more"
-                                          : "a positive " + what;
+  const std::string one = (std::string("aeiou").find(what[0]) == std::string::npos ? "a " : "an ") + what;
+  if (p.range == Range::any) return one;
+  return p.range == Range::not_negative ? one + " of 0 or more" : "a positive " + what;
 }
 
 Quantity fallback_of(const Parameter& p) {

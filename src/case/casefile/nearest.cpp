@@ -34,10 +34,9 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return to[a.size()][b.size()];
 }
 
-constexpr std::size_t least_beginning = 3;  ///< length of the shortest prefix that counts
-
+/// Whether a word begins with another one of at least three letters.
 bool begins(const std::string& word, const std::string& with) {
-  return with.size() >= least_beginning && word.starts_with(with);
+  return with.size() >= 3 && word.starts_with(with);
 }
 
 }  // namespace
