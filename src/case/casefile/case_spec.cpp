@@ -320,13 +320,6 @@ std::optional<ColumnName> ColumnName::read(Section& columns, const std::string& 
   return theirs ? std::optional(ColumnName(ours, *theirs)) : std::nullopt;
 }
 
-std::vector<Colour> CaseSpec::ball_colours() const {
-  std::vector<Colour> colours;
-  for_each_ball(
-      [&](const BallSpec& b) { colours.insert(colours.end(), static_cast<std::size_t>(b.count), b.colour); });
-  return colours;
-}
-
 std::string TargetSpec::counts() const {
   std::string text = counted.normal_only ? "the dose along the normal" : "all of the dose";
   if (counted.least.positive())
@@ -334,20 +327,6 @@ std::string TargetSpec::counts() const {
         fmt::format("{} {:g} J or more", counted.normal_only ? " of impacts where it is" : " of impacts of",
                     counted.least.to<double>());
   return text;
-}
-
-std::size_t CaseSpec::ball_count() const {
-  std::size_t count = 0;
-  for_each_ball([&](const BallSpec& b) { count += static_cast<std::size_t>(b.count); });
-  return count;
-}
-
-double CaseSpec::largest_diameter() const {
-  double largest = 0;
-  for_each_ball([&](const BallSpec& b) {
-    largest = std::max(largest, b.diameter.to<double>() + b.diameter_spread.to<double>());
-  });
-  return largest;
 }
 
 std::vector<std::string> problems_of(const CaseSpec& spec) {

@@ -1,6 +1,7 @@
 // A case as written in its file: exact quantities, not yet converted to a scalar type.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -348,9 +349,8 @@ struct CaseSpec {
     model::for_each_stop_rule([&](auto rule, std::size_t place) { row(rule.key, c.stop_limits[place]); });
     row(Parameter{"precision",
                   "scalar of the run; `edmill --version` lists all, and `\"mpfr:3000\"` has 3000 digits",
-                  Range::any, "double"}
-            .as("name of a scalar")
-            .usually("`\"double\"`"),
+                  Range::any, "double", "`\"double\"`"}
+            .as("name of a scalar"),
         c.precision);
     row(Parameter{"gravity", Dimension::acceleration, "acceleration of gravity; one number acts along -Y"}
             .as("acceleration, or a vector")
@@ -370,10 +370,27 @@ struct CaseSpec {
     for (const auto& ball : balls) visit(ball);
     for (const auto& batch : batches) visit(batch);
   }
-  std::size_t ball_count() const;
-  double largest_diameter() const;  ///< [m]
+  std::size_t ball_count() const {
+    std::size_t count = 0;
+    for_each_ball([&](const BallSpec& b) { count += static_cast<std::size_t>(b.count); });
+    return count;
+  }
+  /// [m]
+  double largest_diameter() const {
+    double largest = 0;
+    for_each_ball([&](const BallSpec& b) {
+      largest = std::max(largest, b.diameter.to<double>() + b.diameter_spread.to<double>());
+    });
+    return largest;
+  }
   /// Colours of all balls, in their order.
-  std::vector<Colour> ball_colours() const;
+  std::vector<Colour> ball_colours() const {
+    std::vector<Colour> colours;
+    for_each_ball([&](const BallSpec& b) {
+      colours.insert(colours.end(), static_cast<std::size_t>(b.count), b.colour);
+    });
+    return colours;
+  }
 };
 
 /// "0.01 m + 0.001 m sin(2 pi 5 t) inward", for readers.

@@ -33,12 +33,11 @@ struct ColumnTable : ColumnSpec {
           c.wanted);
     row(Parameter{"label", "name of the column in the header"}.usually("the variable's name"), c.label);
     if (single && (c.name.empty() || is_flag(c.name))) {
-      row(Parameter{"true_text", "text for a flag that is true", Range::any, "1"}.usually("`\"1\"`").only_of(
+      row(Parameter{"true_text", "text for a flag that is true", Range::any, "1", "`\"1\"`"}.only_of(
               "trends_instant"),
           c.true_text);
-      row(Parameter{"false_text", "text for a flag that is false", Range::any, "0"}
-              .usually("`\"0\"`")
-              .only_of("trends_instant"),
+      row(Parameter{"false_text", "text for a flag that is false", Range::any, "0", "`\"0\"`"}.only_of(
+              "trends_instant"),
           c.false_text);
     }
     if (c.rules.of_balls)

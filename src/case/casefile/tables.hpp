@@ -57,9 +57,8 @@ struct JointTable {
     row(Parameter{"speed", translates ? Dimension::speed : angular_speed,
                   "constant part of the speed of rotation or translation; rotations need no common "
                   "period, a translation needs `run.end_time`",
-                  Range::any, translates ? "0 m/s" : "0 rad/s"}
-            .as("angular speed or speed")
-            .usually("`0`"),
+                  Range::any, translates ? "0 m/s" : "0 rad/s", "`0`"}
+            .as("angular speed or speed"),
         j.speed);
     if (translates)
       row({"distance", length, "constant part of a translation along `\"x\"`, `\"y\"` or `\"z\"`", Range::any,
