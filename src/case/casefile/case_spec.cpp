@@ -215,9 +215,10 @@ std::string canonical_text(const CaseSpec& c) {
   return out.str();
 }
 
-/// @param finished  the run is over: the file of its initial state need not exist
-CaseSpec parse(const std::string& text, const std::string& name, const std::vector<std::string>& overrides,
-               bool finished, SizeLimit sizes = SizeLimit::physical) {
+}  // namespace
+
+CaseSpec parse_case(const std::string& text, const std::string& name,
+                    const std::vector<std::string>& overrides, bool finished, SizeLimit sizes) {
   Document document(name);
   document.sizes = sizes;
   toml::table root = parse_toml(text, "a case file", document, overrides);
@@ -278,8 +279,6 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
   if (spec.initial_state.empty() || !finished) spec.digest = sha256(canonical_text(spec));
   return spec;
 }
-
-}  // namespace
 
 int material_of(Section& section, const std::string& key, const std::string& name, const CaseSpec& spec) {
   if (name.empty()) return 0;
@@ -349,11 +348,6 @@ std::vector<std::string> problems_of(const CaseSpec& spec) {
   return document.problems;
 }
 
-CaseSpec parse_case(const std::string& text, const std::string& name,
-                    const std::vector<std::string>& overrides) {
-  return parse(text, name, overrides, false);
-}
-
 std::string WrittenNumber::plus(int sign, unsigned digits) const {
   const Rational value = rational(*parse_decimal(number));
   // Both are integers over a power of ten.
@@ -392,7 +386,7 @@ CaseSpec with_value(const CaseSpec& spec, const std::string& key, const std::str
   auto settings = spec.settings;
   const bool plain = value.find(' ') == std::string::npos;  // a number without a unit
   settings.push_back(key + "=" + (plain ? value : "\"" + value + "\""));
-  return parse(spec.text, spec.file, settings, false, sizes);
+  return parse_case(spec.text, spec.file, settings, false, sizes);
 }
 
 std::string text_with_settings(const CaseSpec& spec) {
@@ -406,7 +400,7 @@ std::string text_with_settings(const CaseSpec& spec) {
 
 CaseSpec read_case_of_run(const std::string& path, const std::vector<std::string>& settings,
                           const std::string& digest) {
-  auto spec = parse(io::read_whole(path, "the case of the run (TOML)"), path, settings, true);
+  auto spec = parse_case(io::read_whole(path, "the case of the run (TOML)"), path, settings, true);
   if (!spec.digest.empty() && spec.digest != digest)
     throw InputError(path + ": found a case with digest " + spec.digest + ", expected that of the run, " +
                      digest);

@@ -412,8 +412,10 @@ model::Partners partners_of(const CaseSpec& spec);
 CaseSpec read_case(const std::string& path, const std::vector<std::string>& overrides = {});
 
 /// Reads and checks the text of a case; `name` is the name of the file in messages.
+/// @param finished  the run is over: the file of its initial state need not exist
 CaseSpec parse_case(const std::string& text, const std::string& name,
-                    const std::vector<std::string>& overrides = {});
+                    const std::vector<std::string>& overrides = {}, bool finished = false,
+                    SizeLimit sizes = SizeLimit::physical);
 
 /// "12.7 mm": digits and unit as they are written.
 struct WrittenNumber {
