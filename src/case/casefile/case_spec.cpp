@@ -369,9 +369,8 @@ WrittenNumber value_of_key(const CaseSpec& spec, const std::string& key) {
   const auto unit = text.find_first_not_of(' ', end);
   if (unit != std::string::npos) found.unit = text.substr(unit);
   if (!parse_decimal(found.number))
-    throw InputError(spec.file + ": key '" + key +
-                     "': " + (text.empty() ? "missing" : "found \"" + text + "\"") +
-                     ", expected a number in the case file or in --set");
+    throw InputError(fmt::format("{}: key '{}': {}, expected a number in the case file or in --set",
+                                 spec.file, key, text.empty() ? "missing" : "found \"" + text + "\""));
   return found;
 }
 

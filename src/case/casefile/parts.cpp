@@ -181,14 +181,12 @@ std::vector<Joint<Quantity>> read_joints(Entries<JointTable>& entries, bool copi
 }
 
 Joints<Quantity> read_joints(Section& mill) {
-  Joints<Quantity> joints;
   ChainTable chain;
   read_keys(mill, chain);
   if (chain.joints.empty() && !mill.has("joint"))
     mill.problem("joint", "nothing", "at least one [[mill.joint]]");
-  joints.list = read_joints(chain.joints, false);
-  joints.period = period_of_fastest(joints.list);
-  return joints;
+  const auto joints = read_joints(chain.joints, false);
+  return {joints, period_of_fastest(joints)};
 }
 
 /// Checks conditions between the parameters of a vessel.

@@ -394,9 +394,8 @@ std::optional<std::string> Section::list_of(const toml::array& entries, const st
     for (const auto& [key, value] : *table) {
       const auto text = setting_of(value, place + "." + std::string(key.str()));
       if (!text) return std::nullopt;
-      const bool quoted = value.is_string();
-      row +=
-          (row.empty() ? "" : ", ") + std::string(key.str()) + " = " + (quoted ? "\"" + *text + "\"" : *text);
+      row += fmt::format("{}{} = {}", row.empty() ? "" : ", ", key.str(),
+                         value.is_string() ? "\"" + *text + "\"" : *text);
     }
     list += (list.empty() ? "{" : ", {") + row + "}";
   }
