@@ -59,8 +59,8 @@ struct TimerSpec {
 
 class Section;
 
-/// A table whose keys the user chooses, read by `T::read(section, name)`; `T::entry` describes
-/// them.
+/// A table whose keys the user chooses, described by `T::entry`: `T::read(section, name)` reads
+/// one.
 template <class T>
 struct Named : std::vector<T> {
   static constexpr const char* what = T::what;

@@ -52,9 +52,8 @@ struct JointTable {
                         "axis of translation: `\"x\"`, `\"y\"`, `\"z\"`, or three numbers with `speed` or "
                         "`swing`; without them, three lengths are a constant shift"),
           j.axis);
-    if (rotates)
-      row({"angle", Dimension::angle, "constant part of a rotation", Range::any, "0 deg"}, j.angle);
-    row(Parameter{"speed", translates ? Dimension::speed : angular_speed,
+    if (rotates) row({"angle", angle, "constant part of a rotation", Range::any, "0 deg"}, j.angle);
+    row(Parameter{"speed", translates ? speed : angular_speed,
                   "constant part of the speed of rotation or translation; rotations need no common "
                   "period, a translation needs `run.end_time`",
                   Range::any, translates ? "0 m/s" : "0 rad/s", "`0`"}
