@@ -18,10 +18,8 @@ namespace edmill::decks {
 
 // Templates with named fields, the files *.in of this folder. One that may be empty has the end of
 // its line.
-extern const std::string_view lammps_in, lammps_frame_in, liggghts_in, yade_in, yade_planes_in,
+extern const std::string_view lammps_in, lammps_frame_in, liggghts_in, pose_in, yade_in, yade_planes_in,
     yade_triangles_in;
-extern const std::string_view pose_in;  ///< pose(t) in Python: orientation, centre, angular velocity and its
-                                        ///< rate, velocity and acceleration of the centre, all inertial
 
 namespace {
 
@@ -43,11 +41,11 @@ struct DeckCase {
   std::vector<model::BallState<double>> states;  ///< inertial
   SoftLaw of_balls, of_walls;
   model::Mill<double> mill;
-  model::Joints<double> joints;                  ///< of the vessel
-  std::vector<model::Joints<double>> of_bodies;  ///< from the ground
-  std::vector<bool> on_vessel;                   ///< by body
-  double begin;                                  ///< time of the states [s]
-  model::AnyPose<double> pose;                   ///< of the vessel at the begin
+  model::Joints<double> joints;                       ///< of the vessel
+  double begin;                                       ///< time of the states [s]
+  model::AnyPose<double> pose;                        ///< of the vessel at the begin
+  std::vector<model::Joints<double>> of_bodies = {};  ///< from the ground
+  std::vector<bool> on_vessel = {};                   ///< by body
   /// Values of the templates' fields, by name.
   fmt::dynamic_format_arg_store<fmt::format_context> fields = {};
 
@@ -61,14 +59,13 @@ struct DeckCase {
 
   /// Density of a ball as given in the case: computed from the mass, without its rounding.
   double density(std::size_t ball) const {
-    const double r = balls[ball].radius;
-    return std::stod(
-        fmt::format("{:.14g}", balls[ball].mass / (4.0 / 3 * numerics::pi<double>() * r * r * r)));
+    const double r = balls[ball].radius, volume = 4.0 / 3 * numerics::pi<double>() * r * r * r;
+    return std::stod(fmt::format("{:.14g}", balls[ball].mass / volume));
   }
   /// No joint turns: the vessel translates, or is at rest.
   bool translates() const {
-    return std::none_of(joints.list.begin(), joints.list.end(),
-                        [](const auto& joint) { return joint.rotates; });
+    const auto rotates = [](const auto& joint) { return joint.rotates; };
+    return std::none_of(joints.list.begin(), joints.list.end(), rotates);
   }
 };
 
@@ -101,12 +98,11 @@ void refuse_what_no_code_has(const casefile::CaseSpec& spec, const casefile::Ini
   if (!spec.pistons.empty())
     problem("pistons", "walls that move together: decks have no walls that move relative to each other");
   if (!spec.pairs.empty()) problem("laws of pairs of materials", "one law between balls and one at walls");
-  for (const auto& ball : built.the_case.balls)
-    if (std::abs(ball.reduced_inertia - 0.4) > 1e-12) {
-      problem(fmt::format("a reduced inertia of {}", ball.reduced_inertia),
-              "0.4: DEM codes have solid spheres");
-      break;
-    }
+  const auto& balls = built.the_case.balls;
+  const auto is_hollow = [](const auto& ball) { return std::abs(ball.reduced_inertia - 0.4) > 1e-12; };
+  if (const auto hollow = std::find_if(balls.begin(), balls.end(), is_hollow); hollow != balls.end())
+    problem(fmt::format("a reduced inertia of {}", hollow->reduced_inertia),
+            "0.4: DEM codes have solid spheres");
   if (!problems.empty()) throw InputError(problems);
 }
 
@@ -118,8 +114,7 @@ model::Joints<double> in_double(const model::Joints<casefile::Quantity>& joints)
 std::string weight_of(const Vec3<double>& g) {
   const double size = norm<double>(g);
   if (!(size > 0)) return "";
-  return fmt::format("fix weight all gravity {} vector {} {} {}\n", size, g[0] / size, g[1] / size,
-                     g[2] / size);
+  return fmt::format("fix weight all gravity {} vector {}\n", size, fmt::join(Vec3<double>(g / size), " "));
 }
 
 bool moves(const model::Joint<double>& joint) { return joint.speed != 0 || !joint.swings.empty(); }
@@ -218,8 +213,9 @@ std::string atoms_of(const DeckCase& c, const char* spin, bool also_at_rest) {
   return text + sets;
 }
 
-/// Writes the number of facets of a round wall to the deck, for `facts_of_deck`, and to the notes.
-void tell_facets(DeckCase& c, const std::vector<WallMesh>& meshes, Deck& deck) {
+/// Writes the number of facets of a round wall to the deck, for `facts_of_deck`, and to the notes,
+/// as well as what bodies are that are triangles.
+void tell_triangles(DeckCase& c, const std::vector<WallMesh>& meshes, Deck& deck) {
   const int facets = c.options.facets;
   const bool is_round =
       std::any_of(meshes.begin(), meshes.end(), [](const WallMesh& mesh) { return mesh.smooth_angle > 0; });
@@ -228,10 +224,6 @@ void tell_facets(DeckCase& c, const std::vector<WallMesh>& meshes, Deck& deck) {
     deck.notes.push_back(
         fmt::format("the cylinder is a prism of {} facets around it, {:.2g} % wider at its corners", facets,
                     100 * (1 / std::cos(numerics::pi<double>() / facets) - 1)));
-}
-
-/// Notes for bodies that are triangles.
-void tell_bodies(const DeckCase& c, Deck& deck) {
   if (!c.mill.bodies.empty())
     deck.notes.push_back(
         "bodies in the vessel are triangles; round parts are prisms of 48 facets within them, 0.2 "
@@ -241,16 +233,26 @@ void tell_bodies(const DeckCase& c, Deck& deck) {
 // LAMMPS of 2021 and later: exact regions. Regions turn about one axis at most, so a vessel that
 // turns is simulated in its own frame, with fictitious forces and torques computed in Python.
 
+using Place = std::array<double, 3>;
+
+std::string block(const Place& p, const Vec3<double>& half) {
+  return fmt::format("block {} {} {} {} {} {}", p[0] - half[0], p[0] + half[0], p[1] - half[1],
+                     p[1] + half[1], p[2] - half[2], p[2] + half[2]);
+}
+std::string upright(const Place& p, double radius, double half_height) {
+  return fmt::format("cylinder y {} {} {} {} {}", p[0], p[2], radius, p[1] - half_height, p[1] + half_height);
+}
+
 std::string region_of(const DeckCase& c, const std::string& moves) {
   const auto& v = c.mill.vessel;
-  if (const auto* box = v.get_if<model::BoxVessel<double>>())
-    return fmt::format("region vessel block {} {} {} {} {} {} side in units box{}\n", -box->half[0],
-                       box->half[0], -box->half[1], box->half[1], -box->half[2], box->half[2], moves);
+  const auto region = [&](const std::string& shape) {
+    return "region vessel " + shape + " side in units box" + moves + "\n";
+  };
+  if (const auto* box = v.get_if<model::BoxVessel<double>>()) return region(block({}, box->half));
   if (const auto* cylinder = v.get_if<model::CylinderVessel<double>>())
-    return fmt::format("region vessel cylinder y 0 0 {} {} {} side in units box{}\n", cylinder->radius,
-                       -cylinder->half_height, cylinder->half_height, moves);
+    return region(upright({}, cylinder->radius, cylinder->half_height));
   if (const auto* sphere = v.get_if<model::SphereVessel<double>>())
-    return fmt::format("region vessel sphere 0 0 0 {} side in units box{}\n", sphere->radius, moves);
+    return region(fmt::format("sphere 0 0 0 {}", sphere->radius));
   throw InputError(
       fmt::format("{}: key 'vessel.type': found a vessel that is not a single region of LAMMPS, "
                   "expected cylinder, box or sphere",
@@ -260,7 +262,7 @@ std::string region_of(const DeckCase& c, const std::string& moves) {
 /// The motion of a region in LAMMPS: it turns about an axis through the origin, then it is shifted.
 struct RegionMotion {
   std::vector<model::Joint<double>> shifts;
-  std::array<double, 3> axis{}, place{};  ///< place: of the body, before it turns [m]
+  Place axis{}, place{};  ///< place: of the body, before it turns [m]
   Formula angle;
 };
 
@@ -286,12 +288,12 @@ RegionMotion motion_of_region(const DeckCase& c, std::size_t k) {
   }
   RegionMotion motion;
   auto& [shifts, axis, place, angle] = motion;
-  const std::array<double, 3> none{};
+  const Place none{};
   for (const auto& joint : joints) {
     if (joint.rotates) {
       const auto own = axis_of(joint);
       if (axis == none) axis = own;
-      const Vec3<double> off{place[0], place[1], place[2]}, about{own[0], own[1], own[2]};
+      const Vec3<double> off(place.data()), about(own.data());
       if (own != axis || norm<double>(cross<double>(off, about)) > 1e-15)
         throw no_region(c, k, "whose joints turn about several axes", "one that turns about one axis");
       angle += Formula(turn * joint.angle) + moved_formula(joint, turn, "v_t");
@@ -311,18 +313,13 @@ std::string body_of(const DeckCase& c, std::size_t k, const std::string& contact
   const auto& body = c.mill.bodies[k];
   const auto motion = motion_of_region(c, k);
   const auto& place = motion.place;
-  const auto& [half, rounding] = std::pair(body.shape.half(), body.shape.rounding());
+  const auto& half = body.shape.half();
+  const double rounding = body.shape.rounding();
   const bool sphere = half == Vec3<double>::Zero();
   if (rounding > 0 && !sphere) throw no_region(c, k, "with rounded edges", "sharp edges or a sphere");
-  std::string text, region;
-  if (sphere)
-    region = fmt::format("sphere {} {} {} {}", place[0], place[1], place[2], rounding);
-  else if (body.shape.is_round())
-    region = fmt::format("cylinder y {} {} {} {} {}", place[0], place[2], half[0], place[1] - half[1],
-                         place[1] + half[1]);
-  else
-    region = fmt::format("block {} {} {} {} {} {}", place[0] - half[0], place[0] + half[0],
-                         place[1] - half[1], place[1] + half[1], place[2] - half[2], place[2] + half[2]);
+  std::string text, region = sphere ? fmt::format("sphere {} {}", fmt::join(place, " "), rounding)
+                             : body.shape.is_round() ? upright(place, half[0], half[1])
+                                                     : block(place, half);
   const auto shift = displacement_formulas(motion.shifts, "v_t");
   for (std::size_t i = 0; i < 3; ++i)
     text += fmt::format("variable shift{}{} equal {}\n", k, "xyz"[i], shift[i].text);
@@ -378,10 +375,11 @@ Deck lammps_deck(DeckCase& c) {
                       c.file, c.mill.bodies[k].name.label));
   if (in_vessel) put_in_vessel(c);
   c.add("forces", in_vessel && !at_rest ? fictitious_forces(c) : "");
+  const auto time = fmt::format("variable t equal {}+step*dt\n", c.begin);
   std::string vessel;
   if (!in_vessel) {
     const auto formulas = displacement_formulas(c.joints.list, "v_t");
-    vessel = fmt::format("variable t equal {}+step*dt\n", c.begin);
+    vessel = time;
     for (std::size_t k = 0; k < 3; ++k)
       vessel += fmt::format("variable move{} equal {}\n", "xyz"[k], formulas[k].text);
   }
@@ -394,14 +392,14 @@ Deck lammps_deck(DeckCase& c) {
         : at_rest  ? weight_of(c.mill.motion.in_axes(c.pose, c.mill.gravity))
                    : "");
   std::string bodies;
-  if (in_vessel && !c.mill.bodies.empty()) bodies = fmt::format("variable t equal {}+step*dt\n", c.begin);
+  if (in_vessel && !c.mill.bodies.empty()) bodies = time;
   const auto contact = c.filled(
       "hertz/material {young:.12g} {wall_tsuji:.9g} {poisson:g} tangential mindlin NULL 0.0 "
       "{wall_friction:.12g} damping tsuji limit_damping");
   for (std::size_t k = 0; k < c.mill.bodies.size(); ++k) bodies += body_of(c, k, contact);
   c.add("bodies", bodies);
-  Deck deck{
-      {{c.options.name + ".in", c.filled(lammps_in)}}, fmt::format("lmp -in {}.in", c.options.name), {}};
+  const auto file = c.options.name + ".in";
+  Deck deck{{{file, c.filled(lammps_in)}}, "lmp -in " + file, {}};
   if (in_vessel && !at_rest)
     deck.notes = {
         "the vessel turns, which LAMMPS's regions do about one axis at most: the deck computes in "
@@ -501,7 +499,7 @@ std::string moves_of(const Chain& chain, const std::vector<WallMesh>& meshes) {
             "fix turn_{0}_{1} all move/mesh mesh {0} rotate/variable origin 0 0 0 axis {2} omega "
             "{3}\n",
             mesh.name, "xyz"[k], axes[k], chain.spin[k].text);
-    if (!(chain.velocity.sum().text.empty())) {
+    if (!chain.velocity.sum().text.empty()) {
       std::string speeds;
       for (std::size_t k = 0; k < 3; ++k)
         speeds += " " + (chain.velocity[k].text.empty() ? "v_zero" : chain.velocity[k].text);
@@ -544,8 +542,7 @@ Deck liggghts_deck(DeckCase& c) {
     put(mesh, body.motion, body.motion.pose(c.at_begin()));
     move(c.of_bodies[k], mesh.name, {mesh});
   }
-  tell_facets(c, meshes, deck);
-  tell_bodies(c, deck);
+  tell_triangles(c, meshes, deck);
   c.add("balls", atoms_of(c, "omegax {} omegay {} omegaz {}", false), "rates", rates, "walls", walls,
         "mesh_count", meshes.size() + c.mill.bodies.size(), "meshes", names);
   c.add("moves", moves, "weight", weight_of(c.mill.gravity));
@@ -562,12 +559,11 @@ bool turns_about_a_point(const DeckCase& c, const auto& motion) {
   const DriveClock<double> clock(motion.period());
   for (int k = 0; k < 64; ++k) {
     const auto pose = motion.pose(clock.at(c.begin + c.joints.period * k / 64));
-    const Vec3<double> spin = motion.angular_velocity(pose);
-    const Vec3<double> centre = motion.to_inertial(pose, Vec3<double>::Zero());
-    const Vec3<double> velocity = motion.wall_velocity(pose, centre);
-    const double size = norm<double>(spin);
-    if (norm<double>(velocity) > 1e-12 && !(size > 1e-9)) return false;
-    if (std::abs(dot<double>(spin, velocity)) > 1e-9 * (1 + size * norm<double>(velocity))) return false;
+    const Vec3<double> spin = motion.angular_velocity(pose),
+                       velocity = motion.wall_velocity(pose, motion.to_inertial(pose, Vec3<double>::Zero()));
+    const double size = norm<double>(spin), speed = norm<double>(velocity);
+    if (speed > 1e-12 && !(size > 1e-9)) return false;
+    if (std::abs(dot<double>(spin, velocity)) > 1e-9 * (1 + size * speed)) return false;
   }
   return true;
 }
@@ -594,13 +590,12 @@ Deck yade_deck(DeckCase& c) {
                          c.density(k), fmt::join(v, ", "), fmt::join(w, ", "));
   }
   Deck deck{{{}}, fmt::format("yade -n -x -j1 {}.py", c.options.name), {}};
-  tell_facets(c, meshes, deck);
-  tell_bodies(c, deck);
+  tell_triangles(c, meshes, deck);
   c.add("balls", balls);
   if (planes) {
-    const auto place = displacement_formulas(c.joints.list, "t");
+    const auto [x, y, z] = displacement_formulas(c.joints.list, "t");
     c.add("half", fmt::format("{}", fmt::join(box->half, ", ")), "place",
-          fmt::format("{}, {}, {}", place[0].text, place[1].text, place[2].text));
+          x.text + ", " + y.text + ", " + z.text);
     c.add("walls", c.filled(yade_planes_in));
   } else {
     std::string solids;
@@ -632,8 +627,9 @@ Deck make_deck(const casefile::CaseSpec& spec, const DeckOptions& options) {
                           : spec.end_time      ? spec.end_time->to<double>() - begin
                                                : 0;
   const double interval = options.frame_interval > 0 ? options.frame_interval : options.contact_time / 5;
-  const auto& largest = *std::max_element(balls.begin(), balls.end(),
-                                          [](const auto& a, const auto& b) { return a.radius < b.radius; });
+  const auto smaller = [](const auto& a, const auto& b) { return a.radius < b.radius; };
+  const auto& largest = *std::max_element(balls.begin(), balls.end(), smaller);
+  const auto period = casefile::period_of(spec.mill);
   DeckCase c{.file = spec.file,
              .options = options,
              .balls = balls,
@@ -641,35 +637,30 @@ Deck make_deck(const casefile::CaseSpec& spec, const DeckOptions& options) {
              .of_balls = soft_law(mill.ball_ball, spec.file, options),
              .of_walls = soft_law(mill.ball_wall, spec.file, options),
              .mill = mill,
-             .joints = in_double({casefile::joints_of(spec.mill), casefile::period_of(spec.mill)}),
-             .of_bodies = {},
-             .on_vessel = {},
+             .joints = in_double({casefile::joints_of(spec.mill), period}),
              .begin = begin,
              .pose = mill.motion.pose(clock.at(begin))};
   for (const auto& body : spec.bodies) {
-    c.of_bodies.push_back(
-        in_double({casefile::joints_from_ground(body, spec), casefile::period_of(spec.mill)}));
+    c.of_bodies.push_back(in_double({casefile::joints_from_ground(body, spec), period}));
     c.on_vessel.push_back(body.on_vessel);
   }
   if (!(duration > 0)) throw InputError(spec.file + ": no run.end_time: set it, or give --duration");
   // A ball at an edge between two triangles of YADE touches both, so that they must be few.
   if (c.options.facets == 0) c.options.facets = options.code == "yade" ? 24 : 128;
   const long steps = std::lround(duration / time_step);
-  c.add("file", spec.file, "version", version(), "digest", spec.digest, "name", options.name, "contact_time",
-        options.contact_time);
-  c.add("speed", options.speed, "restitution", c.of_balls.restitution, "wall_restitution",
-        c.of_walls.restitution, "en", formula_restitution(c.of_balls.damping), "wall_en",
-        formula_restitution(c.of_walls.damping));
-  c.add("friction", c.of_balls.friction, "wall_friction", c.of_walls.friction);
   constexpr double poisson = 0.3;
+  c.add("file", spec.file, "version", version(), "digest", spec.digest, "name", options.name, "contact_time",
+        options.contact_time, "speed", options.speed, "restitution", c.of_balls.restitution,
+        "wall_restitution", c.of_walls.restitution, "en", formula_restitution(c.of_balls.damping), "wall_en",
+        formula_restitution(c.of_walls.damping), "friction", c.of_balls.friction, "wall_friction",
+        c.of_walls.friction);
   c.add("young", young_for(options.contact_time, options.speed, largest.radius, largest.mass, poisson),
         "poisson", poisson, "gravity", fmt::format("{}", fmt::join(mill.gravity, ", ")), "reach",
         1.5 * mill.motion.reach(mill.vessel.reach()), "skin", largest.radius / 2);
   c.add("begin", begin, "time_step", time_step, "steps", steps, "frame_every",
         std::max(1L, std::lround(interval / time_step)), "thermo", std::max(1L, steps / 20));
-  return options.code == "lammps"     ? lammps_deck(c)
-         : options.code == "liggghts" ? liggghts_deck(c)
-                                      : yade_deck(c);
+  if (options.code == "lammps") return lammps_deck(c);
+  return options.code == "liggghts" ? liggghts_deck(c) : yade_deck(c);
 }
 
 }  // namespace edmill::decks

@@ -13,13 +13,9 @@ namespace edmill::io {
 
 namespace fs = std::filesystem;
 
-namespace {
-
 // The first line, with the number of the format. Then a line with the SHA-256 of what follows.
 const std::string magic = "edmill checkpoint 4\n";
 constexpr std::size_t digest_size = 64;
-
-}  // namespace
 
 fs::path checkpoint_place(const fs::path& folder) { return folder / "checkpoint"; }
 

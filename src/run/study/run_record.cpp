@@ -10,11 +10,7 @@
 
 namespace edmill::study {
 
-namespace {
-
 constexpr const char* format_name = "edmill run record 2";
-
-}  // namespace
 
 RunRecord record_of(io::Facts summary) {
   using enum model::EndReason;

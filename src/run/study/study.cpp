@@ -35,8 +35,8 @@ std::string count_of(const casefile::CaseSpec& spec, const std::string& ratio) {
   if (spec.batches.size() != 1 || !spec.balls.empty())
     fail("several kinds of balls", "a case with one batch [[balls]]");
   const auto& balls = spec.batches.front();
-  const double d = balls.diameter.to<double>();
-  const double mass = balls.density.to<double>() * std::numbers::pi / 6 * d * d * d;
+  const double d = balls.diameter.to<double>(),
+               mass = balls.density.to<double>() * std::numbers::pi / 6 * d * d * d;
   const double count = std::round(value->to<double>() * spec.powder_mass->to<double>() / mass);
   if (count > 1e8) fail(ratio, "a charge ratio of fewer than 1e8 balls");
   return std::to_string(static_cast<std::uint64_t>(std::max(count, 1.0)));
@@ -58,13 +58,7 @@ void write_file(const std::filesystem::path& place, const std::string& bytes) {
 
 std::size_t count_ended(const std::vector<Run>& runs, bool with_result) {
   const auto ended = [&](const Run& r) { return r.record && r.record->done() == with_result; };
-  return static_cast<std::size_t>(std::count_if(runs.begin(), runs.end(), ended));
-}
-
-std::string setting_of(const Point& point, const std::string& key) {
-  for (const auto& [name, value] : point.settings)
-    if (name == key) return value;
-  return "";
+  return static_cast<std::size_t>(std::ranges::count_if(runs, ended));
 }
 
 /// The columns that both tables begin with.
@@ -76,7 +70,7 @@ std::vector<Column> point_columns(const std::vector<std::string>& keys) {
 
 void put_point(Table& table, std::size_t index, const Point& point, const std::vector<std::string>& keys) {
   table.put(index + 1, point.name);
-  for (const auto& key : keys) table.put(setting_of(point, key));
+  for (const auto& key : keys) table.put(value_of(point, key));
 }
 
 }  // namespace
@@ -105,10 +99,9 @@ numerics::OfSeeds Point::estimate(const Quantity& quantity) const {
 }
 
 std::string text_of(const numerics::OfSeeds& found, const Quantity& quantity) {
-  const auto text = [&](double mean, const std::optional<double>& half_width) {
-    return with_interval(mean / quantity.size,
-                         half_width ? std::optional(*half_width / quantity.size) : std::nullopt) +
-           " " + quantity.unit;
+  const auto text = [&](double mean, std::optional<double> half_width) {
+    if (half_width) *half_width /= quantity.size;
+    return with_interval(mean / quantity.size, half_width) + " " + quantity.unit;
   };
   if (found.states.empty()) return found.mean ? text(*found.mean, found.half_width) : "-";
   std::string all;
@@ -157,14 +150,12 @@ std::string list_of(const std::vector<Point>& points) {
       before = ", ";
     }
     if (before == " ") out += " no result";
-    if (const auto failed = points[k].failed(); failed > 0) {
-      out += ", " + counted(failed, "run") + " failed";
-      for (const auto& run : points[k].runs)
-        if (run.record && !run.record->done() && !run.record->message.empty()) {
-          out += ": " + run.record->message.substr(0, run.record->message.find('\n'));
-          break;
-        }
-    }
+    const auto has_reason = [](const Run& r) {
+      return r.record && !r.record->done() && !r.record->message.empty();
+    };
+    if (const auto failed = points[k].failed(); failed > 0) out += ", " + counted(failed, "run") + " failed";
+    if (const auto run = std::ranges::find_if(points[k].runs, has_reason); run != points[k].runs.end())
+      out += ": " + run->record->message.substr(0, run->record->message.find('\n'));
     out += '\n';
   }
   if (points.size() > most) out += fmt::format("  and {} more points\n", points.size() - most);
@@ -207,12 +198,11 @@ Run make_run(const casefile::StudySpec& spec, const Point& point, std::uint64_t 
   run.job.case_file = spec.case_file;
   auto& overrides = run.job.overrides;
   std::string ratio;
-  for (const auto& [key, value] : point.settings) {
+  for (const auto& [key, value] : point.settings)
     if (key == casefile::charge_ratio_key)
       ratio = value;
     else
       overrides.push_back(key + "=" + value);
-  }
   overrides.push_back("run.seed=" + std::to_string(seed));
   if (!spec.precision.empty()) overrides.push_back("run.precision=" + spec.precision);
   try {
@@ -258,9 +248,9 @@ void Study::require_a_good_case() const {
     for (const auto& run : point.runs)
       if (!run.record) return;
   // Read again to report its problems one by one.
-  const auto& job = points_.front().runs.front();
-  casefile::read_case(job.job.case_file, job.job.overrides);
-  throw InputError(spec_.file + ": at every point: " + job.record->message);
+  const auto& run = points_.front().runs.front();
+  casefile::read_case(run.job.case_file, run.job.overrides);
+  throw InputError(spec_.file + ": at every point: " + run.record->message);
 }
 
 std::filesystem::path Study::record_file(const std::string& digest) const {
@@ -335,16 +325,12 @@ std::string Study::forecast(const std::vector<Job>& jobs, const RecordFunction& 
     return counted(runs, "run") + (wall_time ? ", " + in_words(*wall_time * more) : "");
   };
   const auto c = counts();
-  auto text = c.kept > 0 ? counted(c.kept, "run") + " reused; " : std::string();
+  auto text = c.kept > 0 ? counted(c.kept, "run") + " reused; " : "";
   if (jobs.empty()) return text + "no run is left to do";
   text += with_time(jobs.size()) + " on " + counted(static_cast<std::uint64_t>(threads), "thread");
   if (!wall_time) text += "; how long they take is not known where no end_time ends them";
   if (most_runs_ > c.total) text += "; in all at most " + with_time(most_runs_ - c.kept);
   return text;
-}
-
-std::string Study::forecast() {
-  return forecast(collect_jobs(), [](const RunRecord&) {});
 }
 
 void Study::take_folder() {
@@ -395,13 +381,11 @@ void Study::write_tables() const {
 void Study::write_page(const std::string& html) const { write_file(table_places().back(), html); }
 
 StudyCounts Study::counts() const {
-  StudyCounts c;
+  StudyCounts c{.kept = kept_, .ran = ran_};
   for (const auto& point : points_) {
     c.total += point.runs.size();
     c.failed += point.failed();
   }
-  c.kept = kept_;
-  c.ran = ran_;
   return c;
 }
 
@@ -409,7 +393,7 @@ std::vector<std::string> Study::keys() const {
   std::vector<std::string> keys;
   for (const auto& point : points_)
     for (const auto& [key, value] : point.settings)
-      if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+      if (std::ranges::find(keys, key) == keys.end()) keys.push_back(key);
   return keys;
 }
 

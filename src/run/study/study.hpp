@@ -83,7 +83,9 @@ class Study {
   /// Does every run without a record, then writes the tables.
   void run();
   /// The runs left to do and the time that they will take, from short trials; writes nothing.
-  std::string forecast();
+  std::string forecast() {
+    return forecast(collect_jobs(), [](const RunRecord&) {});
+  }
   /// Sets the largest number of runs that may be added, for the forecast.
   void expect_at_most(std::uint64_t runs) { most_runs_ = runs; }
   void write_tables() const;
