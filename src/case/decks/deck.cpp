@@ -16,8 +16,7 @@
 
 namespace edmill::decks {
 
-// Templates with named fields, the files *.in of this folder. One that may be empty has the end of
-// its line.
+// Templates with named fields, the files *.in of this folder. One that may be empty ends its line.
 extern const std::string_view lammps_in, lammps_frame_in, liggghts_in, pose_in, yade_in, yade_planes_in,
     yade_triangles_in;
 
@@ -213,8 +212,8 @@ std::string atoms_of(const DeckCase& c, const char* spin, bool also_at_rest) {
   return text + sets;
 }
 
-/// Writes the number of facets of a round wall to the deck, for `facts_of_deck`, and to the notes,
-/// as well as what bodies are that are triangles.
+/// Writes the number of facets of a round wall to the deck, for `facts_of_deck`, and notes about
+/// triangles.
 void tell_triangles(DeckCase& c, const std::vector<WallMesh>& meshes, Deck& deck) {
   const int facets = c.options.facets;
   const bool is_round =
@@ -352,8 +351,7 @@ void put_in_vessel(DeckCase& c) {
   }
 }
 
-/// @return the commands for fictitious forces and torques. They use the velocity at the step, not
-/// LAMMPS's velocity half a step before.
+/// @return the commands for fictitious forces and torques. They use the velocity at the step.
 std::string fictitious_forces(DeckCase& c) {
   std::string masses, radii;
   for (const auto& ball : c.balls) {
@@ -550,11 +548,10 @@ Deck liggghts_deck(DeckCase& c) {
   return deck;
 }
 
-// YADE 2023: infinite planes if the vessel only translates, otherwise triangles that turn about the
-// point of the vessel that is at rest.
+// YADE 2023: infinite planes if the vessel only translates, else triangles about its point at rest.
 
-/// True if a point of the vessel or body is at rest at all sampled times: its centre moves
-/// perpendicularly to its angular velocity.
+/// True if a point of the vessel or body rests at all sampled times: its centre moves across its
+/// spin.
 bool turns_about_a_point(const DeckCase& c, const auto& motion) {
   const DriveClock<double> clock(motion.period());
   for (int k = 0; k < 64; ++k) {

@@ -1,5 +1,5 @@
-// The contacts of DEM codes: Hertz's force with the damping of Tsuji, Tanaka and Ishida (Powder Technol. 71,
-// 239, 1992), whose restitution does not depend on the speed.
+// The contacts of DEM codes: Hertz's force with the damping of Tsuji et al. (Powder Technol. 71,
+// 239, 1992).
 #pragma once
 
 namespace edmill::decks {
@@ -18,8 +18,7 @@ double restitution_of(double damping, int steps, Separation separation = Separat
 /// @pre 0.05 <= restitution <= 1
 double damping_for(double restitution, int steps, Separation separation = Separation::free);
 
-/// The argument of `damping tsuji` in LAMMPS of 2022, which computes the damping from it by a polynomial; the
-/// nearest argument if none gives this damping.
+/// The argument of `damping tsuji` in LAMMPS of 2022, a polynomial of it; or the nearest one.
 /// @pre damping >= 0
 double lammps_restitution(double damping);
 

@@ -52,8 +52,7 @@ int open_for_writing(const fs::path& file, int more_flags) {
 }
 
 /// The digest of `size` bytes of a file from `begin` on; nothing if the file is shorter.
-/// @param copy  file to which the bytes are copied; none when empty
-/// @throws std::runtime_error when the copy was not written
+/// @param copy  to which the bytes are copied; none when empty @throws std::runtime_error
 std::optional<Sha256> digest_of(const fs::path& file, std::uint64_t begin, std::uint64_t size,
                                 const fs::path& copy = {}) {
   std::ifstream in(file, std::ios::binary);
@@ -285,8 +284,8 @@ void AtomicFile::commit() {
   complete();
   if (dropped_ || destination_.through) return;
   if (!append_ || !destination_.kept) return destination_.commit();
-  // The temporary file stays as long as the checkpoint: it shows a resumed run that its rows are in
-  // place.
+  // The temporary file stays as long as the checkpoint: it shows a resumed run that its rows are
+  // placed.
   const Destination second(destination_.place);
   const auto& own = destination_.temporary;
   std::error_code no_links;

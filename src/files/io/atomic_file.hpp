@@ -72,8 +72,8 @@ bool is_device(const std::filesystem::path& path);
 /// Whether a name ends as those of temporary files do.
 bool is_temporary(const std::string& name);
 
-/// The place of a file, and the temporary name under which it is written. A device, a pipe or a
-/// socket is written through. Anything else, also the target of a link, is replaced.
+/// The place of a file and its temporary name. Devices, pipes and sockets are written through;
+/// anything else, also the target of a link, is replaced.
 struct Destination {
   std::filesystem::path named, place;  ///< as given; with links followed
   bool through = false;
@@ -116,13 +116,11 @@ class WholeFile {
   virtual std::filesystem::path place() const = 0;
 };
 
-/// A file that is written under a temporary name in the same folder and moved into place by `commit`. Without
-/// it, the old file stays unchanged. Devices and pipes are written through.
+/// A file that `commit` moves into place; without it, the old one stays. See Destination.
 class AtomicFile : public WholeFile {
  public:
   /// @param append  the content of the old file is kept before the new one
-  /// @param beside  where the temporary file is made, if not beside the place
-  /// @throws InputError when the temporary file cannot be opened
+  /// @param beside  as of Destination @throws InputError when the temporary file cannot be opened
   explicit AtomicFile(const std::filesystem::path& place, bool append = false,
                       const std::filesystem::path& beside = {});
 
@@ -132,8 +130,7 @@ class AtomicFile : public WholeFile {
     return stream_;
   }
 
-  /// Writes the rest. Afterwards nothing can fail for lack of space, and nothing can be added.
-  /// @throws std::runtime_error when anything was not written
+  /// Writes the rest; then nothing can fail for lack of space. @throws std::runtime_error
   void complete();
   /// Completes the file and puts it in place.
   void commit() override;

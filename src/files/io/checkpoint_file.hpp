@@ -19,7 +19,7 @@ struct Checkpoint {
   bool report = false;                        ///< whether the page was requested
   std::string interval;                       ///< between checkpoints, as given
   std::string state;                          ///< of the run
-  std::string result;  ///< of a run whose results are in place: only its temporary files are left to remove
+  std::string result;  ///< of a run in place: only its temporary files are left to remove
 
   void archive(Archive& a) {
     a(case_file, case_text, initial_state, overrides, case_digest, precision, right_digits, report, interval,

@@ -23,8 +23,8 @@ std::from_chars_result read_number(std::string_view text, double& value) {
   return std::from_chars(text.data(), text.data() + text.size(), value);
 }
 #else
-/// Replaces std::from_chars for double, which libc++ lacks before version 20. A plus sign and hexadecimal
-/// digits, which strtod accepts in addition, are refused.
+/// Replaces std::from_chars for double, which libc++ lacks before version 20. Refuses what only
+/// strtod accepts.
 std::from_chars_result read_number(std::string_view text, double& value) {
   const std::string copy(text);
   if (copy.empty() || copy.find_first_of("+xXpP") == 0 || copy.find_first_of("xX") != copy.npos)
@@ -45,8 +45,7 @@ std::optional<double> usual_number(std::string_view text) {
   return error == std::errc::result_out_of_range ? std::strtod(std::string(text).c_str(), nullptr) : value;
 }
 
-/// The character that separates the fields of a header: a comma, unless there are more semicolons or tabs;
-/// blanks where there is none of these.
+/// The separator of a header: the most frequent of comma, semicolon and tab; blanks without any.
 char separator_of(std::string_view header) {
   std::string unquoted;
   for (bool quoted = false; const char c : header) {

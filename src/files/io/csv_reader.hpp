@@ -17,9 +17,8 @@ std::string in_quotes(std::string_view text);
 /// Parses a number, also nan and infinity, with a leading sign or an exponent of Fortran.
 std::optional<double> number_in(std::string_view text);
 
-/// Fields are separated by commas, or by semicolons or tabs where the header is, and may be in quotes
-/// (RFC 4180). Numbers have a decimal point. Comments (#) may precede the header; blank lines are skipped.
-/// Problems are collected; reading ends when there are ten of them.
+/// Fields are separated as the header is, and may be in quotes (RFC 4180). Comments (#) may precede
+/// the header; blank lines are skipped. Reading ends after ten problems.
 class CsvReader {
  public:
   /// @throws InputError when `file` is not readable or has no header
@@ -35,8 +34,7 @@ class CsvReader {
   /// Index of a required column; its absence is a problem.
   std::optional<std::size_t> needed_column(std::string_view name);
 
-  /// Moves to the next row that has as many fields as the header.
-  /// @return false at the end of the file, or when there are too many problems
+  /// Moves to the next row with the header's number of fields. @return false at the end
   bool next_row();
   std::string_view field(std::size_t column) const { return fields_[column]; }
   /// A finite number; anything else is a problem.

@@ -13,8 +13,8 @@
 
 namespace edmill::io {
 
-/// The fields of a result as in its JSON file, in double for runs of any scalar: values by the paths of their
-/// keys ("energy/closure"), in the order of the file.
+/// The fields of a JSON file in double, by the paths of their keys ("energy/closure"), in its
+/// order.
 class Facts {
  public:
   using Texts = std::vector<std::string>;
@@ -29,8 +29,7 @@ class Facts {
 
   /// Whether there is a field, which may be null.
   bool has(std::string_view path) const { return value(path) != nullptr; }
-  /// @param expected  what it should be, for messages
-  /// @throws InputError with file and key when there is no such value
+  /// @param expected  what it should be, for the InputError when there is no such value
   const std::string& text(std::string_view path, const char* expected = "a text") const {
     return get<std::string>(path, expected);
   }

@@ -25,9 +25,8 @@ struct SavedState {
   std::vector<model::BallState<Real>> states;
 };
 
-/// Columns: ball, position [m], velocity [m/s], spin [rad/s], and the instant: time [s] for
-/// reading, drive_period and drive_offset [s] for an exact restart. Numbers have digits to
-/// round-trip.
+/// Columns: ball, position [m], velocity [m/s], spin [rad/s]; time [s] for reading, drive_period
+/// and drive_offset [s] for an exact restart. Numbers round-trip.
 template <class Real>
 void write_final_state(std::ostream& out, const SavedState<Real>& saved, const DriveClock<Real>& clock) {
   out << final_state_header << "\n";

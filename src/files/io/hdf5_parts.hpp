@@ -1,5 +1,4 @@
-// Parts of HDF5 files. They contain no dates, so that equal runs give equal bytes. Heavy: for
-// sources only.
+// Parts of HDF5 files, without dates: equal runs give equal bytes. Heavy: for sources only.
 #pragma once
 
 #include <hdf5.h>

@@ -77,8 +77,7 @@ class Spooled {
     static Spooled spooled;
     return spooled;
   }
-  /// @param change  of the number of spools
-  /// @return how many there are
+  /// @param change  of the number of spools @return how many there are
   int count(int change = 0) {
     const std::lock_guard lock(mutex_);
     users_ += change;
@@ -167,8 +166,7 @@ class InputFile::Buffer : public std::streambuf {
   }
 
  private:
-  /// Reads on until there are enough bytes to recognise the format, or the file has ended.
-  /// @return false when reading fails
+  /// Reads until the format can be recognised or the file ends. @return false when reading fails
   bool fill() {
     constexpr std::size_t beginning = 4;
     std::size_t size = 0;

@@ -38,8 +38,7 @@ class Decoder {
   Decoder(const Decoder&) = delete;
   Decoder& operator=(const Decoder&) = delete;
   virtual ~Decoder() = default;
-  /// Consumes bytes from the front of `in` and fills `out` from its beginning.
-  /// @return number of bytes in `out`
+  /// Consumes bytes from the front of `in`. @return number of bytes in `out`
   /// @throws std::runtime_error with the reason if the data are damaged
   virtual std::size_t decode(std::string_view& in, std::span<char> out) = 0;
   /// Whether the data may end here.

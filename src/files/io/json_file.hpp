@@ -15,8 +15,7 @@
 
 namespace edmill::io {
 
-/// @param expected  what the file should be, for messages: "the summary of a run"
-/// @throws InputError with file and line
+/// @param expected  what the file should be, for the InputError: "the summary of a run"
 inline nlohmann::json read_json(const std::filesystem::path& file, const std::string& expected) {
   const std::string text = read_whole(file.string(), expected);
   try {

@@ -31,8 +31,7 @@ void prepare_folder(const fs::path& folder) {
 
 namespace {
 
-/// @return the descriptor when it has the lock, or -1 where there are no locks
-/// @throws InputError when another process has it
+/// @return the descriptor, or -1 where there are no locks @throws InputError when another has it
 int locked(int descriptor, const fs::path& folder, FolderLock::Kind kind) {
   if (descriptor < 0) return -1;
   const int how = kind == FolderLock::Kind::alone ? LOCK_EX : LOCK_SH;

@@ -10,8 +10,7 @@
 
 namespace edmill::io {
 
-/// Creates the folder, with its parents, when it is absent.
-/// @throws InputError when it cannot be created or written to
+/// Creates the folder, with its parents. @throws InputError when it cannot be created or written to
 void prepare_folder(const std::filesystem::path& folder);
 
 /// A lock on a folder; the system releases it when the process ends, however it ends.
@@ -33,9 +32,9 @@ class FolderLock {
   int descriptor_;
 };
 
-/// A file whose name a user has given, for one result: `--out`, `--json`, `--draw`, `--certificate`.
-/// To be made before the work whose result it takes: a folder that a run writes into is refused early.
-/// Without a name there is no file.
+/// A file whose name a user has given, for one result: `--out`, `--json`, `--draw`,
+/// `--certificate`. Made before the work, it refuses the folder of a run early. Without a name
+/// there is no file.
 class NamedFile {
  public:
   /// @throws InputError when a run is being written into its folder
@@ -53,8 +52,7 @@ class NamedFile {
   std::optional<FolderLock> lock_;
 };
 
-/// Removes temporary files of killed processes from a folder.
-/// @pre the caller holds the folder's lock
+/// Removes temporary files of killed processes. @pre the caller holds the folder's lock
 void remove_temporaries(const std::filesystem::path& folder);
 
 /// Asks the system to write the contents of a file or a folder to disk. @throws std::runtime_error
@@ -67,7 +65,6 @@ inline constexpr const char* file_record_name = ".edmill-files";
 /// @throws std::runtime_error when the record was not written
 void record_files(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files);
 
-/// Keeps files of the user.
 /// @throws InputError when one of these files of the folder exists and is not in the record
 void require_own_files(const std::filesystem::path& folder, const std::vector<std::string>& names);
 

@@ -29,10 +29,7 @@ class ProgressLine {
     tell("{}{}", no_line, text);
     visible_ = true;
   }
-  /// @param now           simulated time [s]
-  /// @param end           where it ends [s]; nothing when only other rules stop the run
-  /// @param collisions    since the start of the run
-  /// @param milling_dose  since this line was made [J]
+  /// As in run::Progress; the dose since this line was made.
   void show(double now, const std::optional<double>& end, std::uint64_t collisions,
             const std::optional<double>& milling_dose = std::nullopt) {
     const auto time = Clock::now();

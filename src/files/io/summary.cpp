@@ -11,8 +11,7 @@ namespace edmill::io {
 
 namespace {
 
-/// Lists every field of summary.json in the order of the file: with its unit and meaning. `Visit`
-/// is called with key, unit, meaning and value; its `group` has a group visited.
+/// Calls `Visit` with key, unit, meaning and value of every field of summary.json in its order.
 template <class Real, class Visit>
 struct FieldList {
   const Summary<Real>& s;

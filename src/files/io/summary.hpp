@@ -43,13 +43,12 @@ struct Intervals {
   double batch_length = 0;                     ///< [s]
   std::vector<Rate> impact_rates, dose_rates;  ///< with each partner
   Rate impact_rate, fast_impact_rate, dose_rate, wall_work_rate, counted_dose_rate;
-  std::string several_states;  ///< why the charge may settle in another state with another seed; mostly empty
+  std::string several_states;  ///< why other seeds may settle elsewhere; mostly empty
 
   bool any() const { return batches >= fewest; }
 };
 
-/// The energies below which impacts dissipate half, and 90 %, of the dose of all impacts [J]; contacts at
-/// rest, whose energies follow from the least separation speed, are not among them.
+/// Energies below which impacts, not at rest, dissipate half and 90 % of the dose of all [J].
 struct QuantilesByDose {
   std::optional<double> half, ninety;
 };
@@ -128,8 +127,8 @@ struct Summary {
   std::uint64_t impacts_counted() const {
     return std::accumulate(impacts.begin(), impacts.end(), std::uint64_t{0});
   }
-  /// Reference for the supplied energy and the closure [J]: the dose, or the kinetic energy of the balls at
-  /// either end of the record if that is larger.
+  /// Reference for supplied energy and closure [J]: the dose, or the larger kinetic energy of
+  /// either end.
   Real energy_scale() const {
     return std::max({milling_dose, energy_at_start.kinetic, energy_at_end.kinetic});
   }

@@ -30,7 +30,7 @@ struct Column {
   enum class Type { text, integer, number };
   std::string name;
   Type type;
-  std::string unit{};  ///< "1" without a dimension; empty for names and the like
+  std::string unit{};         ///< "1" without a dimension; empty for names and the like
   std::string description{};  ///< empty when the name says it all
 
   /// "milling_dose [J]", or only the name for a column without a unit.
@@ -65,8 +65,7 @@ class Table {
     for (const auto& column : columns_) cells_.push_back(no_cells(column.type));
   }
 
-  /// Adds cells to the row from left to right: texts, integers, and numbers, which may be absent. The next
-  /// row begins after the last column.
+  /// Adds cells to the row from left to right: texts, integers, and numbers, which may be absent.
   /// @throws std::bad_variant_access when a cell has not the type of its column
   template <class... Cell>
   void put(const Cell&... cells) {

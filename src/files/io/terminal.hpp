@@ -17,8 +17,7 @@ inline void note_error() {
   first_error.compare_exchange_strong(none, errno != 0 ? errno : EIO);
 }
 
-/// Text for standard output. A failure is remembered and does not end the work whose results are on disk:
-/// `output_error` reports it at the end.
+/// Text for standard output. A failure does not end the work; `output_error` reports it at the end.
 inline void print_text(std::string_view text) {
   errno = 0;
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) note_error();

@@ -63,8 +63,7 @@ class Watcher {
   virtual void on_impact(const SeenImpact& impact, AnyRun& run) = 0;
 };
 
-/// A case from its initial state to its results, in one scalar. Numbers are returned as doubles, or as texts
-/// with all digits of the scalar.
+/// A case from its initial state to its results, in one scalar; numbers as doubles or exact texts.
 class AnyRun {
  public:
   virtual ~AnyRun() = default;
@@ -73,8 +72,7 @@ class AnyRun {
   /// Must be called before the run begins.
   /// @param checkpoint  of what checkpoints contain; with a state, the run continues from there
   /// @param without_locks  called if the file system cannot lock the folder against a second run
-  /// @throws InputError when a file cannot be written, another process or run writes into the folder, or an
-  /// unfinished run has left its checkpoint there
+  /// @throws InputError when a file cannot be written, or for a folder in use or with a checkpoint
   virtual void write_to(const std::filesystem::path& folder,
                         std::optional<io::Checkpoint> checkpoint = std::nullopt,
                         const std::function<void(const std::filesystem::path&)>& without_locks = {}) = 0;
@@ -98,10 +96,9 @@ class AnyRun {
 
   /// True if the run can be resumed from its checkpoint.
   virtual bool goes_on() const = 0;
-  /// Moves the files into place and removes others of an earlier run. To be called once, at the
-  /// end.
-  /// @param when_written  called when all is written, while the folder is locked and the checkpoint still
-  /// valid; its result is stored in the checkpoint until that is removed
+  /// Moves the files into place and removes others of an earlier run. Called once, at the end.
+  /// @param when_written  called when all is written; its result stays in the checkpoint until that
+  /// goes
   virtual void commit(const std::function<std::string()>& when_written) = 0;
 };
 

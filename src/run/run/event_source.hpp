@@ -26,11 +26,9 @@ using Event = model::ImpactRecord<Number>;
 class EventSource {
  public:
   virtual ~EventSource() = default;
-  /// The next `count` events; fewer at the end of the run, or when it is interrupted.
-  /// @throws UndecidedError
+  /// The next `count` events; fewer at the end or when interrupted. @throws UndecidedError
   virtual std::vector<Event> next(std::size_t count) = 0;
-  /// Skips about `count` events. @return the number of events skipped; 0 at the end of the run
-  /// @pre `next` was not called
+  /// Skips about `count` events. @return how many; 0 at the end @pre `next` was not called
   virtual std::size_t pass(std::size_t count) = 0;
   /// Whether the run has ended in inelastic collapse.
   virtual bool has_collapsed() const = 0;
@@ -38,15 +36,13 @@ class EventSource {
   virtual double reached() const = 0;
   /// Positions, velocities and spins of all balls, ball by ball, at the time reached so far.
   virtual std::vector<Number> states() const = 0;
-  /// Continues with fewer digits, from the current states in their full digits. Has no effect for scalars of
-  /// a fixed number of digits.
+  /// Continues with fewer digits from the current states; no effect for scalars of fixed digits.
   virtual void continue_in(unsigned digits) = 0;
 };
 
 /// @param precision  name of the scalar, in which the balls are placed
 /// @param to_end     whether the run ends where the case does; otherwise it continues on request
-/// @param interrupt  ends it when it becomes true
-/// @throws InterruptedError when it becomes true at the start
+/// @param interrupt  ends it when it becomes true @throws InterruptedError at the start
 std::unique_ptr<EventSource> make_source(const std::string& precision, const casefile::CaseSpec& spec,
                                          bool to_end, const std::atomic<bool>* interrupt = nullptr);
 template <class Real>

@@ -146,8 +146,7 @@ class ProgressWatch : public engine::Observer<Real> {
   std::optional<double> end_;
 };
 
-/// Pauses the run when a checkpoint is due. A checkpoint does not change the run, so it does not matter
-/// when it is made, nor that simulated time is taken in double.
+/// Pauses the run when a checkpoint is due. It does not change the run: its moment does not matter.
 template <class Real>
 class CheckpointWatch : public engine::Observer<Real> {
  public:
@@ -203,8 +202,7 @@ class RunDriver {
   RunDriver& operator=(const RunDriver&) = delete;
 
   /// Simulates to the end of the run, or to `limit` when that is earlier.
-  /// @return the reason for the end; `paused` at the limit
-  /// @throws UndecidedError when no scalar could make a decision
+  /// @return the reason for the end; `paused` at the limit @throws UndecidedError
   engine::EndReason go(const Instant<Real>& limit = Instant<Real>::never()) {
     using engine::EndReason;
     if (!counting_ && start_ == first_) start_counting();
@@ -347,8 +345,8 @@ io::Summary<Real> summary_of(const casefile::CaseSpec& spec, const casefile::Ini
   summary.energy_closure = summary.wall_work - summary.milling_dose + summary.supplied_energy -
                            ((last.kinetic + last.potential) - (first.kinetic + first.potential));
   driver->every_run().note(summary);
-  // An instant consists of whole periods and a remainder, whose sum is rounded: if the case gives the time,
-  // its exact value is used.
+  // An instant consists of whole periods and a remainder, whose sum is rounded: a time of the case
+  // is exact.
   const auto name = [&](Real& seconds, const Instant<Real>& when, const casefile::Quantity& given) {
     if (seconds == simulation.clock().seconds(when)) seconds = given.template to<Real>();
   };

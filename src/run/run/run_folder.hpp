@@ -39,8 +39,7 @@ inline constexpr const char* crate_file = "ro-crate-metadata.json";
 class RunFolder {
  public:
   /// @param checkpoint  of a run that makes them; with a state, the run continues there
-  /// @throws InputError when the folder cannot be used, another process writes there, or it contains the
-  /// checkpoint of another run
+  /// @throws InputError for a folder that is unusable, in use, or has the checkpoint of another run
   RunFolder(std::filesystem::path place, const casefile::CaseSpec& spec,
             std::optional<io::Checkpoint> checkpoint = std::nullopt);
   RunFolder(const RunFolder&) = delete;

@@ -348,8 +348,7 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
     const auto scope = use();
     return to_text<Real>(now());
   }
-  /// The current time [s]: the exact value that was requested if the run is there, since the sum of
-  /// periods and a remainder is rounded.
+  /// The current time [s]: exactly what was requested if the run is there, not the rounded instant.
   Real now() const {
     const auto& now = driver_->simulation().now();
     const auto& end = built_.the_case.stop.end_time;
@@ -379,8 +378,7 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
     const auto scope = use();
     return io::summary_json(result());
   }
-  /// The summary so far, with warnings. After the run's end it does not change, nor does its
-  /// processor time.
+  /// The summary so far, with warnings. After the run's end it does not change.
   io::Summary<Real> result() const {
     if (ended_) return *ended_;
     auto s = summary_of(*spec_, built_, driver_);
@@ -429,8 +427,7 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
     if (outputs_ && !spec_->outputs.empty()) a(*outputs_);
   }
 
-  /// Writes all files before any is put in place; the summary is last, so that what it names
-  /// exists.
+  /// Writes all files before any is put in place; the summary, which names them, is last.
   void write_results() {
     const DriveClock<Real> clock(built_.the_case.mill.motion.period());
     auto files = outputs_->complete(goes_on());

@@ -102,9 +102,8 @@ class RunStatistics : public engine::Observer<Real> {
   /// The part of the dose that works the powder [J].
   Real counted_dose() const { return counts_.all() ? milling_dose() : counted_dose_.value(); }
 
-  /// Confidence intervals of the rates, from the batches that are complete at an instant. The rates
-  /// themselves refer to `duration` [s], whose last period may be incomplete; the difference that this makes
-  /// is part of the interval.
+  /// Confidence intervals of the rates, from the batches that are complete at an instant. They
+  /// include the difference that the incomplete last period of `duration` [s] makes.
   io::Intervals intervals(const Instant<Real>& until, const Real& period, const Real& duration) const {
     auto batches = batches_;
     const auto all = totals_now();
@@ -153,8 +152,7 @@ class RunStatistics : public engine::Observer<Real> {
   }
 
   /// True if identical balls differ in their doses by more than their scatter over the record
-  /// allows. The scatter is that of eight parts; shorter ones are correlated. @param place  of the
-  /// first ball
+  /// allows. The scatter is that of eight parts; shorter ones are correlated.
   bool stay_apart(const numerics::Batches<Real>& batches, std::size_t place) const {
     constexpr std::size_t parts = 8;
     constexpr double significance = 3e-5;

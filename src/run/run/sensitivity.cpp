@@ -53,10 +53,9 @@ dynamics::ImpactOutcome<mpfr> collide(const Perturbation& in, const engine::Impa
                                            in.mill.law_with_wall(own, impact.partner), rests);
 }
 
-/// Observes a run, and carries the states of motions that are infinitely close to it from impact to
-/// impact. The map of an impact is taken for the run and for the neighbouring motion, `step` away,
-/// in three times the run's digits: their difference over the step is the derivative to the run's
-/// digits.
+/// Carries the states of motions infinitely close to a run from impact to impact: the maps of an
+/// impact for the run and for its neighbour, `step` away, in three times the run's digits, give the
+/// derivative as difference over step.
 class Linearised : public engine::Observer<mpfr> {
  public:
   /// @param base    the mill in these digits, and balls without `initial`
@@ -274,8 +273,7 @@ class Differentiator : private engine::Observer<mpfr> {
                     "little smaller, expected a parameter that varies continuously",
                     key, value.number));
   }
-  /// Derivative of the initial state: parameters also determine where balls are and when a run
-  /// begins.
+  /// Derivative of the initial state: parameters also shift places and the begin.
   static std::vector<Tangent> change_of_start(const Built& base, const Built& other, const mpfr& step) {
     const auto begin = [](const Built& built) {
       return DriveClock<mpfr>(built.the_case.mill.motion.period()).seconds(built.start);

@@ -16,8 +16,7 @@
 
 namespace edmill::study {
 
-/// The processes of a run under mpirun; a single one without it.
-/// Starts MPI when an MPI launcher started the program, and ends it. At most one at a time.
+/// The processes under mpirun; a single one without it. Starts and ends MPI; at most one at a time.
 class Ranks {
  public:
   Ranks();
@@ -105,7 +104,7 @@ class Forecast {
   static constexpr std::size_t trials = 12;
   static constexpr double trial_time = 0.25;
 
-  std::map<double, double> rates_;  ///< processor time over cost, by the cost of the job that was tried
+  std::map<double, double> rates_;  ///< processor time over cost, by cost of a tried job
 };
 
 /// "about 1:20 min".

@@ -15,7 +15,7 @@ namespace {
 
 using casefile::OptimizeSpec;
 using casefile::OptimizeVariable;
-using Coordinates = std::vector<double>;  ///< a value for each variable; an index into `values` for those
+using Coordinates = std::vector<double>;  ///< of each variable a value, or its index
 
 class Search {
  public:

@@ -14,8 +14,7 @@ struct Optimum {
 };
 
 /// Evaluates a grid with a few runs at each point, gives more runs to those that may be the best,
-/// and makes the grid finer around the best, until the budget is used. Independent of the results'
-/// order.
+/// and makes the grid finer around the best, until the budget is used.
 Optimum optimize(const casefile::OptimizeSpec& spec, Study& study);
 
 /// The longest time that the search will take, in words, from short trials; nothing is written.

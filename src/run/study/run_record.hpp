@@ -12,8 +12,7 @@ namespace edmill::study {
 
 struct RunRecord {
   std::string digest;  ///< of the case
-  std::string status;  ///< done, inelastic_collapse, stalled, max_cpu_time, undecided, bad_case, error
-                       ///< or interrupted
+  std::string status;  ///< done, bad_case, error, or the reason for an early end
   std::string message;
   io::Facts facts = io::Facts();  ///< of the summary; none of a run that could not start
 
