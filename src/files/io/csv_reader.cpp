@@ -133,14 +133,12 @@ bool CsvReader::next_row() {
 
 std::optional<double> CsvReader::number(std::size_t column) {
   if (const auto value = number_in(fields_[column])) return value;
-  bad_field(column, "a number");
-  return std::nullopt;
+  return bad_field(column, "a number");
 }
 
 std::optional<double> CsvReader::finite(std::size_t column) {
   if (const auto value = number_in(fields_[column]); value && std::isfinite(*value)) return value;
-  bad_field(column, "a finite number");
-  return std::nullopt;
+  return bad_field(column, "a finite number");
 }
 
 std::optional<int> CsvReader::whole(std::size_t column, const std::string& expected, int smallest,
@@ -150,8 +148,7 @@ std::optional<int> CsvReader::whole(std::size_t column, const std::string& expec
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error == std::errc() && end == text.data() + text.size() && value >= smallest && value <= largest)
     return value;
-  bad_field(column, expected);
-  return std::nullopt;
+  return bad_field(column, expected);
 }
 
 /// Splits the row that begins in line_ into fields. A line that ends within quotes goes on.
@@ -206,11 +203,12 @@ void CsvReader::bad_line(const std::string& problem) {
   problems_.push_back(fmt::format("{}:{}: {}", file_, line_number_, problem));
 }
 
-void CsvReader::bad_field(std::size_t column, const std::string& expected) {
+std::nullopt_t CsvReader::bad_field(std::size_t column, const std::string& expected) {
   const bool comma = has_decimal_comma(fields_[column], separator_);
   bad_line(fmt::format("column {} ({}): found {}, expected {}", column + 1, header_[column],
                        in_quotes(fields_[column]),
                        comma ? "a decimal point in place of the comma" : expected));
+  return std::nullopt;
 }
 
 void CsvReader::throw_problems() const {

@@ -45,7 +45,7 @@ class CsvReader {
   std::optional<int> whole(std::size_t column, const std::string& expected, int smallest, int largest);
 
   void bad_line(const std::string& problem);
-  void bad_field(std::size_t column, const std::string& expected);
+  std::nullopt_t bad_field(std::size_t column, const std::string& expected);
   /// @throws InputError when there were problems
   void throw_problems() const;
 

@@ -28,25 +28,25 @@ class JsonFields {
     json_.end();
   }
   /// A group for each item of a list. @param name_of  of an item @param fill  its fields
-  void each(std::string_view key, std::string_view, const auto& list, const auto& name_of, const auto& fill) {
+  void each(std::string_view key, std::string_view, const auto& list, auto name_of, const auto& fill) {
     group(key, "", [&] {
       for (const auto& item : list) group(std::invoke(name_of, item), "", [&] { fill(item); });
     });
   }
-  /// A group for each item of a list, named by its number, from "1" on.
+  /// Names items by their numbers, from "1" on.
+  static auto numbers() {
+    return [number = 0](const auto&) mutable { return std::to_string(++number); };
+  }
+  /// A group for each item of a list, named by its number.
   void numbered(std::string_view key, std::string_view, const auto& list, const auto& fill) {
-    std::size_t number = 0;
-    each(
-        key, "", list, [&](const auto&) { return std::to_string(++number); }, fill);
+    each(key, "", list, numbers(), fill);
   }
   void texts(std::string_view key, std::string_view, const std::vector<std::string>& list) {
-    std::size_t number = 0;
-    by_name(
-        key, "", "", list, [&](const auto&) { return std::to_string(++number); }, std::identity());
+    by_name(key, "", "", list, numbers(), std::identity());
   }
   /// A group of values whose names depend on the items of a list.
-  void by_name(std::string_view key, std::string_view, std::string_view, const auto& list,
-               const auto& name_of, const auto& value_of) {
+  void by_name(std::string_view key, std::string_view, std::string_view, const auto& list, auto name_of,
+               const auto& value_of) {
     group(key, "", [&] {
       for (const auto& item : list) json_.add(std::invoke(name_of, item), std::invoke(value_of, item));
     });

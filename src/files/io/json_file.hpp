@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -31,26 +32,24 @@ inline nlohmann::json read_json(const std::filesystem::path& file, const std::st
 
 namespace detail {
 
+/// Nothing for a list of values of several kinds.
+inline std::optional<Facts::Value> fact_in(const nlohmann::json& value) {
+  const auto all = [&](auto is) { return std::all_of(value.begin(), value.end(), std::mem_fn(is)); };
+  if (value.is_null()) return Facts::Value();
+  if (value.is_boolean()) return value.get<bool>();
+  if (value.is_number()) return value.get<double>();
+  if (value.is_string()) return value.get<std::string>();
+  if (all(&nlohmann::json::is_string)) return value.get<Facts::Texts>();
+  if (all(&nlohmann::json::is_number)) return value.get<std::vector<double>>();
+  return std::nullopt;
+}
+
 inline void add_facts(const nlohmann::json& group, const std::string& path, Facts& facts) {
-  const auto all = [](const nlohmann::json& list, auto is) {
-    return std::all_of(list.begin(), list.end(), is);
-  };
-  for (const auto& [key, value] : group.items()) {
+  for (const auto& [key, value] : group.items())
     if (value.is_object())
       add_facts(value, path + key + "/", facts);
-    else if (value.is_null())
-      facts.set(path + key, {});
-    else if (value.is_boolean())
-      facts.set(path + key, value.get<bool>());
-    else if (value.is_number())
-      facts.set(path + key, value.get<double>());
-    else if (value.is_string())
-      facts.set(path + key, value.get<std::string>());
-    else if (all(value, [](const auto& item) { return item.is_string(); }))
-      facts.set(path + key, value.get<Facts::Texts>());
-    else if (all(value, [](const auto& item) { return item.is_number(); }))
-      facts.set(path + key, value.get<std::vector<double>>());
-  }
+    else if (const auto fact = fact_in(value))
+      facts.set(path + key, *fact);
 }
 
 }  // namespace detail

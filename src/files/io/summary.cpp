@@ -49,15 +49,10 @@ struct FieldList {
       v("total", "1", "of all", s.total_collisions());
     });
     v.group("collision_rate", "collisions per time; null, as every rate, if the statistics cover no time",
-            [&] {
-              by_partner("1/s", [&](std::size_t k) { return per_second(Real(number(s.collisions[k]))); });
-              v("total", "1/s", "of all", per_second(Real(number(s.total_collisions()))));
-            });
+            [&] { visit_rates(s.collisions); });
     v.group("impact_rate",
-            "rate of the collisions without contacts at rest, in which the least separation speed acts", [&] {
-              by_partner("1/s", [&](std::size_t k) { return per_second(Real(number(s.impacts[k]))); });
-              v("total", "1/s", "of all", per_second(Real(number(s.impacts_counted()))));
-            });
+            "rate of the collisions without contacts at rest, in which the least separation speed acts",
+            [&] { visit_rates(s.impacts); });
     v("fast_impact_rate", "1/s", "rate of impacts with an approach speed above 1 m/s",
       per_second(Real(number(s.fast_impacts))));
     const Real impact_dose = s.milling_dose - s.touched_dose;
@@ -218,6 +213,11 @@ struct FieldList {
   template <class Number>
   static Number ratio(const Number& part, const Number& whole) {
     return whole > 0 ? Number(part / whole) : Number(0);
+  }
+  void visit_rates(const std::vector<std::uint64_t>& counts) {
+    const auto rate = [&](std::uint64_t count) { return per_second(Real(number(count))); };
+    by_partner("1/s", [&](std::size_t k) { return rate(counts[k]); });
+    v("total", "1/s", "of all", rate(std::accumulate(counts.begin(), counts.end(), std::uint64_t{0})));
   }
   void visit_impacts(std::uint64_t count, const Real& dose) {
     v("impacts", "1", "number of impacts", count);

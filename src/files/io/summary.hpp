@@ -124,9 +124,6 @@ struct Summary {
   std::uint64_t total_collisions() const {
     return std::accumulate(collisions.begin(), collisions.end(), std::uint64_t{0});
   }
-  std::uint64_t impacts_counted() const {
-    return std::accumulate(impacts.begin(), impacts.end(), std::uint64_t{0});
-  }
   /// Reference for supplied energy and closure [J]: the dose, or the larger kinetic energy of
   /// either end.
   Real energy_scale() const {

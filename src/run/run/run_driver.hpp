@@ -184,11 +184,10 @@ class RunDriver {
         every_run_(built.the_case),
         statistics_(model::partners_of(built.the_case.mill), built.the_case.balls,
                     built.the_case.counted_dose),
-        first_(built.start) {
+        first_(built.start),
+        start_(std::max(first_, built.the_case.statistics_start)) {
     every_run_.attach_to(simulation_);
     for (auto* observer : guests.observers) simulation_.attach(*observer);
-    start_ = built.the_case.statistics_start;
-    if (start_ < first_) start_ = first_;
     const auto& end_time = built.the_case.stop.end_time;
     end_ = end_time.value_or(Instant<Real>::never());
     EDMILL_REQUIRE(start_ <= end_ || !end_time, "statistics start before the end");
@@ -276,30 +275,22 @@ class RunDriver {
   model::Energy<Real> energy_at_start_;
 };
 
-/// Summary of a case, with nothing counted yet.
-template <class Real>
-io::Summary<Real> blank_summary(const casefile::CaseSpec& spec, const casefile::InitialCase<Real>& built) {
-  io::Summary<Real> summary(model::partners_of(built.the_case.mill));
-  if (spec.powder_mass) summary.powder_mass = spec.powder_mass->template to<Real>();
-  if (spec.target.dose)
-    summary.target = {spec.target.dose->template to<Real>(), spec.target.counts(), Real(0)};
-  if (const auto& wanted = built.the_case.stop.limits[model::place_of_rule<model::DoseRatePrecision>])
-    summary.wanted_precision = static_cast<double>(*wanted);
-  Real ball_mass{0};
-  for (const auto& ball : built.the_case.balls) ball_mass += ball.mass;
-  summary.ball_mass = ball_mass;
-  summary.provenance = {spec.file, spec.digest, spec.settings, spec.reported, scalar_name<Real>(),
-                        version(), commit(),    compiler(),    spec.seed,     spec.right_digits};
-  return summary;
-}
-
 /// Summary of what has been simulated so far.
 /// @param driver  empty if the first contacts of the balls could not be decided
 template <class Real>
 io::Summary<Real> summary_of(const casefile::CaseSpec& spec, const casefile::InitialCase<Real>& built,
                              const std::optional<RunDriver<Real>>& driver) {
-  using Totals = typename RunStatistics<Real>::Totals;
-  auto summary = blank_summary(spec, built);
+  io::Summary<Real> summary(model::partners_of(built.the_case.mill));
+  if (spec.powder_mass) summary.powder_mass = spec.powder_mass->template to<Real>();
+  if (spec.target.dose)
+    summary.target = {spec.target.dose->template to<Real>(), spec.target.counts(), Real(0)};
+  constexpr auto precision = model::place_of_rule<model::DoseRatePrecision>;
+  if (const auto& wanted = built.the_case.stop.limits[precision])
+    summary.wanted_precision = static_cast<double>(*wanted);
+  summary.ball_mass = Real(0);
+  for (const auto& ball : built.the_case.balls) *summary.ball_mass += ball.mass;
+  summary.provenance = {spec.file, spec.digest, spec.settings, spec.reported, scalar_name<Real>(),
+                        version(), commit(),    compiler(),    spec.seed,     spec.right_digits};
   if (!driver) {
     summary.period = built.the_case.mill.motion.period();
     summary.start_time = summary.end_time = DriveClock<Real>(summary.period).seconds(built.start);
@@ -307,6 +298,7 @@ io::Summary<Real> summary_of(const casefile::CaseSpec& spec, const casefile::Ini
         model::energy_of(built.the_case.balls, built.states, built.the_case.mill.gravity);
     return summary;
   }
+  using Totals = typename RunStatistics<Real>::Totals;
   const auto& simulation = driver->simulation();
   const auto& statistics = driver->statistics();
   summary.cpu_seconds = driver->cpu_spent();
@@ -325,11 +317,9 @@ io::Summary<Real> summary_of(const casefile::CaseSpec& spec, const casefile::Ini
   summary.wall_work = statistics.wall_work();
   summary.fast_impacts = statistics.count(&Totals::fast);
   summary.speed_by_dose = statistics.sum(&Totals::speed_by_dose);
-  const auto by_dose = [](const numerics::WeightedQuantiles& energies) {
-    return io::QuantilesByDose{energies.quantile(0.5), energies.quantile(0.9)};
-  };
-  summary.impact_energy = by_dose(statistics.impact_energies());
-  summary.dissipated_energy = by_dose(statistics.dissipated_energies());
+  const auto &approach = statistics.impact_energies(), &loss = statistics.dissipated_energies();
+  summary.impact_energy = {approach.quantile(0.5), approach.quantile(0.9)};
+  summary.dissipated_energy = {loss.quantile(0.5), loss.quantile(0.9)};
   summary.touched_impacts = statistics.count(&Totals::touched);
   summary.touched_dose = statistics.sum(&Totals::touched_dose);
   summary.supplied_energy = statistics.supplied_energy();
@@ -372,7 +362,6 @@ io::SavedState<Real> saved_state(const casefile::InitialCase<Real>& built,
   return saved;
 }
 
-/// Sets the end reason, the warnings and the error.
 template <class Real>
 void finish_summary(io::Summary<Real>& summary, model::EndReason end_reason, const std::string& error) {
   summary.end_reason = end_reason;

@@ -46,9 +46,9 @@ RunFolder::RunFolder(fs::path place, const casefile::CaseSpec& spec, std::option
     io::require_no_checkpoint(place_);
     io::require_own_files(place_, {"case.toml", "final_state.csv", "summary.json", crate_file});
     if (fs::exists(place_ / "runs") && fs::exists(place_ / "runs.csv"))
-      throw InputError(
-          place_.string() +
-          ": this folder has the runs of a sweep, an optimisation or several seeds: use another --out");
+      throw InputError(place_.string() +
+                       ": this folder has the runs of a sweep, an optimisation or several seeds: use another "
+                       "--out");
   }
   if (!begins && io::read_checkpoint(place_).state != checkpoint_->state)
     throw InputError(io::checkpoint_place(place_).string() +
@@ -108,17 +108,17 @@ void RunFolder::write_crate(const std::string& case_digest, const std::string& p
     entities += entity(name, "File", others);
   }
   const auto dataset = fmt::format(
-      "\"name\": \"Simulation of a ball mill\", \"description\": \"Simulation of a ball mill "
-      "by edmill {} in {}; case.toml has digest {}\", \"datePublished\": \"{}\", "
-      "\"hasPart\": [{}], \"mentions\": {{\"@id\": \"#run\"}}",
+      "\"name\": \"Simulation of a ball mill\", \"description\": \"Simulation of a ball mill by "
+      "edmill {} in {}; case.toml has digest {}\", \"datePublished\": \"{}\", \"hasPart\": [{}], "
+      "\"mentions\": {{\"@id\": \"#run\"}}",
       version(), precision, case_digest, today(), parts);
   const auto action = "\"name\": \"edmill run\", \"instrument\": " + id("#edmill") +
                       ", \"object\": " + id("case.toml") + ", \"result\": [" + parts + "]";
   const auto program = "\"name\": \"edmill\", \"softwareVersion\": \"" + version() + "\"";
   write(crate_file, [&](std::ostream& out) {
     out << "{\n  \"@context\": \"https://w3id.org/ro/crate/1.1/context\",\n  \"@graph\": [\n    "
-           "{\"@id\": \"ro-crate-metadata.json\", \"@type\": \"CreativeWork\", \"about\": {\"@id\": "
-           "\"./\"}, \"conformsTo\": {\"@id\": \"https://w3id.org/ro/crate/1.1\"}}"
+           "{\"@id\": \"ro-crate-metadata.json\", \"@type\": \"CreativeWork\", \"about\": "
+           "{\"@id\": \"./\"}, \"conformsTo\": {\"@id\": \"https://w3id.org/ro/crate/1.1\"}}"
         << entity("./", "Dataset", dataset) << entity("#run", "CreateAction", action)
         << entity("#edmill", "SoftwareApplication", program) << entities << "\n  ]\n}\n";
   });

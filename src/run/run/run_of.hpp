@@ -252,11 +252,10 @@ class LawOfTexts : public CustomLaw<Real> {
   Real restitution(const Real& approach_speed) const override {
     return number(law_->restitution(to_text<Real>(approach_speed)), "restitution");
   }
-  Real restitution_of_slip(const Real& normal_change, const Real& slip_speed,
-                           const Real& compliance) const override {
-    return number(law_->restitution_of_slip(to_text<Real>(normal_change), to_text<Real>(slip_speed),
-                                            to_text<Real>(compliance)),
-                  "restitution_of_slip");
+  Real restitution_of_slip(const Real& change, const Real& slip, const Real& compliance) const override {
+    const auto text =
+        law_->restitution_of_slip(to_text<Real>(change), to_text<Real>(slip), to_text<Real>(compliance));
+    return number(text, "restitution_of_slip");
   }
 
  private:
@@ -284,8 +283,7 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
     if (setup.progress) {
       std::optional<double> end;
       if (spec_->end_time) end = spec_->end_time->template to<double>();
-      progress_.emplace(setup.progress, end);
-      guests_.observers.push_back(&*progress_);
+      guests_.observers.push_back(&progress_.emplace(setup.progress, end));
     }
     if (setup.max_cpu_time < std::numeric_limits<double>::infinity())
       guests_.observers.push_back(&cpu_limit_.emplace(setup.max_cpu_time));
@@ -330,9 +328,8 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
     try {
       begin();
       advanced_ = true;
-      const auto& simulation = driver_->simulation();
       if (limit && !(*limit > now())) return true;
-      if (limit) asked_ = {simulation.clock().at(*limit), *limit};
+      if (limit) asked_ = {driver_->simulation().clock().at(*limit), *limit};
       end_reason_ = limit ? driver_->go(asked_.first) : driver_->go();
     } catch (const UndecidedError& undecided) {
       end_reason_ = model::EndReason::undecided;
@@ -414,7 +411,7 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
     if (watchers_.empty() && calls_.empty()) return;
     const Real time = simulation.seconds();
     if (!calls_.empty()) {
-      const auto seen = to_public<Real>(impact, time, [](const Real& x) -> const Real& { return x; });
+      const auto seen = to_public<Real>(impact, time, std::identity());
       for (const auto& call : calls_) call(seen);
     }
     const auto rounded = [](const Real& x) { return static_cast<double>(x); };
@@ -475,7 +472,7 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
 
 template <class Real>
 std::unique_ptr<AnyRun> make_run_in(const casefile::CaseSpec& spec, const RunSetup& setup) {
-  const auto law = [](const std::shared_ptr<const LawInTexts>& texts) {
+  const auto law = [](const auto& texts) {
     return texts ? std::make_shared<LawOfTexts<Real>>(texts) : nullptr;
   };
   return std::make_unique<RunOf<Real>>(
@@ -548,7 +545,7 @@ int Run<Real>::ball_count() const {
 template <class Real>
 BallState<Real> Run<Real>::ball(int i) const {
   const auto scope = implementation_->use();
-  return run::to_public<Real>(implementation_->state_of(i), [](const Real& x) { return x; });
+  return run::to_public<Real>(implementation_->state_of(i), std::identity());
 }
 template <class Real>
 Ball<Real> Run<Real>::properties(int i) const {
@@ -572,7 +569,6 @@ Summary<Real> Run<Real>::summary() const {
   out.simultaneous_contacts = s.simultaneous_contacts;
   out.cpu_seconds = s.cpu_seconds;
   out.end_reason = model::name(s.end_reason);
-  out.warnings.reserve(s.warnings.size());
   for (const auto& warning : s.warnings) out.warnings.push_back(warning.text);
   if (s.intervals.any()) out.milling_dose_rate_half_width = s.intervals.dose_rate.half_width;
   out.milling_time = s.milling_time();
