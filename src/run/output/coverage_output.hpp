@@ -1,12 +1,10 @@
-// Spatial distribution of the dose. docs/outputs.md, "bodies", "coverage"
+// Where the dose lands, and how often powder is hit. docs/outputs.md, "bodies", "coverage", "treatment"
 #pragma once
 
 #include <algorithm>
 #include <array>
-#include <optional>
-#include <vector>
 
-#include "casefile/output_entry.hpp"
+#include "base/scalar_list.hpp"
 #include "output/table_output.hpp"
 #include "output/tallies.hpp"
 
@@ -14,17 +12,16 @@ namespace edmill::output {
 
 /// Surface area of a ball [m2].
 template <class Real>
-Real ball_area(const engine::Simulation<Real>& simulation, int ball) {
+Real ball_area(const Simulation<Real>& simulation, int ball) {
   const Real& radius = simulation.properties(ball).radius;
   return 4 * numerics::pi<Real>() * radius * radius;
 }
 
-/// Dose of each ball and each wall: half of the dose of an impact counts for either body. docs/outputs.md,
-/// "bodies"
+/// Dose of each ball and each wall: half of the dose of an impact counts for either body.
 template <class Real>
 class BodiesOutput : public TableOutput<Real> {
  public:
-  BodiesOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+  BodiesOutput(const OutputSpec& spec, const RunContext<Real>& run)
       : TableOutput<Real>(spec, run),
         on_balls_(run.ball_colours.size()),
         on_walls_(run.surfaces(spec).size() + run.bodies.size()) {}
@@ -34,12 +31,11 @@ class BodiesOutput : public TableOutput<Real> {
 
   void record(const ImpactFacts<Real>& f) override {
     const Real half = f.outcome.milling_dose / 2;
-    const auto partner = static_cast<std::size_t>(f.impact.partner);
-    on_balls_[static_cast<std::size_t>(f.impact.ball)].add(half);
-    (f.impact.with_wall ? on_walls_[partner] : on_balls_[partner]).add(half);
+    on_balls_[f.impact.ball].add(half);
+    (f.impact.with_wall ? on_walls_ : on_balls_)[f.impact.partner].add(half);
   }
 
-  void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
+  void end_of_record(const Simulation<Real>& simulation, const Real& until) override {
     this->begin({{"kind", text, "", "ball or wall"},
                  {"body", integer, "", "its number"},
                  {"impacts", integer, "1", "of the body"},
@@ -50,11 +46,10 @@ class BodiesOutput : public TableOutput<Real> {
     const Real time = until - this->timer().from();
     const auto put = [&](const char* kind, std::size_t body, const Tally<Real>& share, const Real& area) {
       const Real dose = share.energy.value();
-      this->put(kind, static_cast<std::uint64_t>(body), share.impacts, dose,
-                io::value_if(time > 0, [&] { return Real(dose / time); }), area);
+      this->put(kind, body, share.impacts, dose, io::value_if(time > 0, [&] { return Real(dose / time); }),
+                area);
     };
-    for (std::size_t k = 0; k < on_balls_.size(); ++k)
-      put("ball", k, on_balls_[k], ball_area(simulation, static_cast<int>(k)));
+    for (int k = 0; k < simulation.ball_count(); ++k) put("ball", k, on_balls_[k], ball_area(simulation, k));
     const auto& walls = this->run.walls;
     for (std::size_t k = 0; k < on_walls_.size(); ++k)
       put("wall", k, on_walls_[k],
@@ -70,7 +65,6 @@ struct CoverageKeys {
   std::uint64_t angles = 36, heights = 24, rings = 6, parts = 12;
 
   static void keys(auto& c, auto&& row) {
-    using casefile::table_size;
     row({"angles", "number of cells around the axis", table_size, "36"}, c.angles);
     row({"heights", "number of cells along the axis", table_size, "24"}, c.heights);
     row({"rings", "number of rings of equal area on round caps", table_size, "6"}, c.rings);
@@ -101,12 +95,10 @@ class WallCells {
     Real area_of_cell() const { return surface.area() / (Real(columns) * Real(rows)); }
   };
 
-  WallCells(const std::vector<model::WallSurface<Real>>& surfaces,
-            const std::vector<model::Body<Real>>& bodies, const CoverageKeys& keys)
-      : keys_(keys) {
+  WallCells(const OutputSpec& spec, const RunContext<Real>& run, const CoverageKeys& keys) : keys_(keys) {
     int id = 0;
-    for (const auto& surface : surfaces) add(surface, id++, 0);
-    for (const auto& body : bodies) {
+    for (const auto& surface : run.surfaces(spec)) add(surface, id++, 0);
+    for (const auto& body : run.bodies) {
       first_part_.push_back(walls_.size());
       int part = 0;
       for (const auto& surface : body.shape.surfaces()) add(surface, id, part++);
@@ -119,15 +111,15 @@ class WallCells {
   /// The cell of the contact point, if what is touched has an area. @pre the impact is with a wall
   std::optional<std::size_t> cell_of(const ImpactFacts<Real>& f) const {
     const auto& mill = f.simulation.mill();
-    if (const auto* body = mill.body_of(f.impact.partner)) {
-      const auto pose = body->motion.pose(f.impact.time);
-      const auto part = body->shape.part_at(
-          body->motion.position_in_vessel(pose, f.simulation.flight(f.impact.ball).position));
-      const auto number = static_cast<std::size_t>(f.impact.partner - mill.vessel.wall_count());
-      return cell_at(walls_[first_part_[number] + part],
-                     body->motion.position_in_vessel(pose, f.contact_point));
-    }
-    return cell_at(walls_[static_cast<std::size_t>(f.impact.partner)], own_contact_point(f, pose_of(f)));
+    const int partner = f.impact.partner;
+    const auto* body = mill.body_of(partner);
+    if (!body)
+      return cell_at(walls_[partner],
+                     mill.motion.position_in_vessel(mill.motion.pose(f.impact.time), f.contact_point));
+    const auto pose = body->motion.pose(f.impact.time);
+    const auto centre = body->motion.position_in_vessel(pose, f.simulation.flight(f.impact.ball).position);
+    const auto part = first_part_[partner - mill.vessel.wall_count()] + body->shape.part_at(centre);
+    return cell_at(walls_[part], body->motion.position_in_vessel(pose, f.contact_point));
   }
 
  private:
@@ -135,7 +127,7 @@ class WallCells {
     const auto c = surface.coordinates();
     const bool is_body = !first_part_.empty(), empty = is_body && !(surface.area() > 0);
     const auto parts = [&](int axis) -> std::size_t {
-      return empty ? 0 : surface.has_coordinates() ? keys_.parts_of(c[static_cast<std::size_t>(axis)]) : 1;
+      return empty ? 0 : surface.has_coordinates() ? keys_.parts_of(c[axis]) : 1;
     };
     walls_.push_back({surface, parts(0), parts(1), count_, id, part});
     count_ += walls_.back().columns * walls_.back().rows;
@@ -163,13 +155,13 @@ class WallCells {
 template <class Real>
 class CoverageOutput : public TableOutput<Real> {
  public:
-  CoverageOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+  CoverageOutput(const OutputSpec& spec, const RunContext<Real>& run)
       : TableOutput<Real>(spec, run),
-        walls_(run.surfaces(spec), run.bodies, spec.own_keys<CoverageKeys>()),
+        walls_(spec, run, spec.own_keys<CoverageKeys>()),
         cells_(walls_.count()) {
+    const auto& walls = walls_.walls();
     for (std::size_t k = 0; k < model::coordinate_infos.size(); ++k) {
       const auto c = static_cast<model::Coordinate>(k);
-      const auto& walls = walls_.walls();
       if (std::any_of(walls.begin(), walls.end(), [&](const auto& wall) { return wall.has(c); }))
         coordinates_.push_back(c);
     }
@@ -179,14 +171,13 @@ class CoverageOutput : public TableOutput<Real> {
   void archive_record(Archive& a) override { a(cells_); }
 
   void record(const ImpactFacts<Real>& f) override {
-    if (!f.impact.with_wall) return;
-    if (const auto number = walls_.cell_of(f)) {
-      ++cells_[*number].impacts;
-      cells_[*number].dose += f.outcome.milling_dose;
-    }
+    const auto number = f.impact.with_wall ? walls_.cell_of(f) : std::nullopt;
+    if (!number) return;
+    ++cells_[*number].impacts;
+    cells_[*number].dose += f.outcome.milling_dose;
   }
 
-  void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
+  void end_of_record(const Simulation<Real>& simulation, const Real& until) override {
     std::vector<Column> columns{{"wall", integer, "", wall_names(simulation.mill().walls())}};
     if (!this->run.bodies.empty())
       columns.push_back({"part", integer, "",
@@ -202,10 +193,9 @@ class CoverageOutput : public TableOutput<Real> {
     columns.push_back({"dose", number, "J", "milling dose"});
     columns.push_back({"dose_per_area", number, "J/m2", "milling dose of the cell over its area"});
     this->begin(std::move(columns), {this->window(until)});
-    const auto& walls = walls_.walls();
-    for (std::size_t wall = 0; wall < walls.size(); ++wall)
-      for (std::size_t row = 0; row < walls[wall].rows; ++row)
-        for (std::size_t column = 0; column < walls[wall].columns; ++column) write_cell(wall, column, row);
+    for (const auto& wall : walls_.walls())
+      for (std::size_t row = 0; row < wall.rows; ++row)
+        for (std::size_t column = 0; column < wall.columns; ++column) write_cell(wall, column, row);
   }
 
  private:
@@ -232,10 +222,9 @@ class CoverageOutput : public TableOutput<Real> {
     return text;
   }
 
-  void write_cell(std::size_t index, std::size_t column, std::size_t row) {
-    const auto& wall = walls_.walls()[index];
-    this->put(static_cast<std::uint64_t>(wall.id));
-    if (!this->run.bodies.empty()) this->put(static_cast<std::uint64_t>(wall.part));
+  void write_cell(const typename WallCells<Real>::Wall& wall, std::size_t column, std::size_t row) {
+    this->put(wall.id);
+    if (!this->run.bodies.empty()) this->put(wall.part);
     for (const auto c : coordinates_) {
       const bool along_u = wall.surface.coordinates()[0] == c;
       const std::size_t part = along_u ? column : row, parts = along_u ? wall.columns : wall.rows;
@@ -251,6 +240,111 @@ class CoverageOutput : public TableOutput<Real> {
   WallCells<Real> walls_;
   std::vector<model::Coordinate> coordinates_;  ///< that walls have
   std::vector<Cell> cells_;                     ///< those that at least one wall has
+};
+
+struct TreatmentKeys {
+  Quantity share, threshold;
+  std::uint64_t most = 10;
+  CoverageKeys cells;
+
+  static void keys(auto& t, auto&& row) {
+    row({"share_per_impact", "fraction of the powder's volume that one impact works", Range(1e-12, 1)},
+        t.share);
+    row({"threshold", Dimension::energy, "lowest energy that an impact must dissipate to work powder",
+         model::Range::not_negative, "0 J"},
+        t.threshold);
+    row({"most", "largest number of hits with a row of its own", table_size, "10"}, t.most);
+    CoverageKeys::keys(t.cells, row);
+  }
+};
+
+/// exp(-x) with the same bits on every machine.
+template <class Real>
+Real exp_of_minus(const Real& x) {
+  if constexpr (std::is_same_v<Real, double>) {
+    return static_cast<double>(exp(-mpfr50(x)));
+  } else {
+    using std::exp;
+    return exp(Real(-x));
+  }
+}
+
+/// Counts impacts on each ball and each cell of the walls. If powder is mixed between impacts, each impact
+/// hits it with the same probability, so that the number of hits has Poisson's distribution (Delogu and
+/// Cocco). If powder stays in place, in an even layer, the mean is that of its own patch.
+template <class Real>
+class TreatmentOutput : public TableOutput<Real> {
+ public:
+  TreatmentOutput(const OutputSpec& spec, const RunContext<Real>& run)
+      : TableOutput<Real>(spec, run),
+        keys_(spec.own_keys<TreatmentKeys>()),
+        share_(keys_.share.template to<Real>()),
+        threshold_(keys_.threshold.template to<Real>()),
+        walls_(spec, run, keys_.cells),
+        on_walls_(walls_.count()),
+        on_balls_(run.ball_colours.size()) {}
+
+ protected:
+  void archive_record(Archive& a) override { a(on_walls_, on_balls_, impacts_); }
+
+  void record(const ImpactFacts<Real>& f) override {
+    if (f.outcome.milling_dose < threshold_) return;
+    ++impacts_;
+    ++on_balls_[f.impact.ball];
+    if (!f.impact.with_wall)
+      ++on_balls_[f.impact.partner];
+    else if (const auto cell = walls_.cell_of(f))
+      ++on_walls_[*cell];
+  }
+
+  void end_of_record(const Simulation<Real>& simulation, const Real& until) override {
+    this->begin(
+        {{"hits", text, "", "how often powder has been hit; the last row is of all that was hit more often"},
+         {"mixed", number, "1", "part of the powder that was, if it is mixed between impacts"},
+         {"in_place", number, "1",
+          "part of the powder that was, if it stays in an even layer on balls and walls"}},
+        {this->window(until), std::to_string(impacts_) + " impacts that work powder"});
+    std::vector<Real> mixed(keys_.most + 1), in_place(keys_.most + 1);
+    add_poisson(share_ * Real(impacts_), Real(1), mixed);
+    Real whole(0);
+    for_each_patch(simulation, [&](const Real& area, std::uint64_t) { whole += area; });
+    for_each_patch(simulation, [&](const Real& area, std::uint64_t impacts) {
+      // Half of the powder that an impact works is on each body.
+      const Real layer = area / whole;
+      if (layer > 0) add_poisson(share_ / 2 * Real(impacts) / layer, layer, in_place);
+    });
+    Real more_mixed(1), more_in_place(1);
+    for (std::uint64_t hits = 0; hits <= keys_.most; ++hits) {
+      this->put(std::to_string(hits), mixed[hits], in_place[hits]);
+      more_mixed -= mixed[hits];
+      more_in_place -= in_place[hits];
+    }
+    this->put("more", more_mixed > 0 ? more_mixed : Real(0), more_in_place > 0 ? more_in_place : Real(0));
+  }
+
+ private:
+  /// Calls f(area [m2], impacts) for each cell of the walls and each ball.
+  void for_each_patch(const Simulation<Real>& simulation, auto&& f) const {
+    for (const auto& wall : walls_.walls())
+      for (std::size_t cell = wall.first; cell < wall.first + wall.columns * wall.rows; ++cell)
+        f(wall.area_of_cell(), on_walls_[cell]);
+    for (int k = 0; k < simulation.ball_count(); ++k) f(ball_area(simulation, k), on_balls_[k]);
+  }
+
+  /// Adds `weight` times Poisson's distribution of this mean.
+  void add_poisson(const Real& mean, const Real& weight, std::vector<Real>& sums) const {
+    Real probability = exp_of_minus<Real>(mean);
+    for (std::uint64_t hits = 0; hits <= keys_.most; ++hits) {
+      sums[hits] += weight * probability;
+      probability *= mean / Real(hits + 1);
+    }
+  }
+
+  TreatmentKeys keys_;
+  Real share_, threshold_;
+  WallCells<Real> walls_;
+  std::vector<std::uint64_t> on_walls_, on_balls_;  ///< impacts by cell and by ball
+  std::uint64_t impacts_ = 0;
 };
 
 }  // namespace edmill::output

@@ -16,14 +16,13 @@ struct StatesKey {
   bool states = false;
 
   static void keys(auto& k, auto&& row) {
-    row({"states", "also the positions and velocities before and after each impact", casefile::Range::any,
-         "false"},
+    row({"states", "also the positions and velocities before and after each impact", Range::any, "false"},
         k.states);
   }
 };
 
-struct CollisionsKeys : casefile::OwnKeys<StatesKey> {
-  static void check(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
+struct CollisionsKeys : OwnKeys<StatesKey> {
+  static void check(Section& s, const CaseSpec&, OutputSpec& output) {
     s.require(!output.hdf5(), "file", "a name ending in .csv; `events` is the log as HDF5");
   }
 };
@@ -32,7 +31,7 @@ struct CollisionsKeys : casefile::OwnKeys<StatesKey> {
 template <class Real>
 class CollisionsOutput : public OneFileOutput<Real, io::AtomicFile> {
  public:
-  CollisionsOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+  CollisionsOutput(const OutputSpec& spec, const RunContext<Real>& run)
       : OneFileOutput<Real, io::AtomicFile>(spec, run, spec.append),
         states_(spec.own_keys<StatesKey>().states) {
     this->file_.stream() << collision_log_header(states_) << '\n';
@@ -75,7 +74,7 @@ inline std::vector<EventColumn> event_columns(const model::Partners& partners, b
 template <class Real>
 class EventsOutput : public OneFileOutput<Real, EventFile> {
  public:
-  EventsOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+  EventsOutput(const OutputSpec& spec, const RunContext<Real>& run)
       : OneFileOutput<Real, EventFile>(
             spec, run, event_columns(run.partners, spec.own_keys<StatesKey>().states), run.notes),
         states_(spec.own_keys<StatesKey>().states) {}
@@ -98,7 +97,7 @@ class EventsOutput : public OneFileOutput<Real, EventFile> {
     file_.end_row();
   }
 
-  void end_of_record(const engine::Simulation<Real>& simulation, const Real&) override {
+  void end_of_record(const Simulation<Real>& simulation, const Real&) override {
     std::vector<double> places, velocities, spins, diameters, masses;
     for (int i = 0; i < simulation.ball_count(); ++i) {
       const auto state = simulation.state_at(i, simulation.now());

@@ -155,7 +155,7 @@ VariableFormula<Real> variable_formula(int place) {
 #undef EDMILL_FLAG
 #undef EDMILL_COUNT
 #undef EDMILL_VARIABLE
-  return formulas[static_cast<std::size_t>(place)];
+  return formulas[place];
 }
 
 }  // namespace edmill::output

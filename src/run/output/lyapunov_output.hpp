@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "base/sums.hpp"
-#include "casefile/output_entry.hpp"
 #include "io/summary.hpp"
 #include "output/table_output.hpp"
 #include "tangent/spectrum.hpp"
@@ -18,21 +17,21 @@ struct LyapunovKeys {
   std::uint64_t exponents = 1;
 
   static void keys(auto& output, auto&& row) {
-    row(casefile::Parameter{"interval", Dimension::time,
-                            "length of an interval for finite-time exponents: a row with the growth in each "
-                            "one, in place of the table of exponents",
-                            casefile::Range::positive}
+    row(Parameter{"interval", Dimension::time,
+                  "length of an interval for finite-time exponents: a row with the growth in each "
+                  "one, in place of the table of exponents",
+                  Range::positive}
             .usually("the whole record"),
         output.timer.interval);
-    row(casefile::max_rows_key(), output.timer.max_rows);
+    row(max_rows_key(), output.timer.max_rows);
     row(
-        casefile::Parameter{
+        Parameter{
             "exponents",
             "number of exponents, the largest first; N balls have 9 N, and a larger number means all of them",
-            casefile::Range(1, 9000), "1"},
+            Range(1, 9000), "1"},
         output.template make_own<LyapunovKeys>().exponents);
   }
-  static void check(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
+  static void check(Section& s, const CaseSpec&, OutputSpec& output) {
     s.require(output.only.empty(), "only", "no restriction: exponents describe the motion of all balls");
   }
 };
@@ -41,7 +40,7 @@ struct LyapunovKeys {
 template <class Real>
 class LyapunovOutput : public TableOutput<Real> {
  public:
-  LyapunovOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+  LyapunovOutput(const OutputSpec& spec, const RunContext<Real>& run)
       : TableOutput<Real>(spec, run),
         wanted_(
             std::min<std::uint64_t>(spec.own_keys<LyapunovKeys>().exponents, 9 * run.ball_colours.size())),
@@ -94,7 +93,7 @@ class LyapunovOutput : public TableOutput<Real> {
     touched_ += f.outcome.least_separation;
   }
 
-  void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
+  void end_of_record(const Simulation<Real>& simulation, const Real& until) override {
     if (begun_ && !spectrum_) make_spectrum(simulation, in_double(simulation.now()));
     if (begun_ && !ended_) end_record(simulation, until);
     if (!this->spec.timer.interval) put_exponents(simulation, until);
@@ -102,7 +101,7 @@ class LyapunovOutput : public TableOutput<Real> {
 
  private:
   /// The exponents of the record.
-  void put_exponents(const engine::Simulation<Real>& simulation, const Real& until) {
+  void put_exponents(const Simulation<Real>& simulation, const Real& until) {
     const double period = static_cast<double>(simulation.clock().period());
     const double duration = begun_ ? static_cast<double>(batches_.elapsed()) * period : 0;
     std::vector<std::string> comments{
@@ -141,19 +140,18 @@ class LyapunovOutput : public TableOutput<Real> {
     return {t.period, static_cast<double>(t.offset)};
   }
 
-  void make_spectrum(const engine::Simulation<Real>& simulation, const Instant<double>& start) {
+  void make_spectrum(const Simulation<Real>& simulation, const Instant<double>& start) {
     tangent::Balls balls;
     for (int k = 0; k < simulation.ball_count(); ++k) {
       const auto& p = simulation.properties(k);
       balls.push_back({static_cast<double>(p.radius), static_cast<double>(p.mass),
                        static_cast<double>(p.reduced_inertia), p.material});
     }
-    spectrum_.emplace(model::mill_cast<double>(simulation.mill()), balls, start,
-                      static_cast<std::size_t>(wanted_));
+    spectrum_.emplace(model::mill_cast<double>(simulation.mill()), balls, start, wanted_);
     if (!saved_.tangents.empty()) spectrum_->restore(saved_);
   }
   /// Starts the record, before the first impact after its start changes the directions.
-  void begin_record(const engine::Simulation<Real>& simulation, const Real& time) {
+  void begin_record(const Simulation<Real>& simulation, const Real& time) {
     if (begun_ || !this->timer().is_open() || time < this->timer().from()) return;
     const auto start = in_double(simulation.instant_of(this->timer().from()));
     spectrum_->orthonormalise(start);
@@ -161,7 +159,7 @@ class LyapunovOutput : public TableOutput<Real> {
     batches_.begin(start);
     begun_ = true;
   }
-  void end_intervals(const engine::Simulation<Real>& simulation, const Real& time) {
+  void end_intervals(const Simulation<Real>& simulation, const Real& time) {
     if (this->spec.timer.interval) return intervals_.pass(this->timer(), time, row_of(simulation));
     const auto now = in_double(simulation.instant_of(time));
     if (now < batches_.next_period()) return;
@@ -170,13 +168,13 @@ class LyapunovOutput : public TableOutput<Real> {
     for (std::size_t k = 0; k < growth.size(); ++k) growth[k] = is_lost(k) ? 0 : growth[k] - before_[k];
     batches_.pass(now, growth);
   }
-  void end_record(const engine::Simulation<Real>& simulation, const Real& until) {
+  void end_record(const Simulation<Real>& simulation, const Real& until) {
     end_intervals(simulation, until);
     if (this->spec.timer.interval) intervals_.finish(this->timer().from(), until, row_of(simulation));
     ended_ = true;
   }
   /// Writes the row of an interval.
-  auto row_of(const engine::Simulation<Real>& simulation) {
+  auto row_of(const Simulation<Real>& simulation) {
     return [this, &simulation](const Real& begin, const Real& end) {
       spectrum_->orthonormalise(in_double(simulation.instant_of(end)));
       const auto& growth = spectrum_->growth();

@@ -9,6 +9,7 @@
 
 #include "base/errors.hpp"
 #include "casefile/case_spec.hpp"
+#include "casefile/output_entry.hpp"
 #include "engine/simulation.hpp"
 #include "io/atomic_file.hpp"
 #include "io/table.hpp"
@@ -18,27 +19,34 @@
 
 namespace edmill::output {
 
+using casefile::CaseSpec, casefile::OutputSpec, casefile::OwnKeys, casefile::Parameter, casefile::Quantity,
+    casefile::Range, casefile::Section, casefile::TimerSpec;
+using casefile::ColumnReader, casefile::ColumnSpec, casefile::Statistic, casefile::statistic_name;
+using casefile::columns_key, casefile::contact_point_key, casefile::interval_key, casefile::max_rows_key,
+    casefile::table_size;
+using engine::Simulation;
+
 /// Data about the run that outputs need.
 template <class Real>
 struct RunContext {
-  std::filesystem::path folder;     ///< into which it writes
-  Real start;                       ///< initial time [s]
-  model::Partners partners;         ///< of the balls
-  std::optional<Real> powder_mass;  ///< [kg]
+  std::filesystem::path folder;       ///< into which it writes
+  Real start;                         ///< initial time [s]
+  model::Partners partners;           ///< of the balls
+  std::optional<Real> powder_mass{};  ///< [kg]
   casefile::Colour vessel_colour{};
-  std::vector<casefile::Colour> ball_colours;   ///< of each ball
-  std::vector<model::WallSurface<Real>> walls;  ///< by id, in the vessel frame; empty for a CurvedVessel
-  std::vector<model::Body<Real>> bodies;        ///< the walls after these
-  std::vector<casefile::Colour> body_colours;   ///< of each body
-  std::vector<io::FileNote> notes;              ///< where the run comes from
+  std::vector<casefile::Colour> ball_colours;    ///< of each ball
+  std::vector<model::WallSurface<Real>> walls;   ///< by id, in the vessel frame; empty for a CurvedVessel
+  std::vector<model::Body<Real>> bodies;         ///< the walls after these
+  std::vector<casefile::Colour> body_colours{};  ///< of each body
+  std::vector<io::FileNote> notes;               ///< where the run comes from
 
   /// The walls, for outputs that map or draw them.
   /// @throws InputError when the vessel's walls have no coordinates
-  const std::vector<model::WallSurface<Real>>& surfaces(const casefile::OutputSpec& spec) const {
+  const std::vector<model::WallSurface<Real>>& surfaces(const OutputSpec& spec) const {
     if (walls.empty())
       throw InputError("output of type '" + spec.type +
-                       "': found a vessel of the program's own with curved walls, " +
-                       "expected one whose walls have coordinates");
+                       "': found a vessel of the program's own with curved walls, expected one whose walls "
+                       "have coordinates");
     return walls;
   }
 };
@@ -53,35 +61,24 @@ struct Moment {
         impacts(f.impact.index),
         state_of([&f, time](int ball) { return f.state_before(ball, time); }) {}
   /// @param time  not before the last impact
-  Moment(const engine::Simulation<Real>& s, const Real& time)
+  Moment(const Simulation<Real>& s, const Real& time)
       : simulation(s),
         time(time),
         impacts(s.counts().impacts),
         state_of([&s, when = s.instant_of(time)](int ball) { return s.state_at(ball, when); }) {}
 
-  const engine::Simulation<Real>& simulation;
+  const Simulation<Real>& simulation;
   Real time;
   std::uint64_t impacts;                                ///< up to then
   std::function<model::BallState<Real>(int)> state_of;  ///< by the ball's id
 };
-
-/// Pose of the vessel at the impact.
-template <class Real>
-model::AnyPose<Real> pose_of(const ImpactFacts<Real>& f) {
-  return f.simulation.mill().motion.pose(f.impact.time);
-}
-/// The contact point in the vessel frame [m].
-template <class Real>
-Vec3<Real> own_contact_point(const ImpactFacts<Real>& f, const model::AnyPose<Real>& pose) {
-  return f.simulation.mill().motion.position_in_vessel(pose, f.contact_point);
-}
 
 /// Base class of outputs: a timer and filters for impacts. A derived type defines what it records of an
 /// impact.
 template <class Real>
 class Output {
  public:
-  Output(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+  Output(const OutputSpec& spec, const RunContext<Real>& run)
       : spec(spec), run(run), timer_(spec.timer, run.start) {
     for (const auto& r : spec.only) only_.push_back({variable_formula<Real>(r.variable), Real(r.value)});
   }
@@ -97,7 +94,7 @@ class Output {
     record(f);
   }
   /// Must be called at the end of the run, whatever ended it.
-  void finish(const engine::Simulation<Real>& simulation) {
+  void finish(const Simulation<Real>& simulation) {
     const Real end = simulation.seconds();
     if (timer_.recorded(end)) end_of_record(simulation, timer_.until(end));
   }
@@ -113,7 +110,7 @@ class Output {
   bool appends() const { return spec.append; }
 
  protected:
-  const casefile::OutputSpec spec;  ///< its entry in the case
+  const OutputSpec spec;  ///< its entry in the case
   const RunContext<Real> run;
 
   std::filesystem::path place() const { return run.folder / spec.folder / spec.file; }
@@ -127,7 +124,7 @@ class Output {
   virtual void every(const ImpactFacts<Real>&) {}
   /// Called for each impact before it is recorded, to write rows that are due since the previous one.
   virtual void before(const ImpactFacts<Real>&) {}
-  virtual void end_of_record(const engine::Simulation<Real>&, const Real& /*until*/) {}
+  virtual void end_of_record(const Simulation<Real>&, const Real& /*until*/) {}
 
  private:
   struct Restriction {
@@ -144,7 +141,7 @@ class OneFileOutput : public Base {
  public:
   /// @param arguments  of the file's constructor, after its place
   template <class... Arguments>
-  OneFileOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run, Arguments&&... arguments)
+  OneFileOutput(const OutputSpec& spec, const RunContext<Real>& run, Arguments&&... arguments)
       : Base(spec, run), file_(this->place(), std::forward<Arguments>(arguments)...) {}
 
   std::vector<io::WholeFile*> complete() override {

@@ -6,7 +6,6 @@
 #include <list>
 
 #include "base/errors.hpp"
-#include "casefile/output_entry.hpp"
 #include "io/atomic_file.hpp"
 #include "output/output.hpp"
 #include "output/scene.hpp"
@@ -17,7 +16,7 @@ namespace edmill::output {
 template <class Real>
 class SceneOutput : public Output<Real> {
  public:
-  SceneOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run) : Output<Real>(spec, run) {
+  SceneOutput(const OutputSpec& spec, const RunContext<Real>& run) : Output<Real>(spec, run) {
     for (const auto& surface : run.surfaces(spec)) walls_.push_back(model::mesh_of(surface));
   }
 
@@ -37,8 +36,7 @@ class SceneOutput : public Output<Real> {
     for (std::size_t k = 0; pistons && k < pistons->count(); ++k) {
       const int wall = pistons->wall(k);
       const Vec3<Real> normal = vessel.normal(wall, Vec3<Real>::Zero());
-      f(static_cast<std::size_t>(wall),
-        vector_cast<double>(Vec3<Real>(normal * pistons->at(k, {0, time}).value)));
+      f(wall, vector_cast<double>(Vec3<Real>(normal * pistons->at(k, {0, time}).value)));
     }
   }
 
@@ -56,8 +54,7 @@ class SceneOutput : public Output<Real> {
     });
     for (int i = 0; i < at.simulation.ball_count(); ++i) {
       const auto state = at.state_of(i);
-      s.balls.push_back({static_cast<double>(at.simulation.properties(i).radius),
-                         this->run.ball_colours[static_cast<std::size_t>(i)],
+      s.balls.push_back({static_cast<double>(at.simulation.properties(i).radius), this->run.ball_colours[i],
                          vector_cast<double>(state.position), vector_cast<double>(state.velocity),
                          vector_cast<double>(state.spin)});
     }
@@ -69,9 +66,9 @@ class SceneOutput : public Output<Real> {
 };
 
 struct SnapshotKeys {
-  static void keys(auto& output, auto&& row) { row(casefile::contact_point_key, output.contact_point); }
+  static void keys(auto& output, auto&& row) { row(contact_point_key, output.contact_point); }
   /// A snapshot shows one impact unless a key says otherwise: there is a file for each.
-  static void check(casefile::Section&, const casefile::CaseSpec&, casefile::OutputSpec& output) {
+  static void check(Section&, const CaseSpec&, OutputSpec& output) {
     if (!output.timer.collisions) output.timer.collisions = 1;
   }
 };
@@ -126,8 +123,7 @@ template <class Real>
 class FramesOutput : public OneFileOutput<Real, io::AtomicFile, SceneOutput<Real>> {
  public:
   /// @param interval  its `interval` and `max_rows` are those of the frames
-  FramesOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run,
-               const casefile::TimerSpec& interval)
+  FramesOutput(const OutputSpec& spec, const RunContext<Real>& run, const TimerSpec& interval)
       : OneFileOutput<Real, io::AtomicFile, SceneOutput<Real>>(spec, run), clock_(interval) {}
 
  protected:
@@ -143,7 +139,7 @@ class FramesOutput : public OneFileOutput<Real, io::AtomicFile, SceneOutput<Real
     complete_ = this->timer().ends_by(now);
     if (complete_) frame(this->timer().until(now));
   }
-  void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
+  void end_of_record(const Simulation<Real>& simulation, const Real& until) override {
     const auto frame = [&](const Real& time) { add_frame({simulation, time}); };
     const Real& from = this->timer().from();
     if (!begun_) frame(from);
@@ -158,7 +154,7 @@ class FramesOutput : public OneFileOutput<Real, io::AtomicFile, SceneOutput<Real
 
 struct AnimationKeys {
   static void keys(auto& output, auto&& row) {
-    row(casefile::contact_point_key, output.contact_point);
+    row(contact_point_key, output.contact_point);
     casefile::AnimationSpec::keys(output.animation, row);
   }
 };
@@ -168,7 +164,7 @@ struct AnimationKeys {
 template <class Real>
 class AnimationOutput : public FramesOutput<Real> {
  public:
-  AnimationOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+  AnimationOutput(const OutputSpec& spec, const RunContext<Real>& run)
       : FramesOutput<Real>(spec, run, frames_of(spec.animation)) {}
 
  protected:
@@ -188,7 +184,7 @@ class AnimationOutput : public FramesOutput<Real> {
                                 paths_.contact.empty() ? contact.position : paths_.contact.back().second);
     paths_.contact.emplace_back(key, contact.position);
   }
-  void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
+  void end_of_record(const Simulation<Real>& simulation, const Real& until) override {
     FramesOutput<Real>::end_of_record(simulation, until);
     write(simulation, static_cast<double>(this->timer().from()), static_cast<double>(until));
   }
@@ -201,10 +197,9 @@ class AnimationOutput : public FramesOutput<Real> {
   }
 
  private:
-  static casefile::TimerSpec frames_of(const casefile::AnimationSpec& a) {
-    casefile::TimerSpec timer;
-    timer.interval =
-        a.speed * casefile::Quantity{60} / casefile::Quantity(static_cast<std::int64_t>(a.frames_per_minute));
+  static TimerSpec frames_of(const casefile::AnimationSpec& a) {
+    TimerSpec timer;
+    timer.interval = a.speed * Quantity{60} / Quantity(static_cast<std::int64_t>(a.frames_per_minute));
     return timer;
   }
 
@@ -217,11 +212,10 @@ class AnimationOutput : public FramesOutput<Real> {
     ++frames_;
   }
   void add_key(int ball, const Real& time, const Vec3<Real>& place) {
-    paths_.balls[static_cast<std::size_t>(ball)].emplace_back(static_cast<double>(time),
-                                                              vector_cast<double>(place));
+    paths_.balls[ball].emplace_back(static_cast<double>(time), vector_cast<double>(place));
   }
 
-  void write(const engine::Simulation<Real>& simulation, double from, double until) {
+  void write(const Simulation<Real>& simulation, double from, double until) {
     const double length = until > from ? until - from : 1;
     const auto to_fractions = [&](SceneMotion::Path& path) {
       for (auto& [key, place] : path) key = (key - from) / length;
@@ -278,8 +272,8 @@ class AnimationOutput : public FramesOutput<Real> {
 
 struct ParaviewKeys {
   static void keys(auto& output, auto&& row) {
-    row(casefile::interval_key("10 ms"), output.timer.interval);
-    row(casefile::max_rows_key(), output.timer.max_rows);
+    row(interval_key("10 ms"), output.timer.interval);
+    row(max_rows_key(), output.timer.max_rows);
   }
 };
 
@@ -287,7 +281,7 @@ struct ParaviewKeys {
 template <class Real>
 class ParaviewOutput : public FramesOutput<Real> {
  public:
-  ParaviewOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+  ParaviewOutput(const OutputSpec& spec, const RunContext<Real>& run)
       : FramesOutput<Real>(spec, run, spec.timer),
         folder_(std::filesystem::path(this->place()).replace_extension()) {
     std::error_code ignored;
@@ -315,8 +309,8 @@ class ParaviewOutput : public FramesOutput<Real> {
   void record(const ImpactFacts<Real>& f) override {
     doses_.resize(static_cast<std::size_t>(f.simulation.ball_count()), 0);
     const auto dose = static_cast<double>(f.outcome.milling_dose);
-    doses_[static_cast<std::size_t>(f.impact.ball)] += dose;
-    if (!f.impact.with_wall) doses_[static_cast<std::size_t>(f.impact.partner)] += dose;
+    doses_[f.impact.ball] += dose;
+    if (!f.impact.with_wall) doses_[f.impact.partner] += dose;
   }
   void archive_record(Archive& a) override {
     FramesOutput<Real>::archive_record(a);

@@ -9,19 +9,14 @@
 
 #include "base/errors.hpp"
 #include "base/version.hpp"
-#include "casefile/output_entry.hpp"
 #include "output/coverage_output.hpp"
 #include "output/events_output.hpp"
-#include "output/frequency_output.hpp"
 #include "output/lyapunov_output.hpp"
-#include "output/milling_dose_output.hpp"
 #include "output/outputs.hpp"
 #include "output/pictures_output.hpp"
 #include "output/spectra_output.hpp"
 #include "output/statistics_output.hpp"
-#include "output/treatment_output.hpp"
 #include "output/trends_output.hpp"
-#include "output/vessel_load_output.hpp"
 
 namespace edmill::output {
 
@@ -31,56 +26,55 @@ struct OutputRow : casefile::OutputType {};
 
 /// @tparam Keys  keys that only this type has
 template <template <class> class Type, class Keys = casefile::NoKeys>
-constexpr OutputRow<Type> row(std::string_view name, std::string_view extension, std::string_view what) {
+constexpr OutputRow<Type> row(std::string_view name, std::string_view what,
+                              std::string_view extension = ".csv") {
   return {{name, extension, what, casefile::output_keys<Keys>}};
 }
 
 inline constexpr std::tuple output_registry{
-    row<CollisionsOutput, CollisionsKeys>("collisions", ".csv", "the log of files.md, a row for each impact"),
-    row<MillingDoseOutput, MillingDoseKeys>("milling_dose", ".csv",
+    row<CollisionsOutput, CollisionsKeys>("collisions", "the log of files.md, a row for each impact"),
+    row<MillingDoseOutput, MillingDoseKeys>("milling_dose",
                                             "one row: dose, rates and specific doses of the record"),
     row<FrequencyOutput, FrequencyKeys>(
-        "frequency", ".csv", "how often a number falls in each of equal intervals, lower <= value < upper"),
+        "frequency", "how often a number falls in each of equal intervals, lower <= value < upper"),
     row<StatisticsOutput, StatisticsKeys>(
-        "statistics", ".csv",
-        "statistics of flags and numbers, for each wall, all walls, other balls, all impacts"),
+        "statistics", "statistics of flags and numbers, for each wall, all walls, other balls, all impacts"),
     row<TrendsOutput, TrendsKeys>(
-        "trends", ".csv",
+        "trends",
         "statistics of each interval of time, with a last, shorter one if the record ends within it"),
     row<TrendsInstantOutput, TrendsInstantKeys>(
-        "trends_instant", ".csv", "values of variables at each impact, or at the first after each interval"),
-    row<TrendsBallsOutput, TrendsBallsKeys>("trends_balls", ".csv",
+        "trends_instant", "values of variables at each impact, or at the first after each interval"),
+    row<TrendsBallsOutput, TrendsBallsKeys>("trends_balls",
                                             "statistics over the balls at the end of each interval"),
     row<TraceOutput, TraceKeys>(
-        "trace", ".csv", "position of one ball at each of its impacts, or at the end of each interval"),
-    row<IterationsOutput>("iterations", ".csv", "all variables of each impact"),
-    row<EventsOutput, casefile::OwnKeys<StatesKey>>(
-        "events", ".h5",
-        "the log as HDF5: `/events` with one dataset per column, and the final state of "
-        "the balls; 64-bit numbers in every scalar"),
+        "trace", "position of one ball at each of its impacts, or at the end of each interval"),
+    row<IterationsOutput>("iterations", "all variables of each impact"),
+    row<EventsOutput, OwnKeys<StatesKey>>(
+        "events",
+        "the log as HDF5: `/events` with one dataset per column, and the final state of the balls; 64-bit "
+        "numbers in every scalar",
+        ".h5"),
     row<SpectraOutput, SpectraKeys>(
-        "spectra", ".csv",
-        "impact energies, normal, tangential and total, or impact speeds, in logarithmic bins"),
+        "spectra", "impact energies, normal, tangential and total, or impact speeds, in logarithmic bins"),
     row<RatesAboveOutput, RatesAboveKeys>(
-        "rates_above", ".csv", "collision rates and dose rates of the impacts above speed cutoffs"),
+        "rates_above", "collision rates and dose rates of the impacts above speed cutoffs"),
     row<VesselLoadOutput, VesselLoadKeys>(
-        "vessel_load", ".csv",
-        "impulse, force and torque on the vessel, and the power draw, of each interval"),
-    row<BodiesOutput>("bodies", ".csv", "dose of each ball and of each wall"),
-    row<TreatmentOutput, casefile::OwnKeys<TreatmentKeys>>(
-        "treatment", ".csv", "how often powder has been hit, if it is mixed and if it stays in place"),
+        "vessel_load", "impulse, force and torque on the vessel, and the power draw, of each interval"),
+    row<BodiesOutput>("bodies", "dose of each ball and of each wall"),
+    row<TreatmentOutput, OwnKeys<TreatmentKeys>>(
+        "treatment", "how often powder has been hit, if it is mixed and if it stays in place"),
     row<LyapunovOutput, LyapunovKeys>(
-        "lyapunov", ".csv", "Lyapunov exponents: how fast neighbouring motions diverge from that of the run"),
-    row<CoverageOutput, casefile::OwnKeys<CoverageKeys>>(
-        "coverage", ".csv", "dose and impacts by position on the vessel's walls"),
-    row<SnapshotOutput, SnapshotKeys>("snapshot", ".x3d", "an X3D page for each impact, `NAME_<index>.x3d`"),
-    row<AnimationOutput, AnimationKeys>("animation", ".x3d", "an X3D page that plays the record"),
+        "lyapunov", "Lyapunov exponents: how fast neighbouring motions diverge from that of the run"),
+    row<CoverageOutput, OwnKeys<CoverageKeys>>("coverage",
+                                               "dose and impacts by position on the vessel's walls"),
+    row<SnapshotOutput, SnapshotKeys>("snapshot", "an X3D page for each impact, `NAME_<index>.x3d`", ".x3d"),
+    row<AnimationOutput, AnimationKeys>("animation", "an X3D page that plays the record", ".x3d"),
     row<ParaviewOutput, ParaviewKeys>(
-        "paraview", ".pvd", "`NAME.pvd` and a folder `NAME` with balls and vessel of each frame as VTP")};
+        "paraview", "`NAME.pvd` and a folder `NAME` with balls and vessel of each frame as VTP", ".pvd")};
 
 /// @throws ContractError when there is no such type
 template <class Real>
-std::unique_ptr<Output<Real>> make_output(const casefile::OutputSpec& spec, const RunContext<Real>& run) {
+std::unique_ptr<Output<Real>> make_output(const OutputSpec& spec, const RunContext<Real>& run) {
   std::unique_ptr<Output<Real>> made;
   const auto try_row = [&]<template <class> class Type>(const OutputRow<Type>& row) {
     if (row.name == spec.type) made = std::make_unique<Type<Real>>(spec, run);
@@ -91,33 +85,30 @@ std::unique_ptr<Output<Real>> make_output(const casefile::OutputSpec& spec, cons
 }
 
 template <class Real>
-std::vector<io::FileNote> notes_of(const casefile::CaseSpec& spec) {
-  std::vector<io::FileNote> notes{
-      {"program", "edmill " + std::string(version()) + " (" + std::string(commit()) + ")"},
-      {"compiler", std::string(compiler())},
-      {"precision", scalar_name<Real>()},
-      {"seed", std::to_string(spec.seed)},
-      {"case_file", spec.file},
-      {"case_digest", spec.digest},
-      {"case", spec.text, true}};
+std::vector<io::FileNote> notes_of(const CaseSpec& spec) {
+  std::vector<io::FileNote> notes{{"program", fmt::format("edmill {} ({})", version(), commit())},
+                                  {"compiler", std::string(compiler())},
+                                  {"precision", scalar_name<Real>()},
+                                  {"seed", std::to_string(spec.seed)},
+                                  {"case_file", spec.file},
+                                  {"case_digest", spec.digest},
+                                  {"case", spec.text, true}};
   if (!spec.settings.empty())
     notes.push_back({"settings", fmt::format("{}", fmt::join(spec.settings, "\n")), true});
   return notes;
 }
 
 template <class Real>
-Outputs<Real>::Outputs(const casefile::CaseSpec& spec, const model::Mill<Real>& mill,
+Outputs<Real>::Outputs(const CaseSpec& spec, const model::Mill<Real>& mill,
                        const std::filesystem::path& folder, const Real& start)
     : previous_(start) {
   RunContext<Real> run{.folder = folder,
                        .start = start,
                        .partners = model::partners_of(mill),
-                       .powder_mass = {},
                        .vessel_colour = spec.vessel_colour,
                        .ball_colours = spec.ball_colours(),
                        .walls = mill.vessel.surfaces(),
                        .bodies = mill.bodies,
-                       .body_colours = {},
                        .notes = notes_of<Real>(spec)};
   walls_ = run.partners.walls();
   for (const auto& body : spec.bodies) run.body_colours.push_back(body.colour);
@@ -129,14 +120,14 @@ template <class Real>
 Outputs<Real>::~Outputs() = default;
 
 template <class Real>
-void Outputs<Real>::on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) {
+void Outputs<Real>::on_impact(const engine::Impact<Real>& impact, Simulation<Real>& simulation) {
   const ImpactFacts<Real> facts{impact, simulation, previous_, walls_};
   for (auto& output : outputs_) output->on_impact(facts);
   previous_ = facts.time;
 }
 
 template <class Real>
-void Outputs<Real>::on_end(const engine::Simulation<Real>& simulation) {
+void Outputs<Real>::on_end(const Simulation<Real>& simulation) {
   for (auto& output : outputs_) output->finish(simulation);
 }
 

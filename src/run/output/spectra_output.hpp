@@ -6,7 +6,6 @@
 #include <type_traits>
 
 #include "base/scalar_list.hpp"
-#include "casefile/output_entry.hpp"
 #include "output/table_output.hpp"
 #include "output/tallies.hpp"
 
@@ -22,11 +21,10 @@ inline const std::array<std::vector<std::string>, 3> spectra_by{
 
 struct SpectraKeys {
   BinnedBy by = BinnedBy::energy;
-  casefile::Quantity low, high;  ///< [m/s] or [J]
+  Quantity low, high;  ///< [m/s] or [J]
   std::uint64_t bins_per_decade = 10;
 
   static void keys(auto& output, auto&& row) {
-    using casefile::Parameter;
     auto& k = output.template make_own<SpectraKeys>();
     row(Parameter{"of",
                   "quantity of the spectrum: the dissipated energy; or `speed`; or `impact_energy`, M/2 v^2 "
@@ -36,19 +34,17 @@ struct SpectraKeys {
         k.by);
     const bool speed = k.by == BinnedBy::speed;
     const auto dimension = speed ? Dimension::speed : Dimension::energy;
-    row(Parameter{"low", dimension, "start of the first bin", casefile::Range::any,
-                  speed ? "1 mm/s" : "1e-9 J"}
+    row(Parameter{"low", dimension, "start of the first bin", Range::any, speed ? "1 mm/s" : "1e-9 J"}
             .as("energy or speed")
             .usually("`\"1e-9 J\"`, `\"1 mm/s\"`"),
         k.low);
-    row(Parameter{"high", dimension, "end of the last bin", casefile::Range::any, speed ? "10 m/s" : "1 J"}
+    row(Parameter{"high", dimension, "end of the last bin", Range::any, speed ? "10 m/s" : "1 J"}
             .as("energy or speed")
             .usually("`\"1 J\"`, `\"10 m/s\"`"),
         k.high);
-    row({"bins_per_decade", "number of bins per factor of ten", casefile::table_size, "10"},
-        k.bins_per_decade);
+    row({"bins_per_decade", "number of bins per factor of ten", table_size, "10"}, k.bins_per_decade);
   }
-  static void check(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
+  static void check(Section& s, const CaseSpec&, OutputSpec& output) {
     const auto& k = output.own_keys<SpectraKeys>();
     s.require(k.low.positive(), "low", "a value above 0: the bins are logarithmic");
     const double low = k.low.to<double>(), high = k.high.to<double>();
@@ -81,7 +77,7 @@ std::vector<Real> edges_of(const SpectraKeys& keys) {
 template <class Real>
 class SpectraOutput : public TableOutput<Real> {
  public:
-  SpectraOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+  SpectraOutput(const OutputSpec& spec, const RunContext<Real>& run)
       : TableOutput<Real>(spec, run),
         by_(spec.own_keys<SpectraKeys>().by),
         edges_(edges_of<Real>(spec.own_keys<SpectraKeys>())),
@@ -105,7 +101,7 @@ class SpectraOutput : public TableOutput<Real> {
     }
   }
 
-  void end_of_record(const engine::Simulation<Real>&, const Real& until) override {
+  void end_of_record(const Simulation<Real>&, const Real& until) override {
     const std::string unit = by_ == BinnedBy::speed ? "m/s" : "J";
     std::vector<Column> columns{
         {"spectrum", text, "", "the part of the dose, the speed or the energy that is binned"},
@@ -145,21 +141,21 @@ class SpectraOutput : public TableOutput<Real> {
 
 struct RatesAboveKeys {
   std::optional<std::vector<std::string>> texts;
-  std::vector<casefile::Quantity> cutoffs;  ///< ascending [m/s]
+  std::vector<Quantity> cutoffs;  ///< ascending [m/s]
 
   static void keys(auto& output, auto&& row) {
-    row(casefile::Parameter{"cutoffs", "approach speeds, with a row for each"}
+    row(Parameter{"cutoffs", "approach speeds, with a row for each"}
             .as("list of speeds")
             .usually("0, 1 mm/s, 1 cm/s, 0.1 m/s, 1 m/s"),
         output.template make_own<RatesAboveKeys>().texts);
   }
-  static void check(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
+  static void check(Section& s, const CaseSpec&, OutputSpec& output) {
     auto& own = output.make_own<RatesAboveKeys>();
     const std::string expected = "an array of speeds of 0 or more";
     const std::vector<std::string> usual{"0 m/s", "1 mm/s", "1 cm/s", "0.1 m/s", "1 m/s"};
     for (const auto& text : own.texts.value_or(usual)) {
       const auto speed = casefile::parse_quantity(text, casefile::Dimension::speed);
-      const auto* quantity = std::get_if<casefile::Quantity>(&speed);
+      const auto* quantity = std::get_if<Quantity>(&speed);
       if (!quantity)
         s.problem("cutoffs", std::get<casefile::QuantityProblem>(speed).found, expected);
       else if (quantity->negative())
@@ -175,8 +171,7 @@ struct RatesAboveKeys {
 template <class Real>
 class RatesAboveOutput : public TableOutput<Real> {
  public:
-  RatesAboveOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
-      : TableOutput<Real>(spec, run) {
+  RatesAboveOutput(const OutputSpec& spec, const RunContext<Real>& run) : TableOutput<Real>(spec, run) {
     for (const auto& cutoff : spec.own_keys<RatesAboveKeys>().cutoffs) cutoffs_.push_back(cutoff.to<Real>());
     from_.resize(cutoffs_.size() + 1, PartnerTally<Real>(run.partners.count()));
   }
@@ -190,7 +185,7 @@ class RatesAboveOutput : public TableOutput<Real> {
     of_partner(f, from_[bin_of<Real>(cutoffs_, speed)]).add(f.outcome.milling_dose);
   }
 
-  void end_of_record(const engine::Simulation<Real>&, const Real& until) override {
+  void end_of_record(const Simulation<Real>&, const Real& until) override {
     const auto& partners = this->run.partners;
     std::vector<Column> columns{{"cutoff", number, "m/s", "the approach speed from which on impacts count"}};
     add_partner_columns(columns, partners, {"rate", number, "1/s", "collision rate"});

@@ -12,8 +12,6 @@
 
 namespace edmill::output {
 
-using casefile::Statistic;
-using casefile::statistic_name;
 using io::Column;
 using enum Column::Type;
 
@@ -24,12 +22,12 @@ inline std::string statistic_unit(Statistic s, std::string_view unit) {
 }
 
 /// The label of a column, or else the name of its variable.
-inline std::string name_of(const casefile::ColumnSpec& column, std::string_view variable) {
+inline std::string name_of(const ColumnSpec& column, std::string_view variable) {
   return column.label.empty() ? std::string(variable) : column.label;
 }
 
 /// The name of a column and one of its statistics; the label alone where there is only one statistic.
-inline std::string name_of(const casefile::ColumnSpec& column, std::string_view variable, Statistic s) {
+inline std::string name_of(const ColumnSpec& column, std::string_view variable, Statistic s) {
   const bool alone = !column.label.empty() && column.statistics.size() == 1;
   return alone ? column.label : name_of(column, variable) + " " + statistic_name(s);
 }
@@ -48,15 +46,17 @@ inline std::string meaning_of(std::string_view variable) {
 /// the end.
 template <class Real>
 class TableOutput : public OneFileOutput<Real, io::AtomicFile> {
+  using Base = OneFileOutput<Real, io::AtomicFile>;
+  using Base::file_;
+
  public:
-  TableOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
-      : OneFileOutput<Real, io::AtomicFile>(spec, run, spec.append) {}
+  TableOutput(const OutputSpec& spec, const RunContext<Real>& run) : Base(spec, run, spec.append) {}
   std::vector<io::WholeFile*> complete() override {
     if (this->spec.hdf5()) file_.stream() << io::hdf5_columns(table_, this->run.notes);
-    return OneFileOutput<Real, io::AtomicFile>::complete();
+    return Base::complete();
   }
   void archive(Archive& a) override {
-    OneFileOutput<Real, io::AtomicFile>::archive(a);
+    Base::archive(a);
     a(table_);
   }
 
@@ -92,8 +92,6 @@ class TableOutput : public OneFileOutput<Real, io::AtomicFile> {
   }
 
  private:
-  using OneFileOutput<Real, io::AtomicFile>::file_;
-
   void put_one(const auto& cell) {
     table_.put(cell);
     if (!table_.at_row_end() || this->spec.hdf5()) return;
@@ -111,7 +109,7 @@ class TableOutput : public OneFileOutput<Real, io::AtomicFile> {
 template <class Real>
 class IntervalOutput : public TableOutput<Real> {
  public:
-  IntervalOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+  IntervalOutput(const OutputSpec& spec, const RunContext<Real>& run)
       : TableOutput<Real>(spec, run), clock_(spec.timer) {}
   void archive(Archive& a) override {
     TableOutput<Real>::archive(a);
@@ -127,7 +125,7 @@ class IntervalOutput : public TableOutput<Real> {
       write_row(begin, {f, end});
     });
   }
-  void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
+  void end_of_record(const Simulation<Real>& simulation, const Real& until) override {
     if (!this->spec.timer.interval) return;
     clock_.finish(this->timer().from(), until, [&](const Real& begin, const Real& end) {
       write_row(begin, {simulation, end});
