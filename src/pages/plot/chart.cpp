@@ -324,10 +324,10 @@ void save(std::ostream& out, const Chart& chart) {
   svg.append_attribute("xmlns") = "http://www.w3.org/2000/svg";
   for (const auto& path : svg.select_nodes("g/path")) path.node().remove_attribute("data-points");
   svg.append_child("style").text() =
-      "text { font: 11px sans-serif; fill: #333; } .axis text { text-anchor: middle; } .y-axis .label { "
-      "text-anchor: end; } path, line { fill: none; stroke: currentColor; stroke-width: 1.2; stroke-linecap: "
-      "round; } .axis { color: #999; } .c0 { color: #1f4e79; } .c1 { color: #b0472a; } .c2 { color: #2f8f4e; "
-      "} .c3 { color: #7a4fa0; }";
+      "text { font: 11px sans-serif; fill: #333; } .axis text { text-anchor: middle; } .y-axis "
+      ".label { text-anchor: end; } path, line { fill: none; stroke: currentColor; stroke-width: "
+      "1.2; stroke-linecap: round; } .axis { color: #999; } .c0 { color: #1f4e79; } .c1 { color: "
+      "#b0472a; } .c2 { color: #2f8f4e; } .c3 { color: #7a4fa0; }";
   document.save(out, " ");
 }
 

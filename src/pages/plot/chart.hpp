@@ -18,8 +18,7 @@ using Attributes = std::initializer_list<std::pair<const char*, std::string>>;
 pugi::xml_node add(pugi::xml_node parent, const char* name, Attributes attributes = {},
                    std::string_view text = {});
 
-/// HTML text of a document, without self-closing tags, which HTML does not have, and without added white
-/// space.
+/// HTML text of a document, without self-closing tags, which HTML lacks, or added white space.
 std::string html_of(const pugi::xml_document& document);
 
 struct Axis {
@@ -35,7 +34,7 @@ struct Curve {
   std::string name;    ///< in the legend; none when empty
   std::string colour;  ///< CSS class: "c0" to "c7"
   Points points;       ///< nan in y interrupts the line
-  /// Bars of a histogram: each y extends from its x to the x of the next point; the last y is not drawn.
+  /// Bars of a histogram: each y extends from its x to the next x; the last y is not drawn.
   bool steps = false;
 };
 

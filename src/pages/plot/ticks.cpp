@@ -74,7 +74,7 @@ std::vector<Tick> linear_ticks(double low, double high, int most) {
       if (last - first + 1 > most) continue;
       std::vector<Tick> ticks;
       const double largest = std::max(std::abs(low), std::abs(high));
-      // Scientific notation for large and small numbers, unless the ticks differ in late digits only.
+      // Scientific notation for large and small numbers, unless ticks differ in late digits only.
       const bool scientific = (largest >= 1e5 || largest < 1e-3) && step > 1e-3 * largest;
       for (double k = first; k <= last; ++k) {
         const double value = place(k);

@@ -75,9 +75,9 @@ void add_rates_of(pugi::xml_node main, const std::vector<RunFolder>& runs) {
   }
   add_table(section, "rates-of-runs", "Rates of the runs", headings, rows);
   add_note(section,
-           "\u00b1: 95 % interval of the run. A difference is significant where the 95 % interval of the "
-           "difference, the half-widths added in quadrature, leaves out zero; of twenty comparisons of equal "
-           "mills one is so by chance.");
+           "\u00b1: 95 % interval of the run. A difference is significant where the 95 % interval of "
+           "the difference, the half-widths added in quadrature, leaves out zero; of twenty comparisons "
+           "of equal mills one is so by chance.");
 }
 
 /// Each dose rate as a bar with its interval, at the number of the run.
@@ -172,8 +172,8 @@ std::string page_of_runs(const std::vector<RunFolder>& runs) {
                   version(), commit(), document});
 }
 
-/// Positions of the points in a chart: the values of the key that varies, if they are numbers of one unit, or
-/// else the numbers of the points. If a second key varies, there is a curve for each of its values.
+/// Positions of the points in a chart: the values of the key that varies, if they are numbers of
+/// one unit, or else the points' numbers. If a second key varies, each of its values has a curve.
 struct Places {
   std::string title = "point";
   std::vector<double> x;
@@ -330,8 +330,8 @@ std::string study_page(const study::Study& study, const std::string& kind, const
   }
   add_table(section, "rates-of-points", "Rates", headings, rows);
   add_note(section,
-           "\u00b1: 95 % interval, from the intervals of the runs and their scatter; where seeds settle in "
-           "several steady states, each with the number of its runs. All numbers:");
+           "\u00b1: 95 % interval, from the intervals of the runs and their scatter; where seeds settle "
+           "in several steady states, each with the number of its runs. All numbers:");
   auto files = add(section, "ul");
   add(add(files, "li"), "a", {{"href", study.name() + ".csv"}}, study.name() + ".csv: a row for each point");
   add(add(files, "li"), "a", {{"href", "runs.csv"}}, "runs.csv: a row for each run");

@@ -134,7 +134,7 @@ void add_speeds_over_time(pugi::xml_node grid, const RunFolder& run) {
                        "statistics = [\"average\", \"minimum\", \"maximum\"] }]");
   const auto table = read_table(run.file_of(*output), "a table of trends of balls");
   auto chart = over_time(run, "ball-speeds-over-time", "Ball speeds over time", "speed [m/s]");
-  // Groups of five, so that each point covers all phases of the drive that the report's own table samples.
+  // Groups of five: each point covers all phases of the drive that the report's table samples.
   const std::size_t together = (table.numbers.size() / most_points + 5) / 5 * 5;
   plot::Curve mean{"mean of all balls", "c0", {}};
   plot::Band range{"c0", {}, {}, {}};
@@ -260,8 +260,8 @@ void add_exponents(pugi::xml_node main, const RunFolder& run) {
   add_table(section, "lyapunov-exponents", "Lyapunov exponents",
             {"exponent", "[1/s]", "per collision of a ball", "digits per impact"}, rows);
   add_note(section,
-           "The distance of two motions that begin close together grows by e in 1/exponent seconds, on the "
-           "average. Errors of a code, and of its rounding, grow so, too.");
+           "The distance of two motions that begin close together grows by e in 1/exponent seconds, on "
+           "the average. Errors of a code, and of its rounding, grow so, too.");
 }
 
 }  // namespace edmill::report

@@ -91,11 +91,10 @@ void add_headline(pugi::xml_node main, const RunFolder& run) {
   }
   add_note(
       section,
-      any ? fmt::format(
-                "\u00b1: 95 % interval of this run, from {} batches of {} s, whole drive periods. It covers "
-                "longer runs of the same mill; other seeds may settle at another mean (edmill run --seeds "
-                "8).",
-                brief(f.number("intervals/batches")), readable(f.number("intervals/batch_length")))
+      any ? fmt::format("\u00b1: 95 % interval of this run, from {} batches of {} s, whole drive "
+                        "periods. It covers longer runs of the same mill; other seeds may settle "
+                        "at another mean (edmill run --seeds 8).",
+                        brief(f.number("intervals/batches")), readable(f.number("intervals/batch_length")))
           : "Too short for intervals: fewer than 5 drive periods.");
   if (const auto dose = f.find("target/dose"))
     add_note(section, f.find("target/milling_time")
@@ -256,7 +255,7 @@ Rows case_rows(const RunFolder& run) {
 std::filesystem::path write_report(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder)) read_run_folder(folder);  // says what is missing
   const io::FolderLock alone(folder);
-  // Removes temporary files of killed processes, but not those with which an unfinished run continues.
+  // Removes temporary files of killed processes, but not those of a run that can continue.
   if (!std::filesystem::exists(io::checkpoint_place(folder))) io::remove_temporaries(folder);
   return put_report(folder);
 }

@@ -36,7 +36,7 @@ std::string collision_rows(const Facts& f, const model::Partners& partners) {
   return out;
 }
 
-/// Rates with their intervals, and properties of the impacts; empty if the statistics cover no time.
+/// Rates with their intervals, and what impacts are like; empty if the statistics cover no time.
 std::string rate_rows(const Facts& f) {
   std::string out;
   for (const auto& [name, key, unit] :

@@ -35,8 +35,8 @@ columns = [{{ variable = "milling_dose", statistics = ["rate"] }}, {{ variable =
                      key, only);
 }
 
-/// Order of magnitude of the largest dissipation in an impact [log10 J]: the energy of the heaviest ball at
-/// three times the peak speed of the vessel's centre, at the speed of its walls, and after a fall through it.
+/// Order of magnitude of the largest dissipation in an impact [log10 J]: the heaviest ball at three
+/// times the peak speed of the vessel's centre, at that of its walls, and after a fall through it.
 double largest_energy(const casefile::CaseSpec& spec) {
   const auto mill = casefile::build_mill<double>(spec);
   const double extent = mill.vessel.extent(), centre = 3 * mill.motion.wall_speed(0),
@@ -49,8 +49,8 @@ double largest_energy(const casefile::CaseSpec& spec) {
   return std::log10(heaviest * square);
 }
 
-/// Spectra of energy: from 1e-9 to 1 J, or nine decades below what the impacts of very small or large mills
-/// dissipate.
+/// Spectra of energy: from 1e-9 to 1 J, or nine decades below the most of very small or large
+/// mills.
 std::string energy_spectra(const casefile::CaseSpec& spec) {
   const double most = largest_energy(spec);
   const int top = std::isfinite(most) && (most < -6 || most > 0) ? static_cast<int>(std::ceil(most)) : 0;
@@ -104,8 +104,8 @@ bool records(const casefile::OutputSpec& output, const model::Partners& partners
   });
 }
 
-/// The partners, with top and bottom in the labels, "cap -y (bottom)", for walls that are named by an axis of
-/// the vessel if this axis is along gravity, on average over the motion.
+/// The partners, with top and bottom in the labels, "cap -y (bottom)", for walls named by an axis
+/// of the vessel that is along gravity on average over the motion.
 model::Partners with_top_and_bottom(const casefile::CaseSpec& spec) {
   const auto mill = casefile::build_mill<double>(spec);
   const double gravity = norm<double>(mill.gravity), period = mill.motion.period();

@@ -1,5 +1,4 @@
-// The folder of `edmill run`, as the report reads it: the summary, the case, tables of outputs, rates over
-// time.
+// The folder of `edmill run`, as the report reads it: summary, case, tables, rates over time.
 #pragma once
 
 #include <filesystem>
@@ -75,8 +74,7 @@ struct Interval {
 using Series = std::vector<Interval>;
 
 /// A column of a table whose rows are of intervals that follow each other.
-/// @param start  initial time of the run, at which the first interval begins unless the table begins later
-/// [s]
+/// @param start  of the run [s]: the first interval begins there unless the table begins later
 Series intervals_of(const casefile::OutputSpec& output, const OutputTable& table, std::size_t column,
                     double start);
 /// The column of a variable's rate in a table of trends; nothing where it has none.
@@ -88,8 +86,8 @@ Series coarser(const Series& series, std::size_t most);
 /// Points of a line through the midpoints of the intervals.
 plot::Points points_of(const Series& series);
 
-/// Rate of a variable of all impacts, or of those with one partner, over at most `most` intervals; nothing
-/// when no table has it.
+/// Rate of a variable of all impacts, or of those with one partner, over at most `most` intervals;
+/// nothing when no table has it.
 std::optional<Series> rate_of(const RunFolder& run, const char* variable, std::size_t most, int partner = -1);
 
 }  // namespace edmill::report

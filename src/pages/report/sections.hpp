@@ -38,14 +38,14 @@ using Rows = std::vector<std::vector<std::string>>;
 
 /// Balls, powder, vessel, mill and contacts in words: name and text.
 Rows case_rows(const RunFolder& run);
-/// Dose by energy and impacts by speed of several runs over each other, where they have such tables.
+/// Dose by energy and impacts by speed of several runs over each other, where they have tables.
 void add_spectra_of(pugi::xml_node main, const std::vector<RunFolder>& runs);
 /// The colour of one of several runs in charts.
 std::string run_colour(std::size_t place);
 
 /// The label of a wall or a partner with the signs of typesetting: "cap −y", "ball–ball".
 std::string typeset(const std::string& label);
-/// The colour of a partner in charts, by its index; balls have the same one for any number of walls.
+/// The colour of a partner in charts, by its index; that of balls is the same for all vessels.
 std::string partner_colour(const model::Partners& partners, int place);
 
 struct MainRate {
@@ -71,15 +71,14 @@ void add_note(pugi::xml_node section, const std::string& text);
 /// "No ball speeds: add [[output]] type = ..."
 void add_missing(pugi::xml_node section, const std::string& what, const std::string& output);
 
-/// A table under a heading with this id, and a row of headings; the first cell of each row is its heading.
+/// A table under a heading with this id; the first cell of each row is its heading.
 void add_table(pugi::xml_node section, const std::string& id, const std::string& caption,
                const std::vector<std::string>& headings, const Rows& rows);
 
-/// A chart over the time of the run, with the start of statistics marked unless it is the beginning.
+/// A chart over the time of the run; the start of statistics is marked unless it is the beginning.
 plot::Chart over_time(const RunFolder& run, const std::string& id, const std::string& title,
                       const std::string& y_title);
-/// Draws a chart with a y axis from 0, or from the least value if that is negative, to a little above the
-/// highest.
+/// Draws a chart with a y axis from 0, or below a negative value, to a little above the highest.
 void draw_fitted(pugi::xml_node grid, plot::Chart chart);
 
 }  // namespace edmill::report

@@ -100,8 +100,8 @@ void add_energies(pugi::xml_node grid, const OutputTable& table, const model::Pa
   plot::Chart by_direction{
       "energy-parts",
       "Normal and tangential dose",
-      "Histograms of dose rate per decade: the normal part, the tangential part and both, each by its own "
-      "size.",
+      "Histograms of dose rate per decade: the normal part, the tangential part and both, each by "
+      "its own size.",
       {"that part of the impact's energy [J]"},
       {"dose rate [W per decade]"}};
   for (const auto& [spectrum, colour] :
@@ -148,10 +148,9 @@ void add_treatment(pugi::xml_node main, const RunFolder& run) {
   }
   auto section = add_section(main, "treatment", "How evenly the powder is treated");
   draw_fitted(add(section, "div", {{"class", "charts"}}), chart);
-  add_note(
-      section,
-      "The last bar is of all that was hit more often. The counts and what an impact works are those of the "
-      "output (type = \"treatment\").");
+  add_note(section,
+           "The last bar is of all that was hit more often. The counts and what an impact works are "
+           "those of the output (type = \"treatment\").");
 }
 
 void add_spectra_of(pugi::xml_node main, const std::vector<RunFolder>& runs) {

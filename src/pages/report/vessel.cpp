@@ -26,12 +26,11 @@ struct WallMap {
   plot::HeatMap map{};
 
   bool has(Coordinate c) const { return std::ranges::count(surface.coordinates(), c) > 0; }
-  /// The low and high end of the wall along an axis of the map; its own coordinate may have the other
-  /// direction.
+  /// The ends of the wall along an axis of the map; its own coordinate may run the other way.
   std::pair<double, double> ends(int axis) const {
     return std::minmax(scale(axis) * surface.edge(axis, 0, 1), scale(axis) * surface.edge(axis, 1, 1));
   }
-  /// Factor from a coordinate of the table to that of the map: degrees and millimetres; 1 for a disc.
+  /// Factor from a coordinate of the table to the map's: degrees and millimetres; 1 for a disc.
   double scale(int axis) const {
     if (map.disc) return 1;
     const bool angle = surface.coordinates()[static_cast<std::size_t>(axis)] == Coordinate::angle;
@@ -147,7 +146,7 @@ struct Ball {
   double dose_rate, area;  ///< [W], [m2]
 };
 
-/// Groups the balls by diameter, the smallest first; if there are many diameters, all balls form one group.
+/// Groups of equal balls, the smallest first; if there are many diameters, one group of all.
 std::vector<std::vector<Ball>> by_size(std::vector<Ball> balls) {
   constexpr std::size_t most = 12;
   std::ranges::stable_sort(balls, {}, &Ball::area);
@@ -211,10 +210,9 @@ void add_balls(pugi::xml_node section, const RunFolder& run) {
   for (const auto& row : table.rows_of("ball")) balls.push_back({row[rate], row[area]});
   add_sizes(section, balls);
   draw_balls(section, balls);
-  add_note(
-      section,
-      "Either body of an impact gets half of its dose here; the table by partner has all of the dose of the "
-      "impacts with a wall.");
+  add_note(section,
+           "Either body of an impact gets half of its dose here; the table by partner has all of the "
+           "dose of the impacts with a wall.");
 }
 
 }  // namespace

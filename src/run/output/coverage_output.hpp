@@ -1,4 +1,4 @@
-// Where the dose lands, and how often powder is hit. docs/outputs.md, "bodies", "coverage", "treatment"
+// Where the dose lands, and how often powder is hit: docs/outputs.md, "coverage", "treatment"
 #pragma once
 
 #include <algorithm>
@@ -76,8 +76,7 @@ struct CoverageKeys {
   }
 };
 
-/// The walls of a vessel and the parts of the bodies in it, each in columns of equal parts of u and rows of
-/// equal parts of v.
+/// The walls of a vessel and the parts of its bodies, in columns of equal parts of u and rows of v.
 template <class Real>
 class WallCells {
  public:
@@ -137,8 +136,8 @@ class WallCells {
     const auto place = wall.surface.map(point);
     return wall.cell(part(place.u, wall.columns), part(place.v, wall.rows));
   }
-  /// Index of the part that contains a value if [0, 1] has `count` equal parts; a value outside, by rounding,
-  /// is in the first or the last.
+  /// The one of `count` equal parts of [0, 1] with a value; one outside, by rounding, is in the
+  /// first or last.
   static std::size_t part(const Real& value, std::size_t count) {
     if (!(value > 0)) return 0;
     const Real place = value * Real(count);
@@ -269,9 +268,9 @@ Real exp_of_minus(const Real& x) {
   }
 }
 
-/// Counts impacts on each ball and each cell of the walls. If powder is mixed between impacts, each impact
-/// hits it with the same probability, so that the number of hits has Poisson's distribution (Delogu and
-/// Cocco). If powder stays in place, in an even layer, the mean is that of its own patch.
+/// Counts impacts on each ball and each cell of the walls. If powder is mixed between impacts, each
+/// impact hits it with the same probability: the number of hits has Poisson's distribution (Delogu
+/// and Cocco). If powder stays in place, in an even layer, the mean is that of its own patch.
 template <class Real>
 class TreatmentOutput : public TableOutput<Real> {
  public:

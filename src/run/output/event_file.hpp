@@ -20,8 +20,8 @@ struct EventColumn {
   Type type;
 };
 
-/// Written in blocks under a temporary name; `commit` puts it in place. The same rows make the same bytes: no
-/// time stamps. Integers are compressed; the digits of measured numbers are noise that hardly shrinks.
+/// Written in blocks under a temporary name; `commit` puts it in place. The same rows make the same
+/// bytes: no time stamps. Integers are compressed; the digits of measured numbers are noise.
 class EventFile : public io::WholeFile {
  public:
   EventFile(const std::filesystem::path& place, std::vector<EventColumn> columns,
@@ -45,9 +45,10 @@ class EventFile : public io::WholeFile {
   void commit() override;
   std::filesystem::path place() const override;
 
-  /// Saves or loads the progress of the file, for a checkpoint; from then on the temporary file is kept even
-  /// without `commit`. HDF5 cannot open a file whose writer was killed. But a block never changes once it is
-  /// written, so loading rebuilds the file from the blocks at the positions in the checkpoint.
+  /// Saves or loads the progress of the file, for a checkpoint; from then on the temporary file is
+  /// kept even without `commit`. HDF5 cannot open a file whose writer was killed, but a block never
+  /// changes once it is written: loading rebuilds the file from the blocks at the positions in the
+  /// checkpoint.
   /// @throws InputError when the blocks there differ in any byte
   void archive(Archive& a);
 

@@ -13,7 +13,7 @@
 
 namespace edmill::output {
 
-/// One of the two bodies of an impact. A wall has a velocity, at the contact point, and nothing else.
+/// One of the two bodies of an impact. A wall has only a velocity, at the contact point.
 template <class Real>
 struct ImpactBody {
   const model::BallProperties<Real>* ball = nullptr;  ///< null for a wall
@@ -38,7 +38,8 @@ Real path_length(const Vec3<Real>& velocity, const Vec3<Real>& gravity, const Re
   using std::sqrt;
   const Real strength = norm<Real>(gravity);
   if (strength == 0) return norm<Real>(velocity) * time;
-  // u: speed along gravity, w: across it. L = [u sqrt(u^2 + w^2) + w^2 asinh(u / w)] / 2g between both ends.
+  // u: speed along gravity, w: across. L = [u sqrt(u^2 + w^2) + w^2 asinh(u / w)] / 2g between the
+  // ends.
   const Vec3<Real> down = gravity * (1 / strength);
   const Real last = dot<Real>(velocity, down), first = last - strength * time;
   const Real across2 = squared_norm<Real>(velocity - down * last);
@@ -137,7 +138,7 @@ struct ImpactFacts {
   }
 };
 
-/// A function that evaluates a variable of model::impact_variables by its formula; 0 or 1 for a flag.
+/// Evaluates a variable of model::impact_variables by its formula; 0 or 1 for a flag.
 template <class Real>
 using VariableFormula = Real (*)(const ImpactFacts<Real>&);
 

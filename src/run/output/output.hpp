@@ -73,8 +73,7 @@ struct Moment {
   std::function<model::BallState<Real>(int)> state_of;  ///< by the ball's id
 };
 
-/// Base class of outputs: a timer and filters for impacts. A derived type defines what it records of an
-/// impact.
+/// Base of outputs: a timer and filters. A derived type defines what it records of an impact.
 template <class Real>
 class Output {
  public:
@@ -122,7 +121,7 @@ class Output {
   virtual void record(const ImpactFacts<Real>&) {}
   /// Called for each impact of the run, in the record or not.
   virtual void every(const ImpactFacts<Real>&) {}
-  /// Called for each impact before it is recorded, to write rows that are due since the previous one.
+  /// Called for each impact before it is recorded, to write rows due since the previous one.
   virtual void before(const ImpactFacts<Real>&) {}
   virtual void end_of_record(const Simulation<Real>&, const Real& /*until*/) {}
 

@@ -9,7 +9,8 @@
 
 namespace edmill::output {
 
-/// Opens at the first of its starts that is met and closes at the first of its ends. Times are inclusive.
+/// Opens at the first of its starts that is met, closes at the first of its ends. Times are
+/// inclusive.
 template <class Real>
 class OutputTimer {
  public:
@@ -94,8 +95,8 @@ class IntervalClock {
       ++passed_;
     }
   }
-  /// Calls `row` for the remaining intervals up to the end of the record. The last one may be shorter; one
-  /// that exists only by rounding is omitted.
+  /// Calls `row` for the remaining intervals up to the end of the record. The last one may be
+  /// shorter; one that exists only by rounding is omitted.
   template <class Row>
   void finish(const Real& from, const Real& until, Row&& row) {
     for (Real begin = from + interval_ * Real(passed_); until - begin > interval_ / 1000000000 && !full();

@@ -118,7 +118,8 @@ class SnapshotOutput : public SceneOutput<Real> {
   std::vector<std::pair<std::uint64_t, std::string>> pages_;
 };
 
-/// A file with a frame at the start of the record, at the end of each interval, and at the end of the record.
+/// A file with a frame at the start of the record, after each interval, and at the end of the
+/// record.
 template <class Real>
 class FramesOutput : public OneFileOutput<Real, io::AtomicFile, SceneOutput<Real>> {
  public:
@@ -224,8 +225,8 @@ class AnimationOutput : public FramesOutput<Real> {
     to_fractions(paths_.contact);
     const auto& motion = simulation.mill().motion;
     const auto& vessel = simulation.mill().vessel;
-    // The vessel has at least as many keys as there are frames, and enough to show each turn of the drive or
-    // a piston.
+    // The vessel has a key for each frame at least, and enough to show each turn of the drive or a
+    // piston.
     double frequency = 1 / static_cast<double>(motion.period());
     if (const auto* pistons = vessel.pistons())
       for (const auto& piston : pistons->given())

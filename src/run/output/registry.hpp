@@ -1,5 +1,4 @@
-// The registry of output types, and construction of the outputs of a case. A new type is a file of its own
-// and a row here.
+// The registry of output types, and the outputs of a case. A new type is a file and a row here.
 #pragma once
 
 #include <fmt/format.h>
@@ -51,8 +50,8 @@ inline constexpr std::tuple output_registry{
     row<IterationsOutput>("iterations", "all variables of each impact"),
     row<EventsOutput, OwnKeys<StatesKey>>(
         "events",
-        "the log as HDF5: `/events` with one dataset per column, and the final state of the balls; 64-bit "
-        "numbers in every scalar",
+        "the log as HDF5: `/events` with one dataset per column, and the final state of the balls; "
+        "64-bit numbers in every scalar",
         ".h5"),
     row<SpectraOutput, SpectraKeys>(
         "spectra", "impact energies, normal, tangential and total, or impact speeds, in logarithmic bins"),

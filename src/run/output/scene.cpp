@@ -31,8 +31,7 @@ void look_at(const std::vector<model::Mesh>& walls, const std::vector<Frame<doub
     high = high.cwiseMax(place);
   }
   scene.target = (low + high) / 2;
-  // The view is along -Z, so that the arm of a SPEX points up. A nearer point must be nearer to the centre to
-  // be visible.
+  // The view is along -Z: the arm of a SPEX points up. A nearer point must be nearer to the centre.
   double distance = 0;
   for (const auto& place : places) {
     const Vec3<double> off = margin * (place - scene.target).cwiseAbs();

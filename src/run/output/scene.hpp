@@ -1,4 +1,4 @@
-// Pictures of the mill as X3D (ISO/IEC 19775-1) and as VTK XML files. Plain doubles: nothing is computed from
+// Pictures of the mill as X3D (ISO/IEC 19775-1) and as VTK XML, in double: nothing follows from
 // them.
 #pragma once
 

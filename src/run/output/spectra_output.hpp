@@ -27,8 +27,8 @@ struct SpectraKeys {
   static void keys(auto& output, auto&& row) {
     auto& k = output.template make_own<SpectraKeys>();
     row(Parameter{"of",
-                  "quantity of the spectrum: the dissipated energy; or `speed`; or `impact_energy`, M/2 v^2 "
-                  "along the normal"}
+                  "quantity of the spectrum: the dissipated energy; or `speed`; or `impact_energy`, M/2 "
+                  "v^2 along the normal"}
             .as("name")
             .usually("`\"energy\"`"),
         k.by);

@@ -20,7 +20,7 @@ struct StatisticsKeys {
   }
 };
 
-/// Sums, averages, extremes, rates and shares of variables, for walls, other balls and all. (thesis D.4.3)
+/// Sums, averages, extremes, rates and shares, for walls, other balls and all. (thesis D.4.3)
 template <class Real>
 class StatisticsOutput : public TableOutput<Real> {
  public:
@@ -152,7 +152,7 @@ class FrequencyOutput : public TableOutput<Real> {
  private:
   const casefile::FrequencySpec& asked() const { return this->spec.frequency; }
 
-  /// 0 below the range, then the intervals, then one above the range, which begins at exactly its end.
+  /// 0 below the range, then the intervals, then one above, which begins at exactly its end.
   std::size_t row_of(const Real& value) const {
     const std::size_t last = asked().intervals;
     return value < high_ ? std::min(bin_of<Real>(bounds_, value), last) : last + 1;
@@ -169,8 +169,7 @@ class FrequencyOutput : public TableOutput<Real> {
   std::vector<std::vector<std::uint64_t>> counts_;  ///< of each row, by partner
 };
 
-/// The columns that the table can have; a field is empty if it is undefined, such as a specific dose without
-/// powder.
+/// The columns that the table can have; a field is empty if undefined, as without powder.
 inline const std::vector<Column> dose_fields{
     {"milling_dose", number, "J", meaning_of("milling_dose")},
     {"milling_dose_rate", number, "W", "milling dose per second of the record"},
@@ -185,11 +184,9 @@ struct MillingDoseKeys {
   std::vector<int> fields;  ///< their places in dose_fields
 
   static void keys(auto& output, auto&& row) {
-    row(
-        Parameter{
-            "fields",
-            "`milling_dose`, `milling_dose_rate`, `inverse_milling_dose_rate`, `specific_milling_dose`, "
-            "`specific_milling_dose_rate`, `powder_mass`, `charge_ratio`"}
+    row(Parameter{"fields",
+                  "`milling_dose`, `milling_dose_rate`, `inverse_milling_dose_rate`, "
+                  "`specific_milling_dose`, `specific_milling_dose_rate`, `powder_mass`, `charge_ratio`"}
             .as("list of names")
             .usually("all"),
         output.template make_own<MillingDoseKeys>().names);

@@ -26,7 +26,7 @@ inline std::string name_of(const ColumnSpec& column, std::string_view variable) 
   return column.label.empty() ? std::string(variable) : column.label;
 }
 
-/// The name of a column and one of its statistics; the label alone where there is only one statistic.
+/// The name of a column and a statistic; the label alone where there is only one statistic.
 inline std::string name_of(const ColumnSpec& column, std::string_view variable, Statistic s) {
   const bool alone = !column.label.empty() && column.statistics.size() == 1;
   return alone ? column.label : name_of(column, variable) + " " + statistic_name(s);
@@ -42,8 +42,7 @@ inline std::string meaning_of(std::string_view variable) {
   return std::string(model::impact_variables[*model::find_variable(variable)].meaning);
 }
 
-/// An output that is one table: CSV, written row by row, or HDF5 if the file's name ends in .h5, written at
-/// the end.
+/// One table: CSV, written row by row, or HDF5 if the file's name ends in .h5, at the end.
 template <class Real>
 class TableOutput : public OneFileOutput<Real, io::AtomicFile> {
   using Base = OneFileOutput<Real, io::AtomicFile>;
@@ -61,7 +60,7 @@ class TableOutput : public OneFileOutput<Real, io::AtomicFile> {
   }
 
  protected:
-  /// To be called once: in the constructor when rows come during the run, else before the first row.
+  /// To be called once: in the constructor when rows come during the run, else before the first.
   void begin(std::vector<io::Column> columns, std::vector<std::string> comments = {}) {
     table_ = io::Table<Real>(std::move(columns), std::move(comments));
     if (!this->spec.hdf5()) file_.stream() << table_.csv_head();

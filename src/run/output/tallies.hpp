@@ -97,7 +97,7 @@ inline std::vector<PartnerGroup> groups_of(const model::Partners& partners, bool
   return list;
 }
 
-/// Adds a column for each partner and one for their total: "wall_0 energy [J]" to "total energy [J]".
+/// Adds a column for each partner and their total: "wall_0 energy [J]" to "total energy [J]".
 inline void add_partner_columns(std::vector<io::Column>& columns, const model::Partners& partners,
                                 const io::Column& of_each) {
   for (int place = 0; place <= partners.count(); ++place) {
@@ -107,8 +107,7 @@ inline void add_partner_columns(std::vector<io::Column>& columns, const model::P
   }
 }
 
-/// The bin of a value: 0 below the first edge, k from edge k - 1 up to below edge k, edges.size() from the
-/// last edge on.
+/// The bin of a value: 0 below all edges, k from edge k - 1 to below edge k, edges.size() above.
 template <class Real>
 std::size_t bin_of(const std::vector<Real>& edges, const Real& value) {
   return static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), value) - edges.begin());
