@@ -89,8 +89,7 @@ Pictured picture(const model::Mill<double>& mill) {
     p.point.push_back(mill.motion.to_inertial(pose, farthest));
     if (k % (samples / 4) == 0 && k < samples)
       for (const auto& corner : corners)
-        p.vessel[static_cast<std::size_t>(k / (samples / 4))].push_back(
-            mill.motion.to_inertial(pose, corner));
+        p.vessel[k / (samples / 4)].push_back(mill.motion.to_inertial(pose, corner));
   }
   if (const auto* chain = mill.motion.get_if<ChainMotion<double>>())
     p.joints = joints_of(*chain, norm<double>(farthest));

@@ -136,6 +136,10 @@ std::vector<MainRate> main_rates(const io::Facts& f) {
           {"mean impact speed", "m/s", rate_in(f, "mean_impact_speed")}};
 }
 
+std::string time_window(const io::Facts& f) {
+  return fmt::format("{} s to {} s", brief(f.number("start_time"), 12), brief(f.number("end_time"), 12));
+}
+
 std::string capitalised(std::string text) {
   text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   return text;

@@ -120,8 +120,7 @@ void add_differences(pugi::xml_node main, const std::vector<RunFolder>& runs) {
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const auto& f = runs[k].facts;
     auto own = case_rows(runs[k]);
-    own.push_back({"statistics", fmt::format("{} s to {} s", brief(f.number("start_time"), 12),
-                                             brief(f.number("end_time"), 12))});
+    own.push_back({"statistics", time_window(f)});
     own.push_back({"seed, precision", fmt::format("{:.0f}, {}", f.number("seed"), f.text("precision"))});
     own.push_back({"program", fmt::format("edmill {} ({})", f.text("version"), f.text("commit"))});
     for (const auto& fact : own) {

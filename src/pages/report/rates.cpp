@@ -71,6 +71,7 @@ std::vector<double> areas_of(const RunFolder& run) {
 void add_partners(pugi::xml_node section, const RunFolder& run) {
   const auto& f = run.facts;
   const auto areas = areas_of(run);
+  const auto balls = run.spec.ball_count();
   Rows rows;
   const double duration = f.number("duration"), whole_dose = f.number("milling_dose");
   const auto row = [&](const std::string& name, const std::string& key, double dose, double area) {
@@ -83,9 +84,8 @@ void add_partners(pugi::xml_node section, const RunFolder& run) {
                     duration > 0 && area > 0 ? readable(dose / duration / area / 1e4, 3) : "\u2013"});
   };
   for (int k = 0; k < run.partners.count(); ++k) {
-    const auto& partner = run.partners[k];
-    row(typeset(partner.label), partner.key, f.number("milling_dose_by_partner/" + partner.key),
-        areas[static_cast<std::size_t>(k)]);
+    const auto& [key, label, meaning] = run.partners[k];
+    row(typeset(label), key, f.number("milling_dose_by_partner/" + key), areas[k]);
   }
   row("all", "total", whole_dose, 0);
   add_table(section, "by-partner", "Collisions and dose by partner",
@@ -93,30 +93,27 @@ void add_partners(pugi::xml_node section, const RunFolder& run) {
              "dose rate per area [W/cm\u00b2]"},
             rows);
   if (const auto rate = f.find("milling_dose_rate"))
-    add_note(
-        section,
-        fmt::format(
-            "Area: of the wall, or of all balls. A ball (of {}) has a part in {} W on the average: an impact "
-            "between balls counts half for either, one with a wall whole.",
-            run.spec.ball_count(), readable(*rate / static_cast<double>(run.spec.ball_count()), 3)));
+    add_note(section, fmt::format("Area: of the wall, or of all balls. A ball (of {}) has a part in {} W on "
+                                  "the average: an impact between balls counts half for either, one with a "
+                                  "wall whole.",
+                                  balls, readable(*rate / static_cast<double>(balls), 3)));
 }
 
 void add_cutoffs(pugi::xml_node section, const RunFolder& run) {
-  const auto* output = run.output("rates_above", [](const auto& o) { return o.only.empty(); });
-  if (!output) return add_missing(section, "rates above speed cutoffs", "type = \"rates_above\"");
-  const auto table = read_table(run.file_of(*output), "a table of rates above cutoffs");
-  Rows rows;
-  for (const auto& numbers : table.numbers) {
-    std::vector<std::string> row{brief(numbers[0])};
-    for (int k = 0; k < run.partners.count(); ++k)
-      row.push_back(readable(numbers[table.column(run.partners[k].key + " rate")]));
-    row.push_back(readable(numbers[table.column("total rate")]));
-    row.push_back(readable(numbers[table.column("total dose_rate")]));
-    rows.push_back(std::move(row));
+  const auto table = run.table("rates_above", "a table of rates above cutoffs");
+  if (!table) return add_missing(section, "rates above speed cutoffs", "type = \"rates_above\"");
+  std::vector<std::string> headings{"approach speed [m/s]"}, columns;
+  for (int k = 0; k < run.partners.count(); ++k) {
+    headings.push_back(typeset(run.partners[k].label));
+    columns.push_back(run.partners[k].key + " rate");
   }
-  std::vector<std::string> headings{"approach speed [m/s]"};
-  for (int k = 0; k < run.partners.count(); ++k) headings.push_back(typeset(run.partners[k].label));
   headings.insert(headings.end(), {"all", "dose rate of all [W]"});
+  columns.insert(columns.end(), {"total rate", "total dose_rate"});
+  Rows rows;
+  for (const auto& numbers : table->numbers) {
+    auto& row = rows.emplace_back(1, brief(numbers[0]));
+    for (const auto& column : columns) row.push_back(readable(numbers[table->column(column)]));
+  }
   add_table(section, "above-cutoffs", "Collisions per second at or above an approach speed", headings, rows);
 }
 
@@ -124,30 +121,30 @@ void add_cutoffs(pugi::xml_node section, const RunFolder& run) {
 void add_speeds_over_time(pugi::xml_node grid, const RunFolder& run) {
   using casefile::Statistic;
   const int speed = *model::find_ball_variable("speed");
-  const auto* output = run.output("trends_balls", [&](const casefile::OutputSpec& o) {
+  const std::vector wanted{Statistic::average, Statistic::minimum, Statistic::maximum};
+  const auto table = run.table("trends_balls", "a table of trends of balls", 0, [&](const auto& o) {
     return o.columns.size() == 1 && o.columns[0].variable == speed && !o.columns[0].with_ball &&
-           o.columns[0].statistics == std::vector{Statistic::average, Statistic::minimum, Statistic::maximum};
+           o.columns[0].statistics == wanted;
   });
-  if (!output)
+  if (!table)
     return add_missing(grid, "ball speeds over time",
                        "type = \"trends_balls\", columns = [{ variable = \"speed\", "
                        "statistics = [\"average\", \"minimum\", \"maximum\"] }]");
-  const auto table = read_table(run.file_of(*output), "a table of trends of balls");
+  const auto& rows = table->numbers;
   auto chart = over_time(run, "ball-speeds-over-time", "Ball speeds over time", "speed [m/s]");
   // Groups of five: each point covers all phases of the drive that the report's table samples.
-  const std::size_t together = (table.numbers.size() / most_points + 5) / 5 * 5;
+  const std::size_t together = (rows.size() / most_points + 5) / 5 * 5;
   plot::Curve mean{"mean of all balls", "c0", {}};
   plot::Band range{"c0", {}, {}, {}};
-  for (std::size_t first = 0; first < table.numbers.size(); first += together) {
-    const std::size_t last = std::min(table.numbers.size(), first + together);
-    double sum = 0, low = table.numbers[first].at(3), high = 0;
+  for (std::size_t first = 0; first < rows.size(); first += together) {
+    const std::size_t last = std::min(rows.size(), first + together);
+    double sum = 0, low = rows[first].at(3), high = 0;
     for (std::size_t k = first; k < last; ++k) {
-      const auto& row = table.numbers[k];
-      sum += row.at(2);
-      low = std::min(low, row.at(3));
-      high = std::max(high, row.at(4));
+      sum += rows[k].at(2);
+      low = std::min(low, rows[k].at(3));
+      high = std::max(high, rows[k].at(4));
     }
-    const double time = (table.numbers[first][0] + table.numbers[last - 1][0]) / 2;
+    const double time = (rows[first][0] + rows[last - 1][0]) / 2;
     mean.points.emplace_back(time, sum / static_cast<double>(last - first));
     range.x.push_back(time);
     range.low.push_back(low);
@@ -161,39 +158,37 @@ void add_speeds_over_time(pugi::xml_node grid, const RunFolder& run) {
 
 void add_speed_frequency(pugi::xml_node grid, const RunFolder& run) {
   const int variable = *model::find_variable("ball_speed_before");
-  const auto* output = run.output("frequency", [&](const casefile::OutputSpec& o) {
+  const auto table = run.table("frequency", "a table of frequencies", 1, [&](const auto& o) {
     return o.only.empty() && o.frequency.variable.variable == variable;
   });
-  if (!output)
+  if (!table)
     return add_missing(
         grid, "distribution of ball speeds",
         "type = \"frequency\", variable = \"ball_speed_before\", low = \"0 m/s\", high = \"10 m/s\"");
-  const auto table = read_table(run.file_of(*output), "a table of frequencies", 1);
-  const auto lower = table.column("lower"), upper = table.column("upper");
-  plot::Chart chart{
-      .id = "ball-speeds",
-      .title = "Speed of balls at their impacts",
-      .description = "Histograms of the ball's speed before an impact with a wall and with another ball."};
+  const auto lower = table->column("lower"), upper = table->column("upper");
+  plot::Chart chart{"ball-speeds",
+                    "Speed of balls at their impacts",
+                    "Histograms of the ball's speed before an impact with a wall and with another ball.",
+                    {"speed before the impact [m/s]"},
+                    {"share of impacts [1/(m/s)]"}};
   double last = 0;
   for (const auto& [name, column, colour] :
        {std::tuple{"with walls", "walls", "c2"}, std::tuple{"with balls", "ball_ball", "c3"}}) {
-    const auto place = table.column(column);
+    const auto place = table->column(column);
     double all = 0;
-    for (const auto& row : table.numbers) all += row[place];
+    for (const auto& row : table->numbers) all += row[place];
     plot::Curve curve{name, colour, {}, true};
-    for (const auto& row : table.numbers) {
+    for (const auto& row : table->numbers) {
       if (std::isnan(row[lower]) || std::isnan(row[upper])) continue;  // out of range
       curve.points.emplace_back(row[lower], all > 0 ? row[place] / all / (row[upper] - row[lower]) : 0);
       if (row[place] > 0) last = std::max(last, row[upper]);
       chart.x.low = std::min(chart.x.low, row[lower]);
-      if (&row == &table.numbers.back() || std::isnan((&row)[1][upper]))
+      if (&row == &table->numbers.back() || std::isnan((&row)[1][upper]))
         curve.points.emplace_back(row[upper], 0);
     }
     chart.curves.push_back(std::move(curve));
   }
-  chart.x.title = "speed before the impact [m/s]";
   chart.x.high = last > chart.x.low ? last : chart.x.low + 1;
-  chart.y.title = "share of impacts [1/(m/s)]";
   draw_fitted(grid, chart);
 }
 
@@ -201,10 +196,8 @@ void add_speed_frequency(pugi::xml_node grid, const RunFolder& run) {
 
 plot::Chart over_time(const RunFolder& run, const std::string& id, const std::string& title,
                       const std::string& y_title) {
-  plot::Chart chart{.id = id,
-                    .title = title,
-                    .x = {"time [s]", run.spec.initial_time.to<double>(), run.facts.number("end_time")},
-                    .y = {y_title}};
+  const plot::Axis x{"time [s]", run.spec.initial_time.to<double>(), run.facts.number("end_time")};
+  plot::Chart chart{.id = id, .title = title, .x = x, .y = {y_title}};
   if (const double start = run.facts.number("start_time"); start > chart.x.low)
     chart.marks.push_back({start, "statistics from here"});
   return chart;
@@ -213,10 +206,9 @@ plot::Chart over_time(const RunFolder& run, const std::string& id, const std::st
 void draw_fitted(pugi::xml_node grid, plot::Chart chart) {
   double low = 0, high = 0;
   const auto see = [&](double y) {
-    if (std::isfinite(y)) {
-      low = std::min(low, y);
-      high = std::max(high, y);
-    }
+    if (!std::isfinite(y)) return;
+    low = std::min(low, y);
+    high = std::max(high, y);
   };
   for (const auto& curve : chart.curves)
     for (const auto& [x, y] : curve.points) see(y);
@@ -244,17 +236,17 @@ void add_ball_speeds(pugi::xml_node main, const RunFolder& run) {
 }
 
 void add_exponents(pugi::xml_node main, const RunFolder& run) {
-  const auto* output =
-      run.output("lyapunov", [](const auto& o) { return o.only.empty() && !o.timer.interval; });
-  if (!output) return;
-  const auto table = read_table(run.file_of(*output), "a table of Lyapunov exponents");
-  const auto rate = table.column("per_second"), width = table.column("half_width"),
-             collision = table.column("per_collision"), digits = table.column("digits_per_impact");
+  const auto table = run.table("lyapunov", "a table of Lyapunov exponents", 0,
+                               [](const auto& o) { return o.only.empty() && !o.timer.interval; });
+  if (!table) return;
   Rows rows;
-  for (const auto& numbers : table.numbers) {
-    std::string value = readable(numbers[rate]);
-    if (std::isfinite(numbers[width])) value += " \u00b1 " + readable(numbers[width], 2);
-    rows.push_back({brief(numbers[0]), value, readable(numbers[collision], 3), readable(numbers[digits], 3)});
+  for (const auto& numbers : table->numbers) {
+    const auto cell = [&](const char* column, int digits) {
+      return readable(numbers[table->column(column)], digits);
+    };
+    std::string value = cell("per_second", 4);
+    if (std::isfinite(numbers[table->column("half_width")])) value += " \u00b1 " + cell("half_width", 2);
+    rows.push_back({brief(numbers[0]), value, cell("per_collision", 3), cell("digits_per_impact", 3)});
   }
   auto section = add_section(main, "errors", "How errors grow");
   add_table(section, "lyapunov-exponents", "Lyapunov exponents",

@@ -39,9 +39,9 @@ std::string law_text(const casefile::ContactSpec& c) {
 }
 
 /// @param entry  key of the entry in the file, "balls.0"; numbers are shown in its units
-std::string ball_text(const RunFolder& run, const casefile::BallSpec& ball, int count,
+std::string ball_text(const casefile::CaseSpec& spec, const casefile::BallSpec& ball, auto count,
                       const std::string& entry) {
-  const auto in_file = [&](const char* key) { return casefile::text_of_key(run.spec, entry + key); };
+  const auto in_file = [&](const char* key) { return casefile::text_of_key(spec, entry + key); };
   return fmt::format("{} of {}, {}", count,
                      in_file(".diameter").value_or(brief(1000 * ball.diameter.to<double>()) + " mm"),
                      in_file(".density").value_or(brief(ball.density.to<double>()) + " kg/m\u00b3"));
@@ -56,18 +56,16 @@ void add_doubts(pugi::xml_node card, const io::Facts& f) {
         std::pair{"too_short", "too short for an interval"},
         std::pair{"wide_interval", "known to 5 % or worse"},
         std::pair{"precision", "less precise than asked for"}})
-    if (f.has(std::string("warnings/") + kind)) {
-      auto doubt = add(card, "dd", {{"class", "doubt"}});
-      add(doubt, "a", {{"href", "#warnings"}}, text);
-    }
+    if (f.has(std::string("warnings/") + kind))
+      add(add(card, "dd", {{"class", "doubt"}}), "a", {{"href", "#warnings"}}, text);
 }
 
 void add_headline(pugi::xml_node main, const RunFolder& run) {
   const auto& f = run.facts;
   auto section = add_section(main, "results", "Results");
   add(section, "p", {},
-      fmt::format("{} collisions between {} s and {} s of simulated time, {} of them contacts at rest, which "
-                  "give {} of the dose.",
+      fmt::format("{} collisions between {} s and {} s of simulated time, {} of them contacts at rest, "
+                  "which give {} of the dose.",
                   brief(f.number("collisions/total"), 12), brief(f.number("start_time"), 12),
                   brief(f.number("end_time"), 12),
                   percent(f.find("least_separation/impact_share").value_or(0)),
@@ -97,11 +95,11 @@ void add_headline(pugi::xml_node main, const RunFolder& run) {
                         brief(f.number("intervals/batches")), readable(f.number("intervals/batch_length")))
           : "Too short for intervals: fewer than 5 drive periods.");
   if (const auto dose = f.find("target/dose"))
-    add_note(section, f.find("target/milling_time")
-                          ? fmt::format("Milling time to {} kJ/g, counting {}.", readable(*dose / 1e6),
-                                        f.text("target/counts"))
-                          : fmt::format("No milling time to {} kJ/g: nothing of the dose counts ({}).",
-                                        readable(*dose / 1e6), f.text("target/counts")));
+    add_note(section,
+             fmt::format(fmt::runtime(f.find("target/milling_time")
+                                          ? "Milling time to {} kJ/g, counting {}."
+                                          : "No milling time to {} kJ/g: nothing of the dose counts ({})."),
+                         readable(*dose / 1e6), f.text("target/counts")));
 }
 
 void add_warnings(pugi::xml_node main, const RunFolder& run) {
@@ -146,16 +144,17 @@ void add_case(pugi::xml_node main, const RunFolder& run) {
   auto section = add_section(main, "case", "Case");
   auto rows = case_rows(run);
   rows.push_back(
-      {"statistics", fmt::format("{} s to {} s, ended by {}", brief(f.number("start_time"), 12),
-                                 brief(f.number("end_time"), 12), model::name(io::end_reason_of(f)))});
+      {"statistics", fmt::format("{}, ended by {}", time_window(f), model::name(io::end_reason_of(f)))});
   rows.push_back({"seed, precision", fmt::format("{:.0f}, {}", f.number("seed"), f.text("precision"))});
   if (const auto digits = f.find("right_digits"))
     rows.push_back({"right digits", fmt::format("{:.0f}, of every impact to the end", *digits)});
-  for (const auto& [name, group] : {std::pair{"least separation speed", std::string("least_separation")},
-                                    std::pair{"stalls, without friction", std::string("stalls")}})
-    rows.push_back({name, fmt::format("{} % of the impacts, {} % of the dose",
-                                      readable(100 * f.number(group + "/impact_share"), 3),
-                                      readable(100 * f.number(group + "/milling_dose_share"), 2))});
+  const auto share = [&](const std::string& group) {
+    return fmt::format("{} % of the impacts, {} % of the dose",
+                       readable(100 * f.number(group + "/impact_share"), 3),
+                       readable(100 * f.number(group + "/milling_dose_share"), 2));
+  };
+  rows.push_back({"least separation speed", share("least_separation")});
+  rows.push_back({"stalls, without friction", share("stalls")});
   rows.push_back({"deepest overlap", readable(f.number("deepest_overlap"), 2) + " m"});
   rows.push_back({"program", fmt::format("edmill {} ({}), {}", f.text("version"), f.text("commit"),
                                          f.text("compiler"))});
@@ -202,18 +201,9 @@ void add_check(pugi::xml_node main, const RunFolder& run) {
 std::string page_of_run(const RunFolder& run) {
   pugi::xml_document document;
   auto main = add(document, "main");
-  add_headline(main, run);
-  add_warnings(main, run);
-  add_animation(main, run);
-  add_rates(main, run);
-  add_check(main, run);
-  add_spectra(main, run);
-  add_vessel(main, run);
-  add_treatment(main, run);
-  add_ball_speeds(main, run);
-  add_exponents(main, run);
-  add_energy(main, run);
-  add_case(main, run);
+  for (const auto part : {add_headline, add_warnings, add_animation, add_rates, add_check, add_spectra,
+                          add_vessel, add_treatment, add_ball_speeds, add_exponents, add_energy, add_case})
+    part(main, run);
   const bool plays = static_cast<bool>(main.select_node("//div[@id='player']"));
   const auto title = std::filesystem::path(run.facts.text("case_file")).filename().string();
   return page_of({title, subtitle_of(run), run.facts.text("version"), run.facts.text("commit"), document,
@@ -224,18 +214,15 @@ std::string page_of_run(const RunFolder& run) {
 
 Rows case_rows(const RunFolder& run) {
   const auto& spec = run.spec;
-  const auto written_in = [&](const char* section) {
-    return [&spec, section](const std::string& key) {
-      return casefile::text_of_key(spec, std::string(section) + "." + key);
-    };
+  const auto written_in = [&spec](const std::string& section) {
+    return
+        [&spec, section](const std::string& key) { return casefile::text_of_key(spec, section + "." + key); };
   };
   Rows rows;
-  for (std::size_t k = 0; k < spec.batches.size(); ++k)
-    rows.push_back(
-        {"balls", ball_text(run, spec.batches[k], spec.batches[k].count, fmt::format("balls.{}", k))});
-  if (!spec.balls.empty())
-    rows.push_back({"balls placed individually",
-                    ball_text(run, spec.balls.front(), static_cast<int>(spec.balls.size()), "ball.0")});
+  for (std::size_t k = 0; const auto& batch : spec.batches)
+    rows.push_back({"balls", ball_text(spec, batch, batch.count, fmt::format("balls.{}", k++))});
+  if (const auto& balls = spec.balls; !balls.empty())
+    rows.push_back({"balls placed individually", ball_text(spec, balls[0], balls.size(), "ball.0")});
   if (spec.powder_mass) rows.push_back({"powder", brief(1000 * spec.powder_mass->to<double>()) + " g"});
   rows.push_back({"vessel", casefile::describe(spec.vessel, written_in("vessel"))});
   for (const auto& body : spec.bodies) rows.push_back({body.name, casefile::describe(body)});
@@ -262,7 +249,7 @@ std::filesystem::path write_report(const std::filesystem::path& folder) {
 
 std::filesystem::path put_report(const std::filesystem::path& folder) {
   const auto page = page_of_run(read_run_folder(folder));
-  auto place = folder / "report.html";
+  const auto place = folder / "report.html";
   io::AtomicFile file(place);
   file.stream() << page;
   file.complete();

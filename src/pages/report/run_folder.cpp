@@ -175,6 +175,12 @@ const casefile::OutputSpec* RunFolder::output(std::string_view type, const Fits&
   return nullptr;
 }
 
+std::optional<OutputTable> RunFolder::table(std::string_view type, const std::string& expected,
+                                            std::size_t texts, const Fits& fits) const {
+  const auto* found = output(type, fits);
+  return found ? std::optional(read_table(file_of(*found), expected, texts)) : std::nullopt;
+}
+
 void add_report_outputs(casefile::CaseSpec& spec) {
   using casefile::Quantity;
   const auto before = spec.outputs.size();

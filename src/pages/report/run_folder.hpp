@@ -28,24 +28,6 @@ struct RateOf {
 /// A rate of a summary with its interval; nothing if the summary does not have it.
 std::optional<RateOf> rate_in(const io::Facts& summary, const std::string& path);
 
-/// summary.json and case.toml of a run, and the tables of the case.
-struct RunFolder {
-  std::filesystem::path place;
-  io::Facts facts;          ///< of summary.json
-  casefile::CaseSpec spec;  ///< with the outputs of the report if the run had them
-  model::Partners partners;
-  std::string name = {};  ///< among runs that are compared
-
-  using Fits = std::function<bool(const casefile::OutputSpec&)>;
-  /// The last output of the case that has this type, satisfies `fits`, is CSV (or X3D), is not appended to
-  /// others, and whose file exists and is not empty; null if there is none.
-  const casefile::OutputSpec* output(std::string_view type, const Fits& fits) const;
-  std::filesystem::path file_of(const casefile::OutputSpec& o) const { return place / o.folder / o.file; }
-};
-
-/// @throws InputError when a file is missing or wrong
-RunFolder read_run_folder(const std::filesystem::path& place);
-
 /// A table of an output, as numbers.
 struct OutputTable {
   std::string file;
@@ -60,6 +42,30 @@ struct OutputTable {
   /// Rows with this first text.
   std::vector<std::vector<double>> rows_of(std::string_view text) const;
 };
+
+/// summary.json and case.toml of a run, and the tables of the case.
+struct RunFolder {
+  std::filesystem::path place;
+  io::Facts facts;          ///< of summary.json
+  casefile::CaseSpec spec;  ///< with the outputs of the report if the run had them
+  model::Partners partners;
+  std::string name = {};  ///< among runs that are compared
+
+  using Fits = std::function<bool(const casefile::OutputSpec&)>;
+  /// The last output of the case that has this type, satisfies `fits`, is CSV (or X3D), is not appended to
+  /// others, and whose file exists and is not empty; null if there is none.
+  const casefile::OutputSpec* output(std::string_view type, const Fits& fits) const;
+  /// The table of such an output, whose first columns, `texts` of them, are text; by default of all impacts.
+  /// @param expected  "a table of trends", for messages
+  /// @throws InputError when it is no such table
+  std::optional<OutputTable> table(
+      std::string_view type, const std::string& expected, std::size_t texts = 0,
+      const Fits& fits = [](const auto& o) { return o.only.empty(); }) const;
+  std::filesystem::path file_of(const casefile::OutputSpec& o) const { return place / o.folder / o.file; }
+};
+
+/// @throws InputError when a file is missing or wrong
+RunFolder read_run_folder(const std::filesystem::path& place);
 
 /// @param expected  "a table of trends", for messages
 /// @param texts     how many columns of text there are before the numbers

@@ -56,6 +56,8 @@ struct MainRate {
 std::vector<MainRate> main_rates(const io::Facts& summary);
 /// "27.92 ± 0.23"
 std::string text_of(const RateOf& rate);
+/// "0.5 s to 10 s": of the statistics.
+std::string time_window(const io::Facts& summary);
 /// "Milling dose rate"
 std::string capitalised(std::string text);
 /// A histogram of bars that are equally wide, from `first` on.

@@ -132,18 +132,17 @@ void add_spectra(pugi::xml_node main, const RunFolder& run) {
 }
 
 void add_treatment(pugi::xml_node main, const RunFolder& run) {
-  const auto* output = run.output("treatment", [](const auto& o) { return o.only.empty(); });
-  if (!output) return;
-  const auto table = read_table(run.file_of(*output), "a table of treatment", 1);
+  const auto table = run.table("treatment", "a table of treatment", 1);
+  if (!table) return;
   plot::Chart chart{"treatment-hits",
                     "How often powder has been hit",
                     "Histograms of the part of the powder that was hit so many times: mixed, and in place.",
-                    {"hits", 0, static_cast<double>(table.numbers.size())},
+                    {"hits", 0, static_cast<double>(table->numbers.size())},
                     {"part of the powder"}};
   for (const auto& [name, column, colour] :
        {std::tuple{"mixed between impacts", "mixed", "c0"}, std::tuple{"stays in place", "in_place", "c1"}}) {
     std::vector<double> parts;
-    for (const auto& row : table.numbers) parts.push_back(row[table.column(column)]);
+    for (const auto& row : table->numbers) parts.push_back(row[table->column(column)]);
     chart.curves.push_back(bars(name, colour, 0, 1, parts));
   }
   auto section = add_section(main, "treatment", "How evenly the powder is treated");

@@ -33,17 +33,17 @@ struct WallMap {
   /// Factor from a coordinate of the table to the map's: degrees and millimetres; 1 for a disc.
   double scale(int axis) const {
     if (map.disc) return 1;
-    const bool angle = surface.coordinates()[static_cast<std::size_t>(axis)] == Coordinate::angle;
+    const bool angle = surface.coordinates()[axis] == Coordinate::angle;
     return angle ? 180 / std::numbers::pi : 1000;
   }
 };
 
 std::string axis_title(const Surface& surface, int axis) {
-  const auto coordinate = surface.coordinates()[static_cast<std::size_t>(axis)];
+  const auto coordinate = surface.coordinates()[axis];
   if (coordinate == Coordinate::angle) return "angle about the vessel\u2019s axis [\u00b0]";
   if (coordinate == Coordinate::height) return "height along the axis [mm]";
   if (const auto* rectangle = std::get_if<model::Rectangle<double>>(&surface.kind())) {
-    const auto& half = rectangle->halves[static_cast<std::size_t>(axis)];
+    const auto& half = rectangle->halves[axis];
     for (int k = 0; k < 3; ++k)
       if (half[k] == norm<double>(half)) return fmt::format("along {} [mm]", "xyz"[k]);
   }
@@ -107,11 +107,10 @@ std::string share_scales(std::vector<WallMap>& walls) {
 }
 
 void add_maps(pugi::xml_node section, const RunFolder& run) {
-  const auto* output = run.output("coverage", [](const auto& o) { return o.only.empty(); });
-  if (!output) return add_missing(section, "dose on the vessel's walls", "type = \"coverage\"");
-  const auto table = read_table(run.file_of(*output), "a table of coverage");
-  if (!(table.duration > 0))
-    return add_missing(section, "time in the coverage of the vessel", "type = \"coverage\"");
+  const auto table = run.table("coverage", "a table of coverage");
+  if (!table || !(table->duration > 0))
+    return add_missing(section, table ? "time in the coverage of the vessel" : "dose on the vessel's walls",
+                       "type = \"coverage\"");
   const auto vessel = casefile::build_mill<double>(run.spec).vessel;
   const auto surfaces = vessel.surfaces();
   const double extent = vessel.extent();
@@ -122,7 +121,7 @@ void add_maps(pugi::xml_node section, const RunFolder& run) {
     walls.push_back({id, surfaces[id], vessel.walls()[id]});
     label(walls.back());
   }
-  read_cells(walls, table);
+  read_cells(walls, *table);
   const std::string shared = share_scales(walls);
   std::ranges::stable_partition(walls, [](const WallMap& wall) { return !wall.map.disc; });
   const auto discs = std::ranges::count_if(walls, [](const WallMap& wall) { return wall.map.disc; });
@@ -200,14 +199,13 @@ void draw_balls(pugi::xml_node section, const std::vector<Ball>& balls) {
 }
 
 void add_balls(pugi::xml_node section, const RunFolder& run) {
-  const auto* output = run.output("bodies", [](const auto& o) { return o.only.empty(); });
-  if (!output) return add_missing(section, "dose of each ball", "type = \"bodies\"");
-  const auto table = read_table(run.file_of(*output), "a table of bodies", 1);
-  if (!(table.duration > 0))
-    return add_missing(section, "time in the dose of each ball", "type = \"bodies\"");
-  const auto rate = table.column("dose_rate"), area = table.column("area");
+  const auto table = run.table("bodies", "a table of bodies", 1);
+  if (!table || !(table->duration > 0))
+    return add_missing(section, table ? "time in the dose of each ball" : "dose of each ball",
+                       "type = \"bodies\"");
+  const auto rate = table->column("dose_rate"), area = table->column("area");
   std::vector<Ball> balls;
-  for (const auto& row : table.rows_of("ball")) balls.push_back({row[rate], row[area]});
+  for (const auto& row : table->rows_of("ball")) balls.push_back({row[rate], row[area]});
   add_sizes(section, balls);
   draw_balls(section, balls);
   add_note(section,
