@@ -154,7 +154,7 @@ class Auditor : Judge {
     return last.approach_speed == event.approach_speed && event.approach_speed > 0;
   }
 
-  /// Reports and corrects wrong ball numbers: the logged state is at the end of another ball's flight.
+  /// Reports and corrects wrong ball numbers: the state is at the end of another ball's flight.
   void find_wrong_balls(LoggedEvent& event) {
     for (std::size_t body = 0; body < event.count(); ++body) {
       if (!available_.body[body].position || !available_.body[body].velocity_before) continue;
@@ -298,7 +298,6 @@ class Auditor : Judge {
   std::uint64_t next_wall_ = 0;        ///< impacts whose actual wall has the logged number - 1
 };
 
-/// Audits a sequence of events.
 /// @param next  returns the next event in order of time, or nothing at the end
 Audit audit_events(const Case& the_case, const BallStates* states, const Options& options,
                    const std::string& file, const Available& available, const auto& next) {

@@ -35,8 +35,16 @@ struct Fields {
              v("of", "1", "number of events that are wrong", d.of);
              v("text", "", "", d.text);
            });
-    v.group("energy", "balance of energy of the impacts whose states are all in the log",
-            [&] { energy(v, a.energies); });
+    v.group("energy", "balance of energy of the impacts whose states are all in the log", [&] {
+      const Energies& e = a.energies;
+      v("impacts", "1", "number of impacts", e.impacts);
+      v("wall_work", "J", "", e.wall_work.value());
+      v("milling_dose", "J", "", e.milling_dose.value());
+      v("supplied", "J", "energy supplied by the least separation speed", e.supplied.value());
+      v("supplying_impacts", "1", "number of impacts in which it supplied energy", e.supplying);
+      v("kinetic_change", "J", "", e.kinetic_change.value());
+      v("closure", "J", "wall work - dose + supplied - change", e.closure());
+    });
     v.group("energy_created", "energy created by impacts, beyond what the least separation speed supplies",
             [&] {
               v("impacts", "1", "number of impacts", a.energies.creating);
@@ -75,15 +83,6 @@ struct Fields {
       v("expected", "", "null if it does not apply", f.expected);
       if (v.has(*f.note != '\0')) v("note", "", "a probable reason", f.note);
     });
-  }
-  static void energy(auto& v, const Energies& e) {
-    v("impacts", "1", "number of impacts", e.impacts);
-    v("wall_work", "J", "", e.wall_work.value());
-    v("milling_dose", "J", "", e.milling_dose.value());
-    v("supplied", "J", "energy supplied by the least separation speed", e.supplied.value());
-    v("supplying_impacts", "1", "number of impacts in which it supplied energy", e.supplying);
-    v("kinetic_change", "J", "", e.kinetic_change.value());
-    v("closure", "J", "wall work - dose + supplied - change", e.closure());
   }
 };
 

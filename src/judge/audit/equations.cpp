@@ -34,8 +34,8 @@ ImpactTolerance Equations::of_impact(const LoggedImpact& impact, Rows& rows) con
   return {energy, by_wall == 0 || by_wall < scale};
 }
 
-/// Residuals of the logged states with respect to the contact law's outcome: of each body, or as in (2.23'),
-/// (2.28'), (2.35) and (2.24'). There the logged impulse limits the friction.
+/// Residuals of the states after an impact: of each body, or as in (2.23'), (2.28'), (2.35) and (2.24'),
+/// where the logged impulse limits the friction.
 void Equations::of_states(const LoggedImpact& impact, Speeds speeds, double allowed, Rows& rows) const {
   const auto& logged = impact.event->body;
   const bool spins = has_.spins(impact.with_wall()), summed = !by_body_ || !spins;
@@ -78,7 +78,7 @@ void Equations::of_states(const LoggedImpact& impact, Speeds speeds, double allo
   tangential.expected = due.restitution_tangential;
 }
 
-/// The dose is the wall work plus what the least separation supplies, minus what balls gain. (2.36'), (A.82)
+/// Dose = wall work + what the least separation supplies - what balls gain. (2.36'), (A.82)
 void Equations::of_energies(const LoggedImpact& impact, Speeds speeds, double allowed, Rows& rows) const {
   const LoggedEvent& event = *impact.event;
   const double work = work_of_wall(impact);

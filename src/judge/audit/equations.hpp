@@ -145,8 +145,7 @@ struct Energies {
   }
 };
 
-/// True if an assumption explains a violation: the residual with it is within the tolerance and, where that
-/// is coarse, at most a tenth of the one without it.
+/// True if an assumption explains a violation: what it leaves is allowed, and a tenth at most.
 inline bool vanishes(double without, double with, double allowed) {
   return with <= allowed && 10 * with <= without;
 }
@@ -211,7 +210,7 @@ struct Tolerances {
   }
 };
 
-/// Whether an impact has friction, or none because of a stall (docs/theory.md, 6); `either` if unknown.
+/// Whether an impact has friction, or none in a stall (docs/theory.md, 6); `either` if unknown.
 enum class Friction { acts, rests, either };
 
 /// Bounds the number of consecutive impacts of each ball without time to move in between.
@@ -301,7 +300,6 @@ struct ImpactTolerance {
 /// Evaluates the equations at events. The set of rows depends only on the columns of the log.
 class Equations {
  public:
-  /// @param terms  those of the code that made the log
   /// @param by_body  residuals of each body's velocity and spin, for fits, in which a term may differ for
   /// one; otherwise of the law along and across the normal, momentum and torque
   Equations(const Available& available, const Tolerances& tolerances, const Terms& terms = {},
@@ -310,8 +308,7 @@ class Equations {
 
   /// The bodies of an event touch. @param gap  between them [m]
   void of_touch(const LoggedEvent& event, double gap, Rows& rows) const;
-  /// The contact law, conservation, and the logged values: by the states of the bodies, or without them by
-  /// the logged speeds.
+  /// The law, conservation, and logged values: by the states, or without them by the logged speeds.
   ImpactTolerance of_impact(const LoggedImpact& impact, Rows& rows) const;
   /// Position, velocity and spin at the end of a flight. @param gravity  of the case [m/s^2]
   void of_flight(const LoggedFlight& flight, const Vec& gravity, Rows& rows) const;

@@ -66,7 +66,18 @@ class Flights : Judge {
     const double time = end.event->time;
     settle_held(track, end.event);
     if (!track.known_at(time)) return;
-    put_rows_of_end(ball, track, end);
+    rows_.clear();
+    equations_.of_flight({.from = {.position = track.flight.position,
+                                   .velocity_after = track.flight.velocity,
+                                   .spin_after = track.spin},
+                          .to = end.state(),
+                          .had = {.position = true, .velocity_after = true, .spin_after = track.spin_known},
+                          .has = available_.body[end.body],
+                          .begin = track.start,
+                          .end = time,
+                          .radius = radius_of(ball),
+                          .body = static_cast<int>(end.body)},
+                         case_.mill.gravity, rows_);
     const double off = judge_end(ball, track, end, false);
     const double until = std::min(time, track.broken_from);
     // The search reduces radii by the tolerance, provided that at least half of a radius remains.
@@ -146,7 +157,11 @@ class Flights : Judge {
     const double smaller = radius - overlap - slack;
     if (smaller < radius / 2) return std::nullopt;  // outside the vessel, which was reported before
     auto contact = wall_contact(track, smaller, until);
-    if (contact) contact->depth = deepest(ball, track, contact->partner, contact->time, until);
+    for (int k = 0; contact && k <= samples; ++k) {
+      const double time = contact->time + (until - contact->time) * k / samples;
+      const double gap = wall_gap(nested_at(time), case_, contact->partner, ball, position_of(track, time));
+      contact->depth = std::max(contact->depth, -gap);
+    }
     return contact;
   }
 
@@ -263,21 +278,6 @@ class Flights : Judge {
            size(Vec(logged.velocity_before - velocity)) <= 10 * near * std::max(size(velocity), 1.0);
   }
 
-  void put_rows_of_end(int ball, const Track& track, const FlightEnd& end) {
-    rows_.clear();
-    equations_.of_flight({.from = {.position = track.flight.position,
-                                   .velocity_after = track.flight.velocity,
-                                   .spin_after = track.spin},
-                          .to = end.state(),
-                          .had = {.position = true, .velocity_after = true, .spin_after = track.spin_known},
-                          .has = available_.body[end.body],
-                          .begin = track.start,
-                          .end = end.event->time,
-                          .radius = radius_of(ball),
-                          .body = static_cast<int>(end.body)},
-                         case_.mill.gravity, rows_);
-  }
-
   /// Judges position, velocity and spin at the end of a flight by its rows.
   /// @return the distance from the end of the flight, 0 when within the tolerances [m]
   double judge_end(int ball, const Track& track, const FlightEnd& end, bool report_it) {
@@ -373,15 +373,6 @@ class Flights : Judge {
     const bool at_once = next && next->time == track.start && next->with_wall;
     if (!at_once || next->partner != track.held->partner) findings_.add(*track.held);
     track.held.reset();
-  }
-
-  double deepest(int ball, const Track& track, int wall, double from, double until) const {
-    double depth = 0;
-    for (int k = 0; k <= samples; ++k) {
-      const double time = from + (until - from) * k / samples;
-      depth = std::max(depth, -wall_gap(nested_at(time), case_, wall, ball, position_of(track, time)));
-    }
-    return depth;
   }
 
   Vec position_of(const Flying& own, double time) const {

@@ -33,7 +33,7 @@ struct VesselFrame {
   }
 };
 
-/// The vessel at a time [s]. The rotation of the nested motion is R_z(theta) R_x(gamma), (2.7').
+/// The vessel at a time [s]. That of the nested motion is R_z(theta) R_x(gamma), (2.7').
 /// @param as_printed  the nested motion's is R_x(gamma) R_z(theta), as (2.14) is printed
 VesselFrame vessel_at(const Mill& mill, double time, bool as_printed);
 
@@ -95,7 +95,6 @@ struct LoggedImpact {
   double effective_mass = 0, compliance = 0;
 
   /// Sets the wall velocity by a code's formula, plus the motion of the wall within the vessel.
-  /// @param nested, printed  of the vessel
   void set_wall_velocity(const WallVelocity& formula, const Mill& mill, const VesselFrame& nested,
                          const VesselFrame& printed);
   bool with_wall() const { return event->with_wall; }
@@ -140,7 +139,6 @@ Outcome outcome(const LoggedImpact& impact, const Terms& terms, bool by_logged_i
 double velocity_scale(const LoggedImpact& impact, bool with_spins);
 
 /// Kinetic energy that the balls of a logged impact gain [J].
-/// @param spin_factor  factor of the energy of spins
 double kinetic_change(const LoggedImpact& impact, double spin_factor = 1);
 /// Work of the wall on the ball of a logged impact [J]. (A.82)
 double work_of_wall(const LoggedImpact& impact);

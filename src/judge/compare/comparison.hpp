@@ -15,8 +15,7 @@ struct BatchTimes {
   double until() const { return from + static_cast<double>(count) * length; }
 };
 
-/// Classes of a spectrum on a logarithmic scale, 16 an octave. Values up to `floor`, noise around zero, share
-/// the first.
+/// Classes of a spectrum, 16 an octave. Values up to `floor`, noise around zero, share the first.
 class SpectrumClasses {
  public:
   static constexpr std::size_t count = 1 + 16 * 48;

@@ -87,8 +87,7 @@ Measured measured_by(const Contact& c, const Vector& gravity, const Bodies& bodi
   measured.turned = norm(leave.normal - touch.normal);
   measured.depth = 0.34 * duration * measured.approach / bodies.ball.radius;
   const double separation = leave.separation / measured.approach, e = measured.law_restitution;
-  // Before the closest distance a force adds to the approach, afterwards it brakes; equal forces before
-  // and after have the effect press_effect(e).
+  // A force adds to the approach, then brakes; equal ones before and after have press_effect(e).
   measured.restitution = separation + (2 * decks::press_effect(e) + e) * late - e * early;
   const Vector left = leave.along - (flown_on.along - touch.along);
   if (measured.slip > 0) measured.slip_left = dot(left, touch.along) / (measured.slip * measured.slip);
@@ -191,13 +190,11 @@ struct Value {
 
 const Value restitution{
     "restitution", "(2.23')", 0.003, 0.1, 0, 0, &Measured::restitution, 0, &Measured::law_restitution};
-/// Measured on contacts that clearly slide throughout. The tangential spring has to be loaded first; its
-/// contribution is inversely proportional to the slip.
+/// Of contacts that slide throughout. Loading the tangential spring counts by the inverse of the slip.
 const Value friction{
     "friction",      "(2.24')", 0.01, 0, 0.1, 0, &Measured::friction, 0, &Measured::law_friction,
     &Measured::wound};
-/// Measured on contacts in which the case's friction stops the slip. Tangential springs reverse it, with up
-/// to twice the impulse, depending on the code's law.
+/// Of contacts whose slip friction stops. Tangential springs reverse it, with up to twice the impulse.
 const Value sticking{"stopping friction", "(2.24')", 1, 0, 0, 0, &Measured::stopping_friction, 1.5};
 /// In some codes the arm of the torque is shorter by the overlap.
 const Value spin_change{"spin change over the torque's", "(2.35)", 0.02, 0, 0.3, 1, &Measured::spin_change};
@@ -404,17 +401,6 @@ std::vector<SlipBin> slips_of(const MeasuredList& walls, const MeasuredList& bal
   return bins;
 }
 
-/// Removes unexplained contacts that overlap in time: balls that leave flights together collided.
-void drop_pairs(std::vector<Contact>& contacts) {
-  std::erase_if(contacts, [all = contacts](const Contact& c) {
-    return c.kind == ContactClass::unexplained &&
-           std::any_of(all.begin(), all.end(), [&](const Contact& other) {
-             return other.ball != c.ball && other.kind == c.kind && other.free_until < c.free_from &&
-                    c.free_until < other.free_from;
-           });
-  });
-}
-
 }  // namespace
 
 bool ContactAudit::wall_velocity_differs() const {
@@ -456,7 +442,14 @@ ContactAudit audit_contacts(const CaseSpec& spec, const std::string& file,
     const bool open = c.kind < ContactClass::lasting || c.kind == ContactClass::unexplained;
     if (open && c.bodies == 1 && at_walls.size() < enough) at_walls.push_back(c);
   }
-  drop_pairs(at_walls);
+  // Unexplained contacts that overlap in time are of balls that collided.
+  std::erase_if(at_walls, [all = at_walls](const Contact& c) {
+    return c.kind == ContactClass::unexplained &&
+           std::any_of(all.begin(), all.end(), [&](const Contact& other) {
+             return other.ball != c.ball && other.kind == c.kind && other.free_until < c.free_from &&
+                    c.free_until < other.free_from;
+           });
+  });
   audit.dose_rate = *rate.estimate().mean;
   audit.dose_rate_half_width = *rate.estimate().half_width;
   judge_laws(walls, Of::walls, audit);

@@ -207,8 +207,7 @@ void ContactFinder::watch_overlaps(const std::vector<bool>& flies) {
 
 /// Reports an overlap that was not a contact: a contact changes the velocities of both balls, and its depth
 /// is less than a third of its duration times the approach speed. Overlaps below a thousandth of the radius
-/// may be noise of the frames. A ball whose centre is outside is reported even if its velocity changes, since
-/// it may meet other bodies there.
+/// may be noise. A ball whose centre is outside is always reported.
 void ContactFinder::end_overlap(const BodyPair& bodies, const Overlap& overlap) {
   const double radius = vessel_.ball(bodies[0]).radius;
   const double most = std::clamp(overlap.growth * frames_.contact_time, 1e-3 * radius, radius / 5);

@@ -1,5 +1,4 @@
-// Judgements of contact logs: audits, and dose rates, compared with a run or another log and extrapolated to
-// zero contact time. docs/dem.md
+// Audits of contact logs, and dose rates, compared and extrapolated to no contact time. docs/dem.md
 #pragma once
 
 #include "base/statistics.hpp"
@@ -52,7 +51,7 @@ struct ContactComparison {
   Verdict verdict = Verdict::too_few;
 };
 
-/// @param options  A is a run or a log of collisions or contacts, B a log of contacts, or the reverse
+/// @param options  A is a run or a log of impacts or contacts, B a log of contacts, or the reverse
 /// @throws InputError
 ContactComparison compare_contacts(const compare::ComparisonOptions& options);
 
@@ -145,8 +144,8 @@ std::string to_json(const ContactAudit& audit);
 std::string contact_audit_keys();
 std::string to_junit(const ContactAudit& audit);
 
-/// Finds the distance from the walls at which balls leave their flights, and the numbers of mill and vessel
-/// with which it vanishes, best first. @param contacts of single balls
+/// Finds how far from the walls balls leave their flights, and the numbers with which it vanishes. @param
+/// contacts of single balls
 void judge_places(const CaseSpec& spec, const std::vector<Contact>& contacts,
                   const std::atomic<bool>* interrupt, ContactAudit& audit);
 

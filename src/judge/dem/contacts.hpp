@@ -106,9 +106,8 @@ class FrameReader {
   double last_time_;
 };
 
-/// Kinds of contacts. `wall` and `pair` are single contacts, from which laws can be measured. In a `missed`
-/// one bodies overlap and one of them flies on, because the code did not compute the contact. In a `jump` a
-/// ball moves farther than its velocities allow.
+/// Kinds of contacts. `wall` and `pair` are single ones, by which laws are measured. In a `missed` one bodies
+/// overlap and fly on. In a `jump` a ball moves farther than its velocities allow.
 enum class ContactClass { wall, pair, several, lasting, unexplained, missed, jump };
 inline constexpr std::array<const char*, 7> contact_class_names{"wall",        "pair",   "several", "lasting",
                                                                 "unexplained", "missed", "jump"};

@@ -266,8 +266,7 @@ void FrameReader::finish(std::vector<FrameRow> rows, double time, Frame& frame) 
 
 bool FrameReader::next(Frame& frame) {
   if (!next_) {
-    // A binary dump begins with the length of its format's name, negated, or a step, whose lowest byte is
-    // most often 0; no text does.
+    // A binary dump begins with a length, negated, or a step, whose lowest byte is most often 0.
     const int first = in_.peek();
     const bool is_binary = first == 0 || first == 256 - static_cast<int>(magic.size());
     next_ = is_binary      ? &FrameReader::next_of_binary

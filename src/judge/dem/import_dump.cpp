@@ -14,8 +14,7 @@ namespace {
 
 using Properties = model::BallProperties<double>;
 
-/// The ratio of a dump's value to the case's that deviates most from 1; 0 if the dump has none, 1 if none
-/// deviates by more than the rounding of printed numbers.
+/// The ratio of a dump's value to the case's farthest from 1, but for rounding; 0 if it has none.
 double factor_of(const std::vector<double>& dump, const std::vector<Properties>& balls,
                  double Properties::*own) {
   if (dump.empty()) return 0;

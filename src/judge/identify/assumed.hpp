@@ -91,13 +91,11 @@ struct Assumed {
   int walls;               ///< number of walls of the case, and so of the log
   std::size_t joints = 0;  ///< number of joints of the case's mill, for `phases`
   Terms terms = {};
-  /// Differences of the phases of the mill's joints from the case's [rad], by joint and swing; a rotation's
-  /// own angle has the index after its swings.
+  /// Phases of the joints minus the case's [rad], by joint and swing; last a rotation's own angle.
   std::map<std::array<std::size_t, 2>, double> phases = {};
   std::vector<Restricted> restricted = {};  ///< for parts of the log only
 
-  /// Builds the case with these values. Returns nothing if the log cannot be of such a mill: its file would
-  /// be refused, a ball does not fit into the vessel, or the vessel has other walls.
+  /// The case with these values; nothing if its file is refused, a ball does not fit or walls differ.
   std::optional<Case> built() const;
   CaseSpec case_file() const;
   /// True if a case file can express all but the log's conventions: an audit can test it.
@@ -180,11 +178,10 @@ Assumptions numbers_of(const Assumed& nominal);
 /// An assumption about a part of the log only. @param choices  number of parts that were tried
 Assumption restricted_to(const SharedSubset& part, const Assumption& what, std::size_t choices);
 
-/// Mistakes other than wrong numbers that a log with these columns can reveal: orders, signs,
-/// directions, units, and the meaning of columns.
+/// Mistakes other than wrong numbers that a log with these columns can reveal.
 Assumptions mistakes_of(const Assumed& nominal, const Assumptions& numbers, const Available& has);
 
-/// "reversed", "left out", "doubled" or "halved" if a factor's narrow interval contains it; else "".
+/// "reversed", "left out", "doubled", "halved" if the narrow interval contains it; else "".
 std::string word_for(double factor, double half_width);
 /// "100.500 +- 0.001 mm", or "100 mm": in the usual unit of its dimension.
 std::string value_text(Dimension dimension, double value, double half_width = 0);

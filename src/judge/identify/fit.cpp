@@ -130,8 +130,7 @@ void assume_wall_velocity(const Mill& mill, const Terms& terms, LoggedImpact& im
 
 }  // namespace
 
-/// Rows of an event for an assumed model, with assumed terms of the equations.
-/// @param change  assumed deviations of the log from its conventions
+/// Rows of an event for an assumed model, terms of the equations, and deviations of the log.
 audit::Rows LogResiduals::rows_of(std::size_t k, const Case& model, const LogChange& change,
                                   const Terms& terms) const {
   LoggedEvent copy, copy_of_earlier;

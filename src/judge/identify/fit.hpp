@@ -103,7 +103,7 @@ struct Hypothesis {
 };
 
 /// 2 sum ln(1 + (r/s)^2) + 2 n ln s over the rows of a sample, with the median of |r| of each kind as s:
-/// minus twice the logarithm of Cauchy's likelihood. Outliers have little weight.
+/// minus twice the logarithm of Cauchy's likelihood.
 double misfit(const Residuals& sample, const VectorXd& rows);
 inline double misfit(const Residuals& sample, const Assumed& assumed) {
   return misfit(sample, sample.rows(assumed));
@@ -115,12 +115,10 @@ inline double misfit(const Residuals& sample, const Assumed& assumed) {
 void fit(const Residuals& sample, Hypothesis& tried);
 
 /// Derivatives of the rows by a number, at the base; empty if they do not depend on it.
-/// @param rows  at the base
 VectorXd sensitivity(const Residuals& sample, const Assumed& base, const VectorXd& rows,
                      const Assumption& number);
 
-/// Misfit after the best change of a number, if the rows are linear in it.
-/// @param slope  derivative of the rows with respect to the number
+/// Misfit after the best change of a number, in which the rows are linear with this slope.
 double linear_misfit(const Residuals& sample, const VectorXd& rows, const VectorXd& slope);
 
 }  // namespace edmill::identify

@@ -82,8 +82,7 @@ class Evidence {
   double score_of_case() const { return score_of_case_; }
   std::size_t part_count() const { return parts_.size(); }
 
-  /// Draws new samples. Half of their events violate a row under one of these assumptions; the others are
-  /// evenly spread.
+  /// Draws new samples, half of them of events that violate a row under one of these assumptions.
   void draw_samples(const std::vector<Assumed>& bases) {
     std::set<std::size_t> violating;
     for (const auto& base : bases) violating.merge(violating_events(base));
@@ -214,8 +213,7 @@ class Evidence {
     return best;
   }
 
-  /// Numbers by how much they should improve `base` in a part of the log with this share of the violated
-  /// rows.
+  /// Numbers by how much they should improve `base` in a part with this share of violated rows.
   Assumptions best_in_parts(const Assumed& base, const Assumptions& numbers, std::size_t most,
                             double share) const {
     const VectorXd rows = whole().rows(base);
@@ -285,8 +283,7 @@ class Evidence {
     return values;
   }
 
-  /// Fits hypotheses that differ in their starting values and returns the best one. If the speed of a motion
-  /// is fitted, the spans grow; otherwise the whole log is used at once.
+  /// Fits hypotheses with several starting values, over growing spans if with a speed. @return the best
   Hypothesis best_fitted(std::vector<Hypothesis> list) const {
     for (auto& tried : list) {
       const bool from_early =
@@ -301,8 +298,7 @@ class Evidence {
     return std::move(list.front());
   }
 
-  /// Extends the interval of a number to zero if zero fits as well: it has an upper bound only, such as a
-  /// restitution below which all impacts separate at v_s.
+  /// Extends the interval of a number to zero if zero fits as well: it has only an upper bound.
   void widen(const Hypothesis& tried, Found& number) const {
     if (number.what.value == 0 || number.value == 0) return;
     const double found = misfit(many_, tried.assumed()), value = std::exchange(number.value, 0);
@@ -323,7 +319,7 @@ class Evidence {
     return violated > 0 ? static_cast<double>(vanished) / static_cast<double>(violated) : 0;
   }
 
-  /// Counts the violations of an audit, or the events with violated rows if no case can express all.
+  /// Counts the violations of an audit, or of events if no case can express all.
   void count_violations(Hypothesis& tried) const {
     const auto assumed = tried.assumed();
     tried.of = violations_;

@@ -65,8 +65,7 @@ void add_numbers(const std::string& section, const Assumed& nominal, auto member
 }
 
 /// Adds the numbers of the joints of a mill or a body; they are not keys of its type.
-/// @param chains  the same joints in an assumed case, several times if a body is repeated. A copy has one
-/// joint more, a constant rotation before the first that rotates.
+/// @param chains  the joints in an assumed case, of each copy, which has a rotation more before the first
 void add_joints(const std::string& section, Assumed nominal,
                 const std::function<std::vector<std::vector<model::Joint<Quantity>>*>(Assumed&)>& chains,
                 Assumptions& list) {
@@ -247,8 +246,7 @@ const OtherLaw other_laws[] = {
     {"viscoelastic", "dissipative_time", Dimension::time, 1e-7, decades(1e-8, 1e-4)},
     {"elastic-plastic", "yield_pressure", Dimension::pressure, 1e9, decades(1e8, 1e11)}};
 
-/// Default for a number of another law that the case does not give; E* is that of steel, and affects the
-/// restitution only in combination with the fitted number.
+/// Default for a number of another law that the case does not give; E* is that of steel.
 std::optional<double> otherwise(std::string_view key) {
   if (key == "min_tangential") return -1;
   if (key == "effective_modulus") return 113e9;
@@ -278,8 +276,7 @@ std::vector<Entry> entries(Law law) {
   return list;
 }
 
-/// Replaces a law by another one with one given number; those of the same name are kept.
-/// @return true if all numbers of the new law are known
+/// Replaces a law, but for numbers of the same name. @return true if all of the new one are known
 bool replace(Law& law, const OtherLaw& other, double value) {
   const auto own = entries(law);
   bool complete = true;

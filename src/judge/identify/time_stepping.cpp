@@ -25,8 +25,7 @@ bool agree(const std::vector<double>& values) {
   return std::abs(quantile(values, 0.75) - quantile(values, 0.25)) < std::abs(middle);
 }
 
-/// The common step of two durations: the first convergent of the continued fraction of their ratio that
-/// agrees with it up to rounding. @param rounding  of a time [s]
+/// The common step of two durations, by the continued fraction of their ratio. @param rounding  of a time [s]
 std::optional<double> step_of(double one, double two, double rounding) {
   double p = 1, q = 0, p_before = 0, q_before = 1, rest = one / two;
   const double most =
@@ -68,8 +67,8 @@ std::optional<double> common_step(const std::vector<LoggedEvent>& events) {
   return best;
 }
 
-/// True if delays are uniformly distributed between 0 and a step, by a Kolmogorov-Smirnov test at 1 %. Its
-/// limit is 0.1 larger, for impacts that follow each other within a step.
+/// True if delays are even up to a step, by a Kolmogorov-Smirnov test at 1 %, with a limit 0.1 larger for
+/// impacts within a step.
 bool are_even(std::vector<double> delays, double step) {
   std::sort(delays.begin(), delays.end());
   const auto all = static_cast<double>(delays.size());

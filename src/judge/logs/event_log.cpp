@@ -52,21 +52,6 @@ bool is_folder(const std::filesystem::path& place) {
   return std::filesystem::is_directory(place, ignored);
 }
 
-/// Reads the summary of a run: the start of the statistics, and the names of the walls.
-void read_summary(const std::filesystem::path& summary, LogScan& scan) {
-  if (!std::filesystem::exists(summary)) return;
-  const auto root = io::read_json(summary, "the summary of a run");
-  const auto found = root.find("start_time");
-  if (found == root.end() || !found->is_number())
-    throw InputError(fmt::format("{}: start_time: {}, expected a time in s", summary.string(),
-                                 found == root.end() ? "missing" : "found " + io::in_quotes(found->dump())));
-  scan.statistics_start = found->get<double>();
-  const auto counts = root.value("collisions", nlohmann::json::object());
-  int walls = 0;
-  while (counts.contains(model::partner_key(walls, walls + 1))) ++walls;
-  scan.walls = std::max(scan.walls, walls);
-}
-
 }  // namespace
 
 const std::vector<std::string>& column_names() {
@@ -302,7 +287,18 @@ LogScan scan_log(const std::filesystem::path& place) {
   }
   if (scan.events > 0)
     for (double& mean : scan.mean_magnitude) mean /= static_cast<double>(scan.events);
-  if (log_in(place) != place) read_summary(place / "summary.json", scan);
+  const auto summary = place / "summary.json";
+  if (log_in(place) == place || !std::filesystem::exists(summary)) return scan;
+  const auto root = io::read_json(summary, "the summary of a run");
+  const auto found = root.find("start_time");
+  if (found == root.end() || !found->is_number())
+    throw InputError(fmt::format("{}: start_time: {}, expected a time in s", summary.string(),
+                                 found == root.end() ? "missing" : "found " + io::in_quotes(found->dump())));
+  scan.statistics_start = found->get<double>();
+  const auto counts = root.value("collisions", nlohmann::json::object());
+  int walls = 0;
+  while (counts.contains(model::partner_key(walls, walls + 1))) ++walls;
+  scan.walls = std::max(scan.walls, walls);
   return scan;
 }
 
