@@ -317,17 +317,6 @@ std::vector<Quantity> judge(const Comparison& c) {
   return quantities.rows(c.events.agree_throughout());
 }
 
-Verdict whole(const Comparison& c) {
-  const auto any = [&](Verdict verdict) {
-    const auto is_such = [&](const Quantity& q) { return q.verdict == verdict; };
-    return c.events_verdict == verdict || std::any_of(c.quantities.begin(), c.quantities.end(), is_such);
-  };
-  if (any(Verdict::differ)) return Verdict::differ;
-  if (c.events_verdict != Verdict::too_few && c.events.agree_throughout()) return Verdict::agree;
-  if (c.times.count == 0 || any(Verdict::too_few)) return Verdict::too_few;
-  return Verdict::agree;
-}
-
 }  // namespace
 
 std::string_view name_of(Verdict verdict) {
@@ -353,7 +342,13 @@ Comparison compare(const ComparisonOptions& options) {
     c.events_verdict = enough ? Verdict::agree : c.events.first ? Verdict::differ : Verdict::too_few;
   }
   if (c.times.count > 0) c.quantities = judge(c);
-  c.verdict = whole(c);
+  const auto any = [&](Verdict verdict) {
+    const auto is_such = [&](const Quantity& q) { return q.verdict == verdict; };
+    return c.events_verdict == verdict || std::any_of(c.quantities.begin(), c.quantities.end(), is_such);
+  };
+  const bool agree = c.events_verdict != Verdict::too_few && c.events.agree_throughout();
+  const bool too_few = !agree && (c.times.count == 0 || any(Verdict::too_few));
+  c.verdict = any(Verdict::differ) ? Verdict::differ : too_few ? Verdict::too_few : Verdict::agree;
   return c;
 }
 

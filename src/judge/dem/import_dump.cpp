@@ -28,13 +28,6 @@ double factor_of(const std::vector<double>& dump, const std::vector<Properties>&
 /// Number of frames from which the statistics are taken that are used for all frames.
 constexpr std::size_t first_frames = 4000;
 
-/// Turns a ball from the axes of a dump to those of the case; a mirror image reverses the spin.
-void put_in_axes(BallState& ball, const identify::Axes& axes) {
-  ball.position = axes.of(ball.position);
-  ball.velocity = axes.of(ball.velocity);
-  ball.spin = axes.of(ball.spin) * axes.handedness();
-}
-
 }  // namespace
 
 Imported import_dump(const CaseSpec& spec, const ImportOptions& options) {
@@ -60,8 +53,9 @@ Imported import_dump(const CaseSpec& spec, const ImportOptions& options) {
     if (!reader.next(frame)) return false;
     frame.time += begin;
     for (auto& ball : frame.balls) {
-      put_in_axes(ball, options.axes);
-      ball.position += options.origin;
+      ball.position = options.axes.of(ball.position) + options.origin;
+      ball.velocity = options.axes.of(ball.velocity);
+      ball.spin = options.axes.of(ball.spin) * options.axes.handedness();  // a mirror image reverses it
     }
     if (in_vessel) {
       const auto pose = vessel.at(frame.time);

@@ -88,13 +88,6 @@ VectorXd weights_of(const VectorXd& rows, double scale) {
   return (1 + rows.array().square() / (scale * scale)).inverse();
 }
 
-/// The cost function that iterations with weights of scale 1 minimise.
-double cauchy_cost(const VectorXd& rows) {
-  double cost = 0;
-  for (const double r : rows) cost += std::log1p(r * r);
-  return cost;
-}
-
 /// Sets the intervals: three standard deviations for noise of the size of the residuals, plus the effect of
 /// the worst shift of all rows by that size: rounding shifts rows together.
 void set_half_widths(const Eigen::MatrixXd& j, const VectorXd& rows, Hypothesis& tried) {
@@ -118,16 +111,6 @@ void set_half_widths(const Eigen::MatrixXd& j, const VectorXd& rows, Hypothesis&
   }
 }
 
-/// Replaces the wall velocity of an impact by that of a code with these terms.
-void assume_wall_velocity(const Mill& mill, const Terms& terms, LoggedImpact& impact) {
-  if (terms.wall_velocity_delay != 0 || terms.wall_velocity_formula != 0) {
-    const double time = impact.event->time - terms.wall_velocity_delay;
-    impact.set_wall_velocity(audit::wall_velocities[terms.wall_velocity_formula], mill,
-                             audit::vessel_at(mill, time, false), audit::vessel_at(mill, time, true));
-  }
-  impact.wall_velocity *= terms.wall_velocity;
-}
-
 }  // namespace
 
 /// Rows of an event for an assumed model, terms of the equations, and deviations of the log.
@@ -149,7 +132,15 @@ audit::Rows LogResiduals::rows_of(std::size_t k, const Case& model, const LogCha
   auto impact = audit::impact_of(event, model, frame, placed);
   impact.in_stall = in_stall_[k];
   impact.arm = terms.arm;
-  if (event.with_wall && placed) assume_wall_velocity(model.mill, terms, impact);
+  if (event.with_wall && placed) {
+    if (terms.wall_velocity_delay != 0 || terms.wall_velocity_formula != 0) {
+      const double time = event.time - terms.wall_velocity_delay;
+      impact.set_wall_velocity(audit::wall_velocities[terms.wall_velocity_formula], model.mill,
+                               audit::vessel_at(model.mill, time, false),
+                               audit::vessel_at(model.mill, time, true));
+    }
+    impact.wall_velocity *= terms.wall_velocity;
+  }
   audit::Rows rows;
   if (placed) equations.of_touch(event, audit::gap_of(event, model, frame), rows);
   equations.of_impact(impact, rows);
@@ -294,7 +285,8 @@ void fit(const Residuals& sample, Hypothesis& tried) {
     if (round < scales.size()) continue;
     // A change of the numbers by the remaining noise changes the cost by about its mean per row.
     constexpr double of_noise = 1e-6;
-    const double last = std::exchange(cost, cauchy_cost(rows));
+    const double last = std::exchange(cost, 0);
+    for (const double r : rows) cost += std::log1p(r * r);
     if (moved < 1e-13 || last - cost < of_noise * cost / static_cast<double>(rows.size())) break;
   }
   tried = problem.at(x);

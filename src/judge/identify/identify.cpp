@@ -124,10 +124,23 @@ class Evidence {
     for (const auto& number : fitted(tried)) tried.score += number.what.prior + std::log(rows);
   }
 
-  /// Extends a hypothesis by an assumption and fits all of its numbers together.
-  Hypothesis with(const Hypothesis& base, const Assumption& more) const {
+  /// Extends a hypothesis by an assumption and fits all of its numbers together, from the value of the case
+  /// and from trial values that fit better.
+  Hypothesis with(const Hypothesis& base, const Assumption& p) const {
+    const auto assumed = base.assumed();
+    const auto& sample = p.is_periodic() ? early() : few_;
+    const double enough = misfit(sample, assumed) - strong_evidence;
+    std::vector<std::pair<double, double>> better;
+    for (const double value : p.trial_values(early_end_))
+      if (const double now = misfit(sample, p.on(assumed, value)); now < enough)
+        better.emplace_back(now, value);
+    auto values = best_of(std::move(better), p.is_periodic() ? 2 : 1);
+    if (p.is_of_case())
+      values.insert(values.begin(), p.value);
+    else if (values.empty())
+      values = {p.first_values.front()};
     std::vector<Hypothesis> tried;
-    for (const double start : starts(base.assumed(), more)) tried.emplace_back(base).add(more, start);
+    for (const double start : values) tried.emplace_back(base).add(p, start);
     return best_fitted(std::move(tried));
   }
 
@@ -208,7 +221,9 @@ class Evidence {
 
   /// Numbers by how much they should improve `base`: by a linear fit of the rows and trial values.
   Assumptions best_numbers(const Assumed& base, const Assumptions& list, std::size_t most) const {
-    auto best = by_sensitivity(early_or_whole(base), base, list, {}, most);
+    // In the first span a wrong speed has little effect yet.
+    const auto& sample = count_violated(early().rows(base)) > 12 ? early() : whole();
+    auto best = by_sensitivity(sample, base, list, {}, most);
     for (auto& p : by_trials(base, list, most / 2)) best.push_back(std::move(p));
     return best;
   }
@@ -242,10 +257,6 @@ class Evidence {
   }
   const Residuals& early() const { return windows_.front(); }
   const Residuals& whole() const { return windows_.back(); }
-  /// The first span, where a wrong speed has little effect yet; the whole if it has few violations.
-  const Residuals& early_or_whole(const Assumed& base) const {
-    return count_violated(early().rows(base)) > 12 ? early() : whole();
-  }
 
   /// Numbers ranked by a linear fit of the rows, or of those in parts without all of their effect.
   Assumptions by_sensitivity(const Residuals& sample, const Assumed& base, const Assumptions& numbers,
@@ -266,21 +277,6 @@ class Evidence {
       }
     }
     return best_of(std::move(order), most);
-  }
-
-  /// Starting values for a fit: the one of the case, and trial values that fit better.
-  std::vector<double> starts(const Assumed& base, const Assumption& p) const {
-    const auto& sample = p.is_periodic() ? early() : few_;
-    const double enough = misfit(sample, base) - strong_evidence;
-    std::vector<std::pair<double, double>> better;
-    for (const double value : p.trial_values(early_end_))
-      if (const double now = misfit(sample, p.on(base, value)); now < enough) better.emplace_back(now, value);
-    auto values = best_of(std::move(better), p.is_periodic() ? 2 : 1);
-    if (p.is_of_case())
-      values.insert(values.begin(), p.value);
-    else if (values.empty())
-      values = {p.first_values.front()};
-    return values;
   }
 
   /// Fits hypotheses with several starting values, over growing spans if with a speed. @return the best
