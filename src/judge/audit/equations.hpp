@@ -55,7 +55,7 @@ constexpr std::size_t at(auto number) { return static_cast<std::size_t>(number);
 inline const KindInfo& info(Kind kind) { return kinds[at(kind)]; }
 /// The kind of violation that a check finds. @pre it finds only one kind
 constexpr Kind kind_of(Check check) {
-  const auto first = std::find_if(kinds.begin(), kinds.end(), [&](auto& k) { return k.check == check; });
+  const auto first = std::find_if(kinds.begin(), kinds.end(), [=](auto& k) { return k.check == check; });
   return static_cast<Kind>(first - kinds.begin());
 }
 inline const CheckInfo& info(Check check) { return checks[at(check)]; }
@@ -273,8 +273,8 @@ struct Row {
 };
 
 struct Rows : std::vector<Row> {
-  void scalar(Check check, double off, double allowed, double found, double expected) {
-    push_back({check, info(check).rows, -1, 1, {off, 0, 0}, std::abs(off), allowed, found, expected});
+  void scalar(Check check, double off, double allowed, double found, double due) {
+    push_back({check, info(check).rows, -1, 1, {off, 0, 0}, std::abs(off), allowed, found, due});
   }
   Row& vector(Check check, auto body, const Vec& difference, double allowed) {
     const double off = audit::size(difference);

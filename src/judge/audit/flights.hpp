@@ -221,8 +221,8 @@ class Flights : Judge {
       if (first && first->time <= from + answer.delay) continue;
       if (size(apart) < sum - off) continue;  // they overlapped already, which was reported before
       if (end.late && !end.event->with_wall && end.partner() == other) continue;
-      const double last = std::clamp(-dot(apart, relative) / dot(relative, relative), 0.0, to - from);
-      const double nearest = size(Vec(apart + relative * last));
+      const double at = std::clamp(-dot(apart, relative) / dot(relative, relative), 0.0, to - from);
+      const double nearest = size(Vec(apart + relative * at));
       first = Encounter{from + answer.delay, false, other, sum - nearest};
     }
     return first;

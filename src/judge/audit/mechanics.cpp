@@ -212,9 +212,9 @@ Outcome outcome(const LoggedImpact& impact, const Terms& terms, bool by_logged_i
   const double g_n = impact.along(g), by_law = impact.separation_speed(g_n) - g_n;
   const Vec slip = g - impact.normal * g_n;
   double bounce = by_law;
-  const auto& body = impact.event->body[0];
+  const auto& own = impact.event->body[0];
   if (by_logged_impulse && share[0] > 0)
-    bounce = std::max(0.0, impact.along(Vec(body.velocity_after - body.velocity_before)) / share[0]);
+    bounce = std::max(0.0, impact.along(Vec(own.velocity_after - own.velocity_before)) / share[0]);
   if (terms.friction_of_restitution) bounce = -(1 + impact.restitution(g_n)) * std::min(g_n, 0.0);
   const double e_t = impact.tangential_restitution(c_in_limit, bounce, size(slip));
   const Vec normal_part = impact.normal * by_law;

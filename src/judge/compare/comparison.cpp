@@ -305,7 +305,7 @@ std::vector<Quantity> judge(const Comparison& c) {
     return "no " + std::string(model::logged_quantities[v].name) + (c.a.has[v] ? " in B" : " in A");
   };
   const auto power = [&](std::size_t v, const std::string& name, double Batch::*energy) {
-    quantities.mean(name, "W", missing(v), all, [&](auto& batch) { return batch.*energy / length; });
+    quantities.mean(name, "W", missing(v), all, [&](auto& b) { return b.*energy / length; });
   };
   power(model::milling_dose, "milling_dose_rate", &Batch::milling_dose);
   power(model::wall_work, "wall_work_rate", &Batch::wall_work);

@@ -119,11 +119,11 @@ std::string table(const Comparison& c) {
     out += fmt::format("  {:<26}{}\n", name, value);
   };
   const auto& e = c.events;
-  std::string agreeing = fmt::format("{} agree within {:g}", e.agreeing, c.options.event_tolerance());
-  if (e.agreeing > 0) agreeing += fmt::format(", up to {:g} s", e.horizon);
+  std::string agree = fmt::format("{} agree within {:g}", e.agreeing, c.options.event_tolerance());
+  if (e.agreeing > 0) agree += fmt::format(", up to {:g} s", e.horizon);
   if (c.events_verdict)
-    agreeing += fmt::format(": {} ({} required)", name_of(*c.events_verdict), *c.options.events);
-  row("event by event", agreeing);
+    agree += fmt::format(": {} ({} required)", name_of(*c.events_verdict), *c.options.events);
+  row("event by event", agree);
   if (e.first) {
     row("  same partners", fmt::format("{} events", e.same_partners));
     const double off = e.first->relative_difference;  // nan for partners
@@ -168,7 +168,7 @@ std::string junit_text(const std::string& suite, const std::vector<JunitCase>& c
     element.put(std::string("<xmlattr>.") + name, value);
   };
   const auto number_with = [&](std::string JunitCase::*text) {
-    return std::count_if(cases.begin(), cases.end(), [=](auto& one) { return !(one.*text).empty(); });
+    return std::count_if(cases.begin(), cases.end(), [=](auto& c) { return !(c.*text).empty(); });
   };
   Tree all;
   set(all, "name", clean_text(suite));

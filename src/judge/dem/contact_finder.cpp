@@ -391,8 +391,9 @@ bool ContactFinder::make_single(const Group& group, int wall, Contact& contact) 
     return [&, this](double t) {
       const auto own = flown(known.balls[a.ball], frames_.gravity, t - known.time).position;
       if (wall >= 0) return vessel_.gap(vessel_.at(t), a.ball, wall, own);
-      const auto other = flown(known.balls[group[1].ball], frames_.gravity, t - known.time).position;
-      return norm(own - other) - vessel_.ball(a.ball).radius - vessel_.ball(group[1].ball).radius;
+      const auto ball = group[1].ball;
+      const auto other = flown(known.balls[ball], frames_.gravity, t - known.time).position;
+      return norm(own - other) - vessel_.ball(a.ball).radius - vessel_.ball(ball).radius;
     };
   };
   const double longest = to.time - from.time;
@@ -457,7 +458,7 @@ void ContactFinder::report(Group group) {
     if (lasts && !met.empty())
       contact.kind = Class::lasting;
     else if (met.size() == 1)
-      contact.kind = make_single(group, contact.partner, contact) ? Class::wall : Class::unexplained;
+      contact.kind = make_single(group, met[0], contact) ? Class::wall : Class::unexplained;
   } else if (group.size() == 2) {
     const auto &a = group[0], &b = group[1];
     const Vector of_a = impulse(a), of_b = impulse(b);

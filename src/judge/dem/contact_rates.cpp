@@ -230,8 +230,8 @@ Limit limit_of(const std::vector<std::string>& logs, const std::string& run, dou
 
 std::string table(const Limit& limit) {
   std::string out = fmt::format("  {:>12}  {:<24}{}\n", "contact time", "dose rate [W]", "log");
-  const auto row = [&](const std::string& time, const ContactRates& r) {
-    out += fmt::format("  {:>12}  {:<24}{}\n", time, with_interval(r.dose_rate, r.half_width), r.log);
+  const auto row = [&](const auto& t, const ContactRates& r) {
+    out += fmt::format("  {:>12}  {:<24}{}\n", t, with_interval(r.dose_rate, r.half_width), r.log);
   };
   for (const auto& p : limit.points) row(fmt::format("{:.3g} s", p.contact_time), p);
   row("0", limit.at_zero);

@@ -144,8 +144,8 @@ bool FrameReader::line() {
   return true;
 }
 
-void FrameReader::fail(const std::string& found, const std::string& expected) const {
-  throw InputError(fmt::format("{}:{}: found {}, expected {}", name_, line_number_, found, expected));
+void FrameReader::fail(const std::string& found, const std::string& due) const {
+  throw InputError(fmt::format("{}:{}: found {}, expected {}", name_, line_number_, found, due));
 }
 
 double FrameReader::number(const std::string& text, bool is_finite) const {

@@ -55,7 +55,7 @@ Imported import_dump(const CaseSpec& spec, const ImportOptions& options) {
     for (auto& ball : frame.balls) {
       ball.position = options.axes.of(ball.position) + options.origin;
       ball.velocity = options.axes.of(ball.velocity);
-      ball.spin = options.axes.of(ball.spin) * options.axes.handedness();  // a mirror image reverses it
+      ball.spin = options.axes.of(ball.spin) * options.axes.handedness();  // reversed in a mirror
     }
     if (in_vessel) {
       const auto pose = vessel.at(frame.time);

@@ -280,8 +280,8 @@ void add_factors(const Assumptions& numbers, Assumptions& list) {
 
 void add_units(const Available& has, Assumptions& list) {
   const auto& ball = has.body[0];
-  const auto add_unit = [&](const std::string& columns, double LogChange::*member, double by, auto text) {
-    add(list, "the log's " + columns, text, [=](Assumed& a) { a.log.*member = by; });
+  const auto add_unit = [&](const std::string& of, double LogChange::*unit, double by, auto text) {
+    add(list, "the log's " + of, text, [=](Assumed& a) { a.log.*unit = by; });
   };
   struct Columns {
     bool logged;

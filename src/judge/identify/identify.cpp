@@ -192,8 +192,10 @@ class Evidence {
     for (std::size_t kind = 0; kind < audit::row_kinds; ++kind)
       if (vanished[kind] > 0) contradicting += left[kind];
     constexpr std::size_t least_events = 5;  // a number fits one or two by chance
-    const bool all = audit::accounts_for(explained.rows.size(), explained.rows.size() + contradicting);
-    return all && explained.events.size() >= least_events ? explained : Explained{};
+    const auto rows = explained.rows.size();
+    return audit::accounts_for(rows, rows + contradicting) && explained.events.size() >= least_events
+               ? explained
+               : Explained{};
   }
 
   std::set<std::size_t> violating_events(const Assumed& assumed) const {

@@ -76,7 +76,7 @@ struct Fields {
       v("duration", "s", "median", soft.duration);
       v("low", "s", "lower quartile", soft.low);
       v("high", "s", "upper quartile", soft.high);
-      v("logged_at", "", "`begin` or `end` of a contact", soft.at == LoggedAt::begin ? "begin" : "end");
+      v("logged_at", "", "`begin` or `end` of a contact", soft.at == LoggedAt::end ? "end" : "begin");
       v("contacts", "1", "number of contacts that show it", soft.contacts);
       v("exponent", "1",
         "exponent of the duration over approach speed: 0 for a linear spring, -1/5 for Hertz's contacts",

@@ -146,8 +146,8 @@ void EventLog::read_header(const LogConventions& conventions) {
   if (!problems.empty()) throw InputError(problems);
 
   for (std::size_t k = 0; k < (is_good_ ? first_state : name_count); ++k) {
-    const bool is_needed = k == partner_kind_name || k == first_value ? is_good_ : k <= partner_name;
-    columns_[k].place = is_needed ? csv_.needed_column(theirs[k]) : csv_.column(theirs[k]);
+    const bool needed = k == partner_kind_name || k == first_value ? is_good_ : k <= partner_name;
+    columns_[k].place = needed ? csv_.needed_column(theirs[k]) : csv_.column(theirs[k]);
   }
   csv_.throw_problems();
   const bool with_kind = columns_[partner_kind_name].place.has_value();
@@ -158,9 +158,9 @@ void EventLog::read_header(const LogConventions& conventions) {
   available_.milling_dose = columns_[first_value + 2].place.has_value();
   available_.wall_work = columns_[first_value + 3].place.has_value();
   for (std::size_t body = 0; body < 2; ++body)
-    for (std::size_t vector = 0; vector < 5; ++vector) {
-      const auto* first = &columns_[first_state + 15 * body + 3 * vector];
-      available_.body[body].*state_flags[vector] = first[0].place && first[1].place && first[2].place;
+    for (std::size_t part = 0; part < 5; ++part) {
+      const auto* first = &columns_[first_state + 15 * body + 3 * part];
+      available_.body[body].*state_flags[part] = first[0].place && first[1].place && first[2].place;
     }
 }
 
@@ -240,11 +240,11 @@ std::optional<LoggedEvent> EventLog::read() {
       good = read_value(first_value + q - model::approach_speed, event[q], event);
     }
     for (std::size_t body = 0; body < event.count() && good; ++body)
-      for (std::size_t vector = 0; vector < 5; ++vector) {
-        if (!(available_.body[body].*state_flags[vector])) continue;
-        auto& state = event.body[body].*state_vectors[vector];
+      for (std::size_t part = 0; part < 5; ++part) {
+        if (!(available_.body[body].*state_flags[part])) continue;
+        auto& state = event.body[body].*state_vectors[part];
         for (std::size_t axis = 0; axis < 3; ++axis)
-          good = good && read_value(first_state + 15 * body + 3 * vector + axis, state[axis], event);
+          good = good && read_value(first_state + 15 * body + 3 * part + axis, state[axis], event);
       }
     if (!good) continue;
     if (event.time < latest_) event.earlier_by = latest_ - event.time;
