@@ -42,7 +42,7 @@ void each_number(Part& part, F&& f) {
   std::visit([&](auto& own) { own.parameters(own, visit); }, part);
 }
 
-void add_numbers(const std::string& section, const Assumed& nominal, auto member, Assumptions& list) {
+void add_numbers(const std::string& of, const Assumed& nominal, auto member, Assumptions& list) {
   auto part = nominal.spec.*member;
   std::size_t place = 0;
   each_number(part, [&](const Parameter& p, Quantity& q, int axis) {
@@ -58,7 +58,7 @@ void add_numbers(const std::string& section, const Assumed& nominal, auto member
         if (k++ == own) target = exactly(drive ? 2 * pi / value : value);
       });
     };
-    list.push_back(number(section + "." + with_axis(p.key, axis), p.dimension, nominal_value, set));
+    list.push_back(number(of + "." + with_axis(p.key, axis), p.dimension, nominal_value, set));
     list.back().is_speed = drive;
     list.back().is_diameter = list.back().key == "vessel.diameter";
   });

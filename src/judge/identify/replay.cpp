@@ -139,15 +139,15 @@ double weighted_median(std::vector<std::pair<double, double>> values) {
 /// Fits a number to the times of the first impacts of the log: least absolute deviations, with times linear
 /// in the number, over an increasing number of impacts of each ball.
 /// @return the value, and its uncertainty from the scatter of the last impacts
-std::pair<double, double> fitted_value(const Replay& runs, const Assumed& nominal, const Assumption& p) {
+std::pair<double, double> fit_value(const Replay& runs, const Assumed& base, const Assumption& p) {
   double value = p.value, open = std::abs(p.change);
   for (const std::size_t depth : {1, 1, 2, 2, 3, 4, 6, 8, 8}) {
-    const std::size_t count = std::min(runs.count(), 2 * depth * nominal.balls.size() + 20);
+    const std::size_t count = std::min(runs.count(), 2 * depth * base.balls.size() + 20);
     const double step = 1e-7 * p.change;
     std::vector<std::size_t> places, places_there;
-    const auto off = runs.differences(runs.impacts(p.on(nominal, value), count), depth, places);
+    const auto off = runs.differences(runs.impacts(p.on(base, value), count), depth, places);
     const auto off_there =
-        runs.differences(runs.impacts(p.on(nominal, value + step), count), depth, places_there);
+        runs.differences(runs.impacts(p.on(base, value + step), count), depth, places_there);
     if (places != places_there || off.empty()) continue;
     std::vector<std::pair<double, double>> steps;
     for (std::size_t k = 0; k < off.size(); ++k) {
@@ -205,7 +205,7 @@ Identification replay(const Assumed& nominal, const Assumptions& assumptions, co
       if (is_interrupted()) return result;
       if (a.by_factor) continue;  // running a mill a thousand times as fast takes too long
       if (a.is_fitted()) {
-        const auto [value, open] = fitted_value(runs, nominal, a);
+        const auto [value, open] = fit_value(runs, nominal, a);
         if (std::abs(value - a.value) > open) consider({.found = {{a, value, open}}}, a.on(nominal, value));
       } else if (const Assumed assumed = a.on(nominal, 1);
                  runs.follows(runs.impacts(assumed, 30)) >= std::min<std::size_t>(20, runs.count())) {

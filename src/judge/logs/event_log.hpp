@@ -62,7 +62,7 @@ struct Available {
 };
 
 struct LogConventions {
-  std::vector<std::pair<std::string, std::string>> columns;  ///< ours, theirs with its unit: "t [ms]"
+  std::vector<std::pair<std::string, std::string>> columns;  ///< ours, theirs: "t [ms]"
   int first_ball = 0;                                        ///< number of the first ball
   /// Numbers of the walls by id; by default 0, 1, ..., or without a column partner_kind -1, -2, ...
   std::optional<std::vector<int>> walls;
