@@ -109,7 +109,7 @@ if(EMSCRIPTEN)
   target_link_libraries(edmill_node PRIVATE edmill_core edmill_judges)
   edmill_take_rooms(edmill_node bindings/node judge/dem case/decks)
   target_sources(edmill_node PRIVATE src/program/cli/main.cpp src/program/cli/exit_codes.cpp src/program/app/run.cpp src/program/app/judge.cpp
-                 src/program/app/check.cpp src/pages/report/result_table.cpp src/run/run/make_run.cpp)
+                 src/pages/report/result_table.cpp src/run/run/make_run.cpp)
   foreach(text lammps lammps_frame liggghts pose yade yade_planes yade_triangles)
     edmill_embed(edmill_node ${CMAKE_SOURCE_DIR}/src/case/decks/${text}.in ${text}_in decks)
   endforeach()

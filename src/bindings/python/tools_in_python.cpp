@@ -6,7 +6,6 @@
 #include <tuple>
 
 #include "app/certify.hpp"
-#include "app/check.hpp"
 #include "app/judge.hpp"
 #include "app/run.hpp"
 #include "app/study.hpp"

@@ -8,12 +8,11 @@
 Quantities are strings with units; numbers without a unit are for counts and ratios. The manual explains cases, outputs and precisions.
 """
 from ._edmill import InputError, UndecidedError, __version__
-from .callbacks import ContactLaw, Impact, Running
 from .case import Case, EditError, machines, new, variables
 from .dem import Deck, export, import_dump, limit
 from .judges import (Agreement, Certification, CertifiedEvent, Derivative, Judgement, Proof, ProvenEvent, Sensitivities, Shadow,
                      audit, certify, check, check_certificate, compare, estimate, prove, sensitivity, shadow)
-from .runs import Interrupted, Run, read_run, report, resume, run
+from .runs import ContactLaw, Impact, Interrupted, Run, Running, read_run, report, resume, run
 from .studies import Study, Variations, optimize, seeds, sweep, what_decides
 from .tables import Records
 from .values import Value

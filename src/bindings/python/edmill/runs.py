@@ -1,23 +1,132 @@
-"""Runs of a case and their results."""
+"""Runs of a case and their results, with the types of observers and laws, and progress on a terminal or in a notebook."""
 from __future__ import annotations
 
 import csv
 import decimal
+import importlib
 import json
 import pathlib
+import sys
 import tempfile
+import warnings
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any
+from typing import Any, Protocol, Union
 
 import numpy as np
 
 from . import _edmill, checks
-from .callbacks import ContactLaw, Impact, RestitutionLaw, Running
 from .case import Case, case_of
 from .checks import require
-from .progress import Progress
 from .tables import Records, Tables
 from .values import Value
+
+Number = Union[float, decimal.Decimal]  #: float in double, with all digits a Decimal in the wider precisions
+Vector = tuple[Number, Number, Number]
+
+
+class Impact(Protocol):
+    """The impact that an observer receives, in SI units. The normal points from the partner to the ball."""
+    index: int  #: from 0
+    time: Number
+    ball: int
+    with_wall: bool
+    partner: int  #: number of a ball, or of a wall
+    normal: Vector
+    approach_speed: Number
+    slip_speed: Number  #: before the impact
+    separation_speed: Number
+    restitution_tangential: Number
+    normal_impulse: Number
+    tangential_impulse: Number
+    milling_dose: Number
+    supplied_energy: Number
+    wall_work: Number
+
+
+class Running(Protocol):
+    """The run that an observer receives."""
+    time: Number  #: [s]
+    ball_count: int
+
+    def ball(self, k: int) -> tuple[Vector, Vector, Vector]:
+        """Position [m], velocity [m/s] and spin [rad/s] of a ball, inertial. Raises IndexError when there is no such ball."""
+
+    def stop(self) -> None:
+        """Ends the run after this impact."""
+
+
+class RestitutionLaw:
+    """A law of one function of the approach speed [m/s], with Coulomb friction as in (2.24')."""
+
+    def __init__(self, restitution: Callable[[Number], Number], friction: str, min_tangential: str = "-1"):
+        self.restitution, self._friction, self._least = restitution, friction, min_tangential
+
+    def restitution_of_slip(self, normal_change: Number, slip_speed: Number, compliance: Number) -> Number:
+        kind = type(slip_speed)
+        return max(kind(self._least), 1 - kind(self._friction) * compliance * normal_change / slip_speed) if slip_speed > 0 else kind(0)
+
+
+class ContactLaw(Protocol):
+    """A contact law written in Python. Both functions are called for every impact to which the law applies."""
+
+    def restitution(self, approach_speed: Number) -> Number:
+        """Normal restitution, from 0 to 1, for an approach speed in m/s."""
+
+    def restitution_of_slip(self, normal_change: Number, slip_speed: Number, compliance: Number) -> Number:
+        """e_t, the fraction of the slip that remains after the impact, from -1 to 1. (2.24')
+
+        normal_change  |g_n| + g_n' [m/s]: the normal impulse over the effective mass
+        slip_speed     |g_t| [m/s]
+        compliance     1 + M/(m_i J_i) + M/(m_j J_j), of a wall 1 + 1/J_i"""
+
+
+def _line(total: float | None, unit: str):
+    """Two functions that show and end a line of text on standard error."""
+    of = "" if total is None else f" of {total:g}"
+
+    def show(done: float, collisions: int | None) -> None:
+        more = "" if collisions is None else f", {collisions} collisions"
+        print(f"\r{done:.3f}".removesuffix(".000") + f"{of} {unit}{more}", end="", file=sys.stderr, flush=True)
+
+    return show, lambda: print(file=sys.stderr)
+
+
+def _bar(module: str, total: float | None, unit: str):
+    """Two functions that show and end a bar of tqdm: a widget in a notebook (tqdm.auto), or text (tqdm)."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of notebooks without widgets
+        bar = importlib.import_module(module).tqdm(total=total, unit=unit, unit_scale=True, desc="done")
+
+    def show(done: float, collisions: int | None) -> None:
+        bar.n = done
+        bar.refresh() if collisions is None else bar.set_postfix(collisions=collisions)
+
+    return show, bar.close
+
+
+class Progress:
+    """Shows what is done of a total, in the first way that works. A way that fails is replaced by the next; none ends the work."""
+
+    def __init__(self, total: float | None, unit: str):
+        self._ways = [lambda: _bar("tqdm.auto", total, unit), lambda: _bar("tqdm", total, unit), lambda: _line(total, unit)]
+        self._shown: Any = None
+        self._do(lambda show, close: None)
+
+    def _do(self, action: Callable[..., object]) -> None:
+        while self._shown or self._ways:
+            try:
+                self._shown = self._shown or self._ways.pop(0)()
+                action(*self._shown)
+                return
+            except Exception:  # of any kind: widgets, terminals and files have many
+                self._shown = None
+
+    def __call__(self, done: float, collisions: int | None = None) -> None:
+        self._do(lambda show, close: show(done, collisions))
+
+    def close(self) -> None:
+        self._ways = []
+        self._do(lambda show, close: close())
 
 
 class Interrupted(KeyboardInterrupt):

@@ -14,7 +14,7 @@ import numpy as np
 from . import _edmill
 from .case import Case, _toml, case_of
 from .checks import flag, place, require, whole
-from .progress import Progress
+from .runs import Progress
 from .tables import Records, Tables
 from .values import Value
 

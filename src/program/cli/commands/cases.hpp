@@ -1,7 +1,7 @@
 // The commands that make and check cases, and list mills and outputs.
 #pragma once
 
-#include "app/check.hpp"
+#include "app/judge.hpp"
 #include "cli/commands/case_argument.hpp"
 #include "cli/exit_codes.hpp"
 #include "io/input_file.hpp"
