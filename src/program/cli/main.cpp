@@ -29,7 +29,7 @@
 #include "io/terminal.hpp"
 #include "machines/machines.hpp"
 #ifdef EDMILL_NODE
-#include "node/certificate.hpp"
+#include "check.hpp"  // of verification/checker
 #endif
 
 namespace edmill::cli {
@@ -224,6 +224,38 @@ struct Completion : Text<bash_completion> {
   static constexpr const char* name = "completion";
   static constexpr const char* what = "print the completion of these commands for bash";
 };
+
+#ifdef EDMILL_NODE
+/// By the checker that has no code of edmill.
+struct Certificate {
+  static constexpr const char* name = "certificate";
+  static constexpr const char* what = "check a certificate of proven events, without trusting edmill";
+
+  void add_options(CLI::App& command) {
+    command.add_option("file", file_, "certificate (JSON lines)")->required();
+    command.add_flag("--quiet", quiet_, "print nothing");
+  }
+  int run() {
+    io::InputFile in(file_, "a certificate");
+    try {
+      const auto verdict = checker::check(in);
+      if (!quiet_) io::print("{}\n", verdict);
+      return ok;
+    } catch (const checker::Rejected& why) {
+      if (!quiet_) io::print("rejected: {}\n", why.what());
+      return outputs_differ;
+    } catch (const InputError&) {
+      throw;
+    } catch (const std::exception&) {
+      throw InputError(file_ + ": this file is not a certificate of `edmill prove --certificate`");
+    }
+  }
+
+ private:
+  std::string file_;
+  bool quiet_ = false;
+};
+#endif
 
 /// In the order of the help. A command has a name, what it does in a line, `add_options`, and `run`, which
 /// gives the exit code. A new one is a file in cli/commands/ and a name here.
