@@ -10,8 +10,8 @@ export NODE_PATH=${NODE_PATH:-/usr/share/nodejs}
 cmake -S "$source_folder" -B "$folder/build" -G Ninja -DEDMILL_CORE_ALONE=ON -DCMAKE_BUILD_TYPE=None \
   -DCMAKE_CXX_FLAGS="-DNDEBUG -O2 -ffile-prefix-map=$folder/build/headers/= -ffile-prefix-map=$source_folder/=" \
   -DCMAKE_TOOLCHAIN_FILE=$toolchain >/dev/null
-# Clang orders some blocks of a function by their addresses: without their randomisation it makes the
-# same bytes each time.
+# Clang orders some blocks of a function by their addresses: without their randomisation it makes
+# the same bytes each time.
 fixed=()
 if setarch -R true 2>/dev/null; then fixed=(setarch -R); fi
 "${fixed[@]}" cmake --build "$folder/build" --target npm page >/dev/null

@@ -14,11 +14,11 @@ class Viscoelastic : public edmill::CustomLaw<double> {
     return 1 / (1 + loss_ * std::pow(approach_speed, 0.2));
   }
   double restitution_of_slip(const double& normal_change, const double& slip_speed,
-                             const double& compliance) const override {
-    const double stopped = friction_ * compliance * normal_change;  // slip that friction can take away
+      const double& compliance) const override {
+    const double stopped =
+        friction_ * compliance * normal_change;  // slip that friction can take away
     return slip_speed > 0 ? std::max(-1.0, 1 - stopped / slip_speed) : 1;
   }
-
  private:
   double loss_, friction_;
 };
@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
       edmill::Run<double> run(mill, laws);
       run.advance_to(2.0);
       std::printf("%s: %.4g W\n", laws.ball_ball ? "viscoelastic" : "law of the case",
-                  run.summary().milling_dose_rate());
+          run.summary().milling_dose_rate());
     }
   } catch (const edmill::InputError& error) {
     for (const auto& problem : error.problems()) std::fprintf(stderr, "%s\n", problem.c_str());

@@ -1,5 +1,5 @@
-// A custom observer: how hard balls hit each other, as a histogram of the approach speed, and their mean
-// impact energy.
+// A custom observer: how hard balls hit each other, as a histogram of the approach speed, and their
+// mean impact energy.
 #include <array>
 #include <cstdio>
 #include <edmill/run.hpp>
@@ -18,11 +18,11 @@ class ApproachSpeeds : public edmill::Observer<double> {
   void print() const {
     for (std::size_t k = 0; k < counts_.size(); ++k)
       std::printf("%4.1f m/s and more: %lu\n", width * static_cast<double>(k),
-                  static_cast<unsigned long>(counts_[k]));
+          static_cast<unsigned long>(counts_[k]));
     if (impacts_ > 0)
-      std::printf("%.3g mJ in an impact, on average\n", 1000 * energy_ / static_cast<double>(impacts_));
+      std::printf(
+          "%.3g mJ in an impact, on average\n", 1000 * energy_ / static_cast<double>(impacts_));
   }
-
  private:
   static constexpr double width = 0.5;  // [m/s]
   std::array<std::uint64_t, 10> counts_{};

@@ -18,7 +18,6 @@ class UntilAllHaveMetAll : public edmill::Observer<double> {
         if (!met) return;
     run.stop();
   }
-
  private:
   std::vector<std::vector<bool>> met_;  // of each ball: each wall, and balls at the end
 };

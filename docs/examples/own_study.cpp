@@ -19,8 +19,9 @@ int main(int argc, char** argv) {
     std::vector<std::pair<double, std::future<double>>> rates;
     for (const double restitution : {0.3, 0.5, 0.7, 0.9})
       rates.emplace_back(restitution,
-                         std::async(std::launch::async, dose_rate, std::string(argv[1]), restitution));
-    for (auto& [restitution, rate] : rates) std::printf("e %.1f: %.4g W\n", restitution, rate.get());
+          std::async(std::launch::async, dose_rate, std::string(argv[1]), restitution));
+    for (auto& [restitution, rate] : rates)
+      std::printf("e %.1f: %.4g W\n", restitution, rate.get());
   } catch (const edmill::InputError& error) {
     for (const auto& problem : error.problems()) std::fprintf(stderr, "%s\n", problem.c_str());
     return 2;

@@ -1,4 +1,5 @@
-// A vessel of one's own: a hexagonal jar with the round vial's size, moved as the case says, beside the vial.
+// A vessel of one's own: a hexagonal jar with the round vial's size, moved as the case says, beside
+// the vial.
 #include <cmath>
 #include <cstdio>
 #include <edmill/run.hpp>
@@ -27,8 +28,8 @@ int main(int argc, char** argv) {
       run.advance_to(2.0);
       const auto summary = run.summary();
       std::printf("%s: %.4g W, %zu kinds of partners\n",
-                  vessel.empty() ? "vessel of the case" : "hexagonal jar", summary.milling_dose_rate(),
-                  summary.partners.size());
+          vessel.empty() ? "vessel of the case" : "hexagonal jar", summary.milling_dose_rate(),
+          summary.partners.size());
     }
   } catch (const edmill::InputError& error) {
     for (const auto& problem : error.problems()) std::fprintf(stderr, "%s\n", problem.c_str());

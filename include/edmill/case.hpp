@@ -13,11 +13,11 @@ namespace casefile {
 struct CaseSpec;
 }
 
-template <class Real>
-class Run;
+template <class Real> class Run;
 struct CaseAccess;
 
-/// A case as read from its file, in exact quantities; no scalar is chosen yet. Copies share their data.
+/// A case as read from its file, in exact quantities; no scalar is chosen yet. Copies share their
+/// data.
 class Case {
  public:
   /// Reads and checks a case file; its keys: docs/reference.md.
@@ -27,17 +27,16 @@ class Case {
   static Case read(const std::string& path, const std::vector<std::string>& settings = {});
   /// Reads and checks the text of a case; messages refer to it as `name`.
   static Case parse(const std::string& text, const std::string& name = "case.toml",
-                    const std::vector<std::string>& settings = {});
+      const std::vector<std::string>& settings = {});
 
   /// SHA-256 of the canonical text: in one scalar, cases with the same digest give the same bits.
   const std::string& digest() const;
-  /// Scalar that the case requests, "double" or "float128" for example; a program may choose another one.
+  /// Scalar that the case requests, "double" or "float128" for example; a program may choose
+  /// another one.
   const std::string& precision() const;
   int ball_count() const;
-
  private:
-  template <class Real>
-  friend class Run;
+  template <class Real> friend class Run;
   friend struct CaseAccess;
   explicit Case(casefile::CaseSpec spec);
   std::shared_ptr<const casefile::CaseSpec> spec_;

@@ -14,16 +14,16 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Invalid input that the user can correct. It contains all problems of a file together, each with file,
-/// line, key, the value found and the values expected. The program exits with 2.
+/// Invalid input that the user can correct. It contains all problems of a file together, each with
+/// file, line, key, the value found and the values expected. The program exits with 2.
 class InputError : public Error {
  public:
   explicit InputError(std::vector<std::string> problems)
       : Error(joined(problems)), problems_(std::move(problems)) {}
-  explicit InputError(std::string problem) : InputError(std::vector<std::string>{std::move(problem)}) {}
+  explicit InputError(std::string problem)
+      : InputError(std::vector<std::string>{std::move(problem)}) {}
 
   const std::vector<std::string>& problems() const { return problems_; }
-
  private:
   static std::string joined(const std::vector<std::string>& problems) {
     std::string text;
@@ -33,7 +33,8 @@ class InputError : public Error {
   std::vector<std::string> problems_;
 };
 
-/// A decision that not even the widest scalar could make; the message contains the state that reproduces it.
+/// A decision that not even the widest scalar could make; the message contains the state that
+/// reproduces it.
 class UndecidedError : public Error {
  public:
   using Error::Error;

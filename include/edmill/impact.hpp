@@ -6,20 +6,17 @@
 
 namespace edmill {
 
-template <class Real>
-using Vector = std::array<Real, 3>;
+template <class Real> using Vector = std::array<Real, 3>;
 
 /// State of a ball in the inertial frame, whose Z axis is the axis of the fulcrum.
-template <class Real>
-struct BallState {
+template <class Real> struct BallState {
   Vector<Real> position;  ///< of the centre [m]
   Vector<Real> velocity;  ///< [m/s]
   Vector<Real> spin;      ///< [rad/s]
 };
 
 /// One impact as programs receive it. All vectors are in the inertial frame.
-template <class Real>
-struct Impact {
+template <class Real> struct Impact {
   std::uint64_t index;          ///< counts from 0 since the start of the run
   Real time;                    ///< [s]
   int ball;                     ///< its id

@@ -5,12 +5,10 @@
 
 namespace edmill {
 
-template <class Real>
-class Run;
+template <class Real> class Run;
 
 /// Receives every impact just after it happened.
-template <class Real>
-class Observer {
+template <class Real> class Observer {
  public:
   virtual ~Observer() = default;
   /// @param impact  SI, inertial frame; the states of `run` are those after the impact

@@ -8,15 +8,13 @@
 
 namespace edmill {
 
-/// A sum of terms c x^i y^j z^k r^l: x, y, z is the centre of a ball in the vessel frame and r its radius
-/// [m].
-template <class Real>
-class Polynomial {
+/// A sum of terms c x^i y^j z^k r^l: x, y, z is the centre of a ball in the vessel frame and r its
+/// radius [m].
+template <class Real> class Polynomial {
  public:
   using Powers = std::array<int, 4>;  ///< of x, y, z, r
 
-  template <std::convertible_to<Real> Number>
-  Polynomial(const Number& constant) {
+  template <std::convertible_to<Real> Number> Polynomial(const Number& constant) {
     terms_[Powers{}] = Real(constant);
   }
   static Polynomial x() { return Variable{0}; }
@@ -41,7 +39,6 @@ class Polynomial {
         product.add({p[0] + q[0], p[1] + q[1], p[2] + q[2], p[3] + q[3]}, Real(one * other));
     return product;
   }
-
  private:
   struct Variable {
     std::size_t place;

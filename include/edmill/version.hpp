@@ -6,8 +6,8 @@
 #define EDMILL_VERSION_MAJOR 1
 #define EDMILL_VERSION_MINOR 0
 #define EDMILL_VERSION_PATCH 0
-/// Programs that were compiled with headers of one number link with libraries of the same number only. It
-/// changes with every change of a public type or function.
+/// Programs that were compiled with headers of one number link with libraries of the same number
+/// only. It changes with every change of a public type or function.
 #define EDMILL_ABI 1
 
 namespace edmill {

@@ -1,5 +1,5 @@
-// The collision log of a case in double, and on standard error its summary: extending_test builds it with
-// changed sources. usage: collision_bits CASE.toml COLLISIONS [SETTING...]
+// The collision log of a case in double, and on standard error its summary: extending_test builds
+// it with changed sources. usage: collision_bits CASE.toml COLLISIONS [SETTING...]
 #include <cstdlib>
 #include <iostream>
 
@@ -16,11 +16,12 @@ class Log : public edmill::engine::Observer<double> {
  public:
   explicit Log(std::uint64_t collisions) : collisions_(collisions) {}
 
-  void on_impact(const edmill::engine::Impact<double>& impact, Simulation<double>& simulation) override {
+  void on_impact(
+      const edmill::engine::Impact<double>& impact, Simulation<double>& simulation) override {
     std::cout << edmill::output::collision_line(impact, simulation, false) << '\n';
-    if (impact.index + 1 == collisions_) simulation.request_stop(edmill::engine::EndReason::stopped);
+    if (impact.index + 1 == collisions_)
+      simulation.request_stop(edmill::engine::EndReason::stopped);
   }
-
  private:
   std::uint64_t collisions_;
 };

@@ -1,16 +1,19 @@
 #!/usr/bin/env python3
 """What the sources of src/ have in common: no header includes itself by way of others; a room has
 its own namespace, and adds to others only what it declares of them; rooms of the page in the
-browser keep to the library that it is built with; judges do without the engine. Prose of the
-manual, of READMEs and of the changelog has lines of at most 100 columns. Files of more than 400
+browser keep to the library that it is built with; judges do without the engine. Pages
+of prose, comments and docstrings have lines of at most 100 columns. Files of more than 400
 lines, functions of more than 60 and six equal lines in two places are listed for a reader to judge,
 and fail nothing.
 
 usage: source_test.py SOURCE"""
+import ast
 import collections
+import io
 import pathlib
 import re
 import sys
+import tokenize
 
 source = pathlib.Path(sys.argv[1]) / "src"
 # By room: each library's folder is one of those that are searched for headers.
@@ -78,23 +81,52 @@ def find_ranges(name, text):
 GENERATED = {"reference.md", "variables.md", "machines.md", "dem_study.md", "test-times.md"}
 
 
-def find_wide_prose():
-    pages = [
-        page for folder in ("docs", "verification", "regression")
-        for page in (source.parent / folder).rglob("*.md")
-    ]
+def report_wide(path, number, line):
+    if len(line) > 100:
+        problems.append(f"{path.relative_to(source.parent)}:{number}: {len(line)} columns of prose, "
+                        "at most 100 are expected")
+
+
+def find_wide_pages():
+    """A line may be longer in a table, a heading, an image, code and a single long word."""
+    pages = [p for folder in ("docs", "verification", "regression", "release", "src")
+             for p in (source.parent / folder).rglob("*.md")]
     for page in pages + list(source.parent.glob("*.md")):
         is_code = False
-        for k, line in enumerate(
-                page.read_text(
-                    encoding="utf-8").splitlines() if page.name not in GENERATED else ()):
+        if page.name in GENERATED:
+            continue
+        for k, line in enumerate(page.read_text(encoding="utf-8").splitlines()):
             if line.strip().startswith("```"):
                 is_code = not is_code
-            elif not is_code and len(line) > 100 and not line.startswith(
-                ("|", "    ", "<", "#", "![")) and " " in line[:100].strip():
-                problems.append(
-                    f"{page.relative_to(source.parent)}:{k + 1}: {len(line)} columns of prose, at most 100 are expected"
-                )
+            elif not is_code and not line.startswith(("|", "    ", "<", "#", "![")):
+                if " " in line[:100].strip():
+                    report_wide(page, k + 1, line)
+
+
+def find_wide_comments():
+    """Comments and docstrings of all sources and scripts."""
+    marks = {".py": "#", ".sh": "#", ".cmake": "#", ".txt": "#", ".pyi": "#",
+             ".cpp": "//", ".hpp": "//", ".def": "//", ".js": "//", ".mjs": "//"}
+    folders = ("src", "include", "tests", "verification", "regression", "docs", "cmake", "release")
+    paths = [p for folder in folders for p in (source.parent / folder).rglob("*")]
+    for path in [p for p in paths + list(source.parent.glob("*")) if p.suffix in marks]:
+        if path.suffix == ".txt" and path.name != "CMakeLists.txt":
+            continue
+        text = path.read_text(encoding="utf-8")
+        if path.suffix == ".py":
+            for token in tokenize.generate_tokens(io.StringIO(text).readline):
+                if token.type == tokenize.COMMENT and token.line.strip().startswith("#"):
+                    report_wide(path, token.start[0], token.line.rstrip("\n"))
+            for node in ast.walk(ast.parse(text)):
+                if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and \
+                        ast.get_docstring(node, clean=False):
+                    place = node.body[0]
+                    for k in range(place.lineno, place.end_lineno + 1):
+                        report_wide(path, k, text.splitlines()[k - 1])
+            continue
+        for k, line in enumerate(text.splitlines()):
+            if line.strip().startswith(marks[path.suffix]):
+                report_wide(path, k + 1, line)
 
 
 # The declarations of instances that two sources need, each by itself.
@@ -161,7 +193,8 @@ for name, text in files.items():
     find_engine(name, text)
 if len(files) < 100:
     problems.append(f"{len(files)} files found in {source}, expected those of the project")
-find_wide_prose()
+find_wide_pages()
+find_wide_comments()
 print("\n".join(to_judge + problems +
                 [f"{len(files)} files, {len(problems)} problems, {len(to_judge)} places to judge"]))
 sys.exit(1 if problems else 0)

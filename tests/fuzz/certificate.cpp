@@ -1,5 +1,5 @@
-// Certificates, as their checker reads them. To random input a wrong number is more likely than a right one,
-// so that the checker is called with few events.
+// Certificates, as their checker reads them. To random input a wrong number is more likely than a
+// right one, so that the checker is called with few events.
 #include <cstdint>
 #include <sstream>
 

@@ -1,5 +1,5 @@
-// Checkpoints: the file around the state, with a digest that fits, and the case in it. What is in the state:
-// tests/core/engine/saved_state_test.cpp.
+// Checkpoints: the file around the state, with a digest that fits, and the case in it. What is in
+// the state: tests/core/engine/saved_state_test.cpp.
 #include "base/digest.hpp"
 #include "base/errors.hpp"
 #include "base/version.hpp"
@@ -14,7 +14,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   begin(program, program_commit);
   const auto rest = fuzz::text_of(data, size);
   for (const auto& body : {begin.bytes() + std::string(rest), std::string(rest)}) {
-    const auto file = fuzz::file_of("edmill checkpoint 4\n" + sha256(body) + "\n" + body, "checkpoint");
+    const auto file =
+        fuzz::file_of("edmill checkpoint 4\n" + sha256(body) + "\n" + body, "checkpoint");
     try {
       const auto checkpoint = io::read_checkpoint(file.parent_path());
       casefile::parse_case(checkpoint.case_text, checkpoint.case_file, checkpoint.overrides);

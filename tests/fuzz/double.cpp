@@ -7,6 +7,6 @@ template std::string to_text<double>(const double&);
 template double from_text<double>(const std::string&);
 template double casefile::Quantity::to<double>() const;
 template model::Mill<double> casefile::build_mill<double>(const casefile::CaseSpec&);
-template casefile::InitialCase<double> casefile::build_case_in<double>(const model::Mill<double>&,
-                                                                       const casefile::CaseSpec&, bool);
+template casefile::InitialCase<double> casefile::build_case_in<double>(
+    const model::Mill<double>&, const casefile::CaseSpec&, bool);
 }  // namespace edmill

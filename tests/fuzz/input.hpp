@@ -21,12 +21,14 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
 /// The bytes in a file of this process.
 inline std::filesystem::path file_of(std::string_view bytes, const std::string& name) {
   static const std::filesystem::path folder = [] {
-    auto place = std::filesystem::temp_directory_path() / ("edmill-fuzz-" + std::to_string(::getpid()));
+    auto place =
+        std::filesystem::temp_directory_path() / ("edmill-fuzz-" + std::to_string(::getpid()));
     std::filesystem::create_directories(place);
     return place;
   }();
   const auto file = folder / name;
-  std::ofstream(file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  std::ofstream(file, std::ios::binary)
+      .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   return file;
 }
 

@@ -1,4 +1,5 @@
-// The reference implementations of the benchmarks are themselves correct simulations of hard spheres.
+// The reference implementations of the benchmarks are themselves correct simulations of hard
+// spheres.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,13 +12,11 @@
 namespace edmill::performance {
 namespace {
 
-template <class Loop>
-class ReferenceLoop : public ::testing::Test {};
+template <class Loop> class ReferenceLoop : public ::testing::Test {};
 using Loops = ::testing::Types<MinimalLoop, PeerLoop>;
 TYPED_TEST_SUITE(ReferenceLoop, Loops);
 
-template <class Loop>
-double deepest_overlap(const Loop& loop) {
+template <class Loop> double deepest_overlap(const Loop& loop) {
   const auto positions = loop.positions();
   double nearest = 2;
   for (std::size_t i = 0; i < positions.size(); ++i)
@@ -34,7 +33,8 @@ double deepest_overlap(const Loop& loop) {
 }
 
 TYPED_TEST(ReferenceLoop, KeepsEnergyAndNeverOverlaps) {
-  for (const auto& [balls, packing] : {std::pair{30, 0.1}, std::pair{500, 0.26}, std::pair{1000, 0.35}}) {
+  for (const auto& [balls, packing] :
+      {std::pair{30, 0.1}, std::pair{500, 0.26}, std::pair{1000, 0.35}}) {
     TypeParam loop(balls, packing, 7);
     const double energy = loop.kinetic_energy();
     EXPECT_NEAR(energy, 1.5 * (balls - 1), 1e-9 * balls);

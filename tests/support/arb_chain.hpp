@@ -41,7 +41,7 @@ struct OracleClock {
 
 /// 2 pi (phase + turns of whole periods + turns at the offset) about the offset t in units of h.
 inline Series phase_series(const OracleTurns& per_period, const OracleClock& clock, double phase,
-                           const Ball& t, const Ball& h, slong n, slong prec) {
+    const Ball& t, const Ball& h, slong n, slong prec) {
   Series result(std::max<slong>(n, 2));
   Ball turn, rate = fraction_of(per_period), turns = rate, whole;
   // Whole turns of whole periods drop out.
@@ -63,8 +63,8 @@ inline Series phase_series(const OracleTurns& per_period, const OracleClock& clo
 }
 
 /// The sum of swings: [m] or [turns].
-inline Series swing_series(const std::vector<OracleSwing>& swings, const OracleClock& clock, const Ball& t,
-                           const Ball& h, slong n, slong prec) {
+inline Series swing_series(const std::vector<OracleSwing>& swings, const OracleClock& clock,
+    const Ball& t, const Ball& h, slong n, slong prec) {
   Series sum(n);
   for (const auto& swing : swings) {
     Series sine(n), cosine(n);
@@ -76,8 +76,8 @@ inline Series swing_series(const std::vector<OracleSwing>& swings, const OracleC
 }
 
 /// speed times the clock [m].
-inline void add_constant_speed(Series& sum, double speed, const OracleClock& clock, const Ball& t,
-                               const Ball& h, slong prec) {
+inline void add_constant_speed(
+    Series& sum, double speed, const OracleClock& clock, const Ball& t, const Ball& h, slong prec) {
   const Ball rate(speed);
   Ball seconds;
   arb_mul_si(seconds.v, clock.length.v, clock.count, exact);
@@ -100,8 +100,8 @@ inline std::array<Ball, 3> unit_vector(const std::array<double, 3>& v, slong pre
 }
 
 /// Turned about the axis a by -angle: p cos - a x p sin + a (a.p) (1 - cos). (Rodrigues)
-inline std::array<Series, 3> turned_back(const std::array<Series, 3>& p, const std::array<Ball, 3>& a,
-                                         const Series& sine, const Series& cosine, slong prec) {
+inline std::array<Series, 3> turned_back(const std::array<Series, 3>& p,
+    const std::array<Ball, 3>& a, const Series& sine, const Series& cosine, slong prec) {
   const slong n = sine.size();
   Series along(n), rest(n);
   for (slong k = 0; k < n; ++k) {
@@ -129,9 +129,8 @@ inline std::array<Series, 3> turned_back(const std::array<Series, 3>& p, const s
 }
 
 /// An inertial place about the offset t of this period, seen from behind the last joint.
-inline std::array<Series, 3> through_chain(const std::vector<OracleJoint>& chain, const OracleClock& clock,
-                                           std::array<Series, 3> p, const Ball& t, const Ball& h,
-                                           slong prec) {
+inline std::array<Series, 3> through_chain(const std::vector<OracleJoint>& chain,
+    const OracleClock& clock, std::array<Series, 3> p, const Ball& t, const Ball& h, slong prec) {
   const slong n = p[0].size();
   for (const auto& joint : chain) {
     const auto axis = unit_vector(joint.axis, prec);

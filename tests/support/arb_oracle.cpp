@@ -9,12 +9,13 @@
 namespace edmill::testing {
 namespace {
 
-/// Taylor model of one function on [-1, 1]. The last coefficient encloses the Lagrange remainder; formal
-/// derivatives of such a polynomial enclose the derivatives.
+/// Taylor model of one function on [-1, 1]. The last coefficient encloses the Lagrange remainder;
+/// formal derivatives of such a polynomial enclose the derivatives.
 struct Polynomial {
   Series d0, d1, d2, d3;
 
-  Polynomial(const Series& at_centre, const Series& everywhere, slong prec) : d0(everywhere.size()) {
+  Polynomial(const Series& at_centre, const Series& everywhere, slong prec)
+      : d0(everywhere.size()) {
     const slong order = at_centre.size();
     for (slong k = 0; k < order; ++k) arb_set(d0[k], at_centre[k]);
     arb_set(d0[order], everywhere[order]);
@@ -39,13 +40,11 @@ struct TaylorModel {
     arb_add(t.v, t.v, centre.v, prec);
     return t;
   }
-
  private:
-  TaylorModel(const Problem& problem, int wall, const Ball& c, const Ball& h, const Ball& all, slong order)
-      : centre(c),
-        half(h),
-        gap(problem.gap(wall, c, h, order, problem.prec()), problem.gap(wall, all, h, order + 1, coarse),
-            problem.prec()) {
+  TaylorModel(
+      const Problem& problem, int wall, const Ball& c, const Ball& h, const Ball& all, slong order)
+      : centre(c), half(h), gap(problem.gap(wall, c, h, order, problem.prec()),
+                                problem.gap(wall, all, h, order + 1, coarse), problem.prec()) {
     const auto at_centre = problem.borders(wall, c, h, order, problem.prec());
     const auto everywhere = problem.borders(wall, all, h, order + 1, coarse);
     for (std::size_t k = 0; k < at_centre.size(); ++k)
@@ -120,7 +119,6 @@ class Search {
     auto found = inside(TaylorModel(problem_, wall_, centre, half), -1, 1, 0, begin);
     return found ? *found : OracleContact{};
   }
-
  private:
   using Found = std::optional<OracleContact>;  // nothing: no contact here, search further right
 
@@ -155,8 +153,8 @@ class Search {
       if (positive(at_left) && positive(at_right)) return {};
       if (positive(at_left) && not_positive(at_right)) return root(f, s, begin, false);
       if (negative(at_right) && arb_contains_zero(at_left.v)) {
-        // Zero at the left end within this precision: the contact is there or within that uncertainty after
-        // it.
+        // Zero at the left end within this precision: the contact is there or within that
+        // uncertainty after it.
         Ball late;
         arb_div(late.v, at_left.v, r.rate.v, problem_.prec());
         arb_sub(late.v, left.v, late.v, problem_.prec());
@@ -177,7 +175,7 @@ class Search {
 
   /// What is undecided: by a new model where the remainder blurs this one, then by halves.
   Found in_parts(const TaylorModel& f, double a, double b, int depth, const Ball& begin,
-                 bool model_is_coarse) const {
+      bool model_is_coarse) const {
     if (b - a <= 1 && (b - a < 0x1p-36 || model_is_coarse)) {
       Ball half(b - a), middle(a + (b - a) / 2);
       arb_mul_2exp_si(half.v, half.v, -1);
@@ -185,13 +183,15 @@ class Search {
       return inside(TaylorModel(problem_, wall_, f.offset(middle), half), -1, 1, depth, begin);
     }
     const slong prec = problem_.prec();
-    if (arf_cmpabs_2exp_si(arb_midref(f.half.v), -prec / 2 - 8) < 0 || depth > 600) return unresolved();
+    if (arf_cmpabs_2exp_si(arb_midref(f.half.v), -prec / 2 - 8) < 0 || depth > 600)
+      return unresolved();
     const double m = a + (b - a) / 2;
     if (auto found = inside(f, a, m, depth + 1, begin)) return found;
     return inside(f, m, b, depth + 1, begin);
   }
 
-  /// Value (or rate, in units of s) at one place; straight from the equations where the model is too blurred.
+  /// Value (or rate, in units of s) at one place; straight from the equations where the model is
+  /// too blurred.
   Ball value(const TaylorModel& f, const Ball& s, bool rate) const {
     Ball v;
     (rate ? f.gap.d1 : f.gap.d0).at(v, s, problem_.prec());
@@ -201,8 +201,8 @@ class Search {
     return v;
   }
 
-  /// Interval Newton for the one root of the falling gap (or of its falling rate) in `s`; halves where Newton
-  /// does not gain.
+  /// Interval Newton for the one root of the falling gap (or of its falling rate) in `s`; halves
+  /// where Newton does not gain.
   Found root(TaylorModel f, Ball s, const Ball& begin, bool of_rate) const {
     const slong prec = problem_.prec();
     bool fresh = true;

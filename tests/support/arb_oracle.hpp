@@ -1,5 +1,6 @@
 // A second, independent answer to the ball-wall question: interval branch and bound in Arb balls.
-// It shares neither bounds nor numerics with the solver; only the doubles of the question are common.
+// It shares neither bounds nor numerics with the solver; only the doubles of the question are
+// common.
 #pragma once
 
 #include <array>
@@ -49,8 +50,9 @@ struct OracleQuestion {
   std::optional<std::vector<OracleJoint>> chain;  ///< in place of the nested motion
   std::optional<std::array<double, 3>> box;       ///< half of its edges, in place of a cylinder
   std::optional<double> sphere;                   ///< its radius, in place of a cylinder
-  std::optional<std::array<double, 3>> rounded;   ///< core radius, half height of the core, rounding
-  std::vector<std::array<double, 4>> planes;      ///< outward normals and distances, in place of a cylinder
+  std::optional<std::array<double, 3>> rounded;  ///< core radius, half height of the core, rounding
+  std::vector<std::array<double, 4>>
+      planes;  ///< outward normals and distances, in place of a cylinder
   std::vector<std::vector<OracleTerm>> polynomials;  ///< by wall, in place of a cylinder
   std::vector<OraclePiston> pistons;
   int wall_count() const {
@@ -79,7 +81,8 @@ struct OracleContact {
   double earliest = 0, latest = 0;  ///< enclosure of the delay [s]
   double slope = 0;                 ///< rate of the gap function there, per second
   double curvature = 0;             ///< its second derivative there
-  bool turned_back = false;  ///< overlapped and leaving at first; the contact is where the rate vanishes
+  bool turned_back =
+      false;  ///< overlapped and leaving at first; the contact is where the rate vanishes
 };
 
 /// Nearest doubles to a gap function and its rate.
@@ -87,8 +90,8 @@ struct OracleSample {
   double gap, rate;
 };
 
-/// Contacts with the walls by id. A wall is searched up to the first contact with the walls before it and
-/// a little beyond.
+/// Contacts with the walls by id. A wall is searched up to the first contact with the walls before
+/// it and a little beyond.
 std::vector<OracleContact> first_contacts(const OracleQuestion& question);
 
 /// Gap function of `wall` at `delay` after the window's begin.

@@ -29,8 +29,8 @@ class Problem {
   slong prec() const { return prec_; }
   const OracleQuestion& question() const { return q_; }
 
-  /// Taylor coefficients of the gap function of `wall` about the offset `t` in units of `h`. Over a wide `t`
-  /// they enclose those about every time in it.
+  /// Taylor coefficients of the gap function of `wall` about the offset `t` in units of `h`. Over a
+  /// wide `t` they enclose those about every time in it.
   Series gap(int wall, const Ball& t, const Ball& h, slong count, slong prec) const {
     Series result = fixed_gap(wall, t, h, count, prec);
     for (const auto& piston : q_.pistons) {
@@ -45,12 +45,15 @@ class Problem {
     return result;
   }
 
-  /// Whether a ball of this size ever touches `wall`: edges rounder than the ball are beyond its reach.
+  /// Whether a ball of this size ever touches `wall`: edges rounder than the ball are beyond its
+  /// reach.
   bool within_reach(int wall) const { return !edges_unreachable() || wall >= 2; }
 
-  /// Taylor coefficients of functions that are at least zero where `wall` is the nearest one. These regions
-  /// reach a little into each other, so that a contact on their border is found with both walls.
-  std::vector<Series> borders(int wall, const Ball& t, const Ball& h, slong count, slong prec) const {
+  /// Taylor coefficients of functions that are at least zero where `wall` is the nearest one. These
+  /// regions reach a little into each other, so that a contact on their border is found with both
+  /// walls.
+  std::vector<Series> borders(
+      int wall, const Ball& t, const Ball& h, slong count, slong prec) const {
     std::vector<Series> result;
     if (!q_.rounded || edges_unreachable()) return result;
     constexpr double overlap = 1e-10;  // [m]; the gaps differ by its square
@@ -85,14 +88,14 @@ class Problem {
   Series sample(int wall, const Ball& t, slong count = 2) const {
     return gap(wall, t, Ball(1.0), count, prec_);
   }
-
  private:
   /// To the wall at its place in the vessel.
   Series fixed_gap(int wall, const Ball& t, const Ball& h, slong count, slong prec) const {
     const slong n = count;
     if (q_.sphere) return gap_to_centre(t, h, n, prec);
     if (q_.rounded) return gap_to_rounded(wall, t, h, n, prec);
-    if (!q_.planes.empty()) return gap_to_plane(q_.planes[static_cast<std::size_t>(wall)], t, h, n, prec);
+    if (!q_.planes.empty())
+      return gap_to_plane(q_.planes[static_cast<std::size_t>(wall)], t, h, n, prec);
     if (!q_.polynomials.empty())
       return gap_of_polynomial(q_.polynomials[static_cast<std::size_t>(wall)], t, h, n, prec);
     if (q_.box || wall < 2) {
@@ -160,8 +163,8 @@ class Problem {
   }
 
   /// d - R - n.p
-  Series gap_to_plane(const std::array<double, 4>& plane, const Ball& t, const Ball& h, slong n,
-                      slong prec) const {
+  Series gap_to_plane(
+      const std::array<double, 4>& plane, const Ball& t, const Ball& h, slong n, slong prec) const {
     Series result(n);
     const Ball distance(plane[3]), radius(q_.radius);
     arb_sub(result[0], distance.v, radius.v, exact);
@@ -174,8 +177,8 @@ class Problem {
     return result;
   }
 
-  Series gap_of_polynomial(const std::vector<OracleTerm>& terms, const Ball& t, const Ball& h, slong n,
-                           slong prec) const {
+  Series gap_of_polynomial(const std::vector<OracleTerm>& terms, const Ball& t, const Ball& h,
+      slong n, slong prec) const {
     const auto place = coordinates(t, h, n, prec);
     Series sum(n);
     for (const auto& term : terms) {
@@ -210,8 +213,8 @@ class Problem {
   std::array<Series, 3> in_nested(const Ball& t, const Ball& h, slong n, slong prec) const {
     Series sin_a(n), cos_a(n), sin_g(n), cos_g(n);
     turn_drive(t, h, prec, sin_a, cos_a, sin_g, cos_g);
-    // R_z(-theta) P = (x, b, Z) with x = Y cos(alpha) - X sin(alpha), b = -X cos(alpha) - Y sin(alpha),
-    // R_x(-gamma): y = b cos(gamma) + Z sin(gamma), z = Z cos(gamma) - b sin(gamma).
+    // R_z(-theta) P = (x, b, Z) with x = Y cos(alpha) - X sin(alpha), b = -X cos(alpha) - Y
+    // sin(alpha), R_x(-gamma): y = b cos(gamma) + Z sin(gamma), z = Z cos(gamma) - b sin(gamma).
     const Series X = path(0, t, h, n, prec), Y = path(1, t, h, n, prec), Z = path(2, t, h, n, prec);
     Series x(n), y(n), z(n), b(n);
     for (slong k = 0; k < n; ++k) {
@@ -235,8 +238,8 @@ class Problem {
   }
 
   /// Sine and cosine of alpha = theta - pi/2 and of gamma.
-  void turn_drive(const Ball& t, const Ball& h, slong prec, Series& sin_a, Series& cos_a, Series& sin_g,
-                  Series& cos_g) const {
+  void turn_drive(const Ball& t, const Ball& h, slong prec, Series& sin_a, Series& cos_a,
+      Series& sin_g, Series& cos_g) const {
     const slong n = sin_a.size();
     Ball phase, wh, factor(1.0), s, c;
     arb_mul(phase.v, omega_.v, t.v, prec);

@@ -48,7 +48,6 @@ class Series {
   void at(Ball& result, const Ball& s, slong prec) const {
     _arb_poly_evaluate_horner(result.v, data_, size_, s.v, prec);
   }
-
  private:
   slong size_;
   arb_ptr data_;

@@ -25,11 +25,10 @@ class FaultyLog : public ProgramTest {
 
   /// Two kinds of balls of unequal mass and inertia, gravity; the default least separation speed.
   void prepare(const std::string& contact = "restitution = 0.53") {
-    spec =
-        casefile::parse_case(testing::spex_text("end_time = \"10 s\"\nseed = 7", contact,
-                                                testing::batch(2, "9.52 mm") +
-                                                    testing::batch(3, "4.76 mm", "reduced_inertia = 0.6\n")),
-                             "faulty.toml");
+    spec = casefile::parse_case(
+        testing::spex_text("end_time = \"10 s\"\nseed = 7", contact,
+            testing::batch(2, "9.52 mm") + testing::batch(3, "4.76 mm", "reduced_inertia = 0.6\n")),
+        "faulty.toml");
     built = casefile::build_case<double>(spec);
   }
   Audit judged(const std::string& name = "log.csv") {
@@ -58,7 +57,9 @@ class FaultyLog : public ProgramTest {
   int simulate(const Faults& faults, int events = 400) {
     return FaultyMill(built.the_case, built.states, faults).write_log(scratch / "log.csv", events);
   }
-  static std::uint64_t count(const Audit& result, Kind kind) { return result.findings.of(kind).count; }
+  static std::uint64_t count(const Audit& result, Kind kind) {
+    return result.findings.of(kind).count;
+  }
   static bool looks_like(const Audit& result, const std::string& name) {
     for (const auto& d : result.diagnoses)
       if (d.name == name) return true;
@@ -86,10 +87,10 @@ class FaultyLog : public ProgramTest {
         all.back() += c;
     return all;
   }
-  /// Changes one field of one line. Columns: 1 time, 2 ball, 3 kind, 4 partner, 7 dose, 8 work, 9 x, 15
-  /// wx_before.
+  /// Changes one field of one line. Columns: 1 time, 2 ball, 3 kind, 4 partner, 7 dose, 8 work, 9
+  /// x, 15 wx_before.
   void change(std::size_t line, std::size_t column,
-              const std::function<std::string(const std::string&)>& how) const {
+      const std::function<std::string(const std::string&)>& how) const {
     auto all = lines();
     auto parts = fields(all.at(line));
     parts.at(column) = how(parts.at(column));

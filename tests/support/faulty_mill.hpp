@@ -1,5 +1,6 @@
 // A small event-driven mill with switches for mistakes, which writes its log as another code would:
-// independent of the engine, with its own search, so that every impact follows from the mistaken ones before.
+// independent of the engine, with its own search, so that every impact follows from the mistaken
+// ones before.
 #pragma once
 
 #include <fmt/format.h>
@@ -21,22 +22,23 @@
 namespace edmill::testing {
 
 struct Faults {
-  bool printed_rotations = false;     ///< (2.14)
-  bool wall_at_rest = false;          ///< velocity 0 in the impulse
-  double wall_velocity_factor = 1;    ///< in the impulse
-  double restitution = -1;            ///< instead of the law's
-  double least_separation = -1;       ///< instead of the law's [m/s]; 0 for none
-  bool restitution_friction = false;  ///< sliding limited by mu (1 + e_n) |g_n| where bodies separate at v_s
-  bool tangential_sign = false;       ///< (2.34)
-  bool printed_compliance = false;    ///< (2.24)
-  bool equal_masses = false;          ///< each of two balls takes half of the relative change
-  bool exchanged_masses = false;      ///< each takes the share of the other
-  bool spin_lost = false;             ///< in flight
-  bool no_gravity = false;            ///< in flight
-  int late_every = 0;                 ///< one in this many impacts is handled 20 us late
-  double step = 0;                    ///< contacts are seen at the first multiple of it [s]
-  int missed_pairs_every = 0;         ///< one in this many contacts of two balls is missed
-  bool lower_cap_unseen = false;      ///< (2.19): y - R - h/2 never changes its sign
+  bool printed_rotations = false;   ///< (2.14)
+  bool wall_at_rest = false;        ///< velocity 0 in the impulse
+  double wall_velocity_factor = 1;  ///< in the impulse
+  double restitution = -1;          ///< instead of the law's
+  double least_separation = -1;     ///< instead of the law's [m/s]; 0 for none
+  bool restitution_friction =
+      false;  ///< sliding limited by mu (1 + e_n) |g_n| where bodies separate at v_s
+  bool tangential_sign = false;     ///< (2.34)
+  bool printed_compliance = false;  ///< (2.24)
+  bool equal_masses = false;        ///< each of two balls takes half of the relative change
+  bool exchanged_masses = false;    ///< each takes the share of the other
+  bool spin_lost = false;           ///< in flight
+  bool no_gravity = false;          ///< in flight
+  int late_every = 0;               ///< one in this many impacts is handled 20 us late
+  double step = 0;                  ///< contacts are seen at the first multiple of it [s]
+  int missed_pairs_every = 0;       ///< one in this many contacts of two balls is missed
+  bool lower_cap_unseen = false;    ///< (2.19): y - R - h/2 never changes its sign
   double dose_factor = 1;
   bool net_dose = false;  ///< supplied energy is subtracted from the dose
 };
@@ -45,8 +47,8 @@ class FaultyMill {
  public:
   using Vec = Vec3<double>;
 
-  FaultyMill(const model::Case<double>& the_case, const std::vector<model::BallState<double>>& states,
-             const Faults& faults)
+  FaultyMill(const model::Case<double>& the_case,
+      const std::vector<model::BallState<double>>& states, const Faults& faults)
       : case_(the_case), states_(states), faults_(faults), stalls_(states.size()) {
     gravity_ = faults.no_gravity ? Vec(0, 0, 0) : the_case.mill.gravity;
   }
@@ -58,7 +60,8 @@ class FaultyMill {
     for (int written = 0; written < count;) {
       const Contact next = first_contact();
       advance(next.time);
-      if (!next.with_wall && faults_.missed_pairs_every > 0 && ++pairs_ % faults_.missed_pairs_every == 0) {
+      if (!next.with_wall && faults_.missed_pairs_every > 0 &&
+          ++pairs_ % faults_.missed_pairs_every == 0) {
         passing_ = {next.ball, next.partner};
         ++special_;
         continue;
@@ -76,7 +79,6 @@ class FaultyMill {
     }
     return special_;
   }
-
  private:
   struct Contact {
     double time = std::numeric_limits<double>::infinity();
@@ -86,13 +88,17 @@ class FaultyMill {
   };
 
   /// The vessel's axes as columns. (2.7') or (2.14)
-  void axes(double t, Vec& x, Vec& y, Vec& z, Vec& centre, double& theta_rate, double& gamma_rate) const {
+  void axes(
+      double t, Vec& x, Vec& y, Vec& z, Vec& centre, double& theta_rate, double& gamma_rate) const {
     const auto& m = spex(case_.mill);
     const double w = 2 * M_PI / m.period();
-    const double theta = m.theta_max() * std::cos(w * t) + M_PI / 2, gamma = m.gamma_max() * std::sin(w * t);
-    const double s = std::sin(theta), c = std::cos(theta), sg = std::sin(gamma), cg = std::cos(gamma);
+    const double theta = m.theta_max() * std::cos(w * t) + M_PI / 2,
+                 gamma = m.gamma_max() * std::sin(w * t);
+    const double s = std::sin(theta), c = std::cos(theta), sg = std::sin(gamma),
+                 cg = std::cos(gamma);
     centre = {m.arm() * c, m.arm() * s, 0};
-    theta_rate = -m.theta_max() * w * std::sin(w * t), gamma_rate = m.gamma_max() * w * std::cos(w * t);
+    theta_rate = -m.theta_max() * w * std::sin(w * t),
+    gamma_rate = m.gamma_max() * w * std::cos(w * t);
     if (faults_.printed_rotations) {
       x = {c, s * cg, s * sg}, y = {-s, c * cg, c * sg}, z = {0, -sg, cg};
     } else {
@@ -117,7 +123,8 @@ class FaultyMill {
     axes(t, x, y, z, centre, a, b);
     const Vec d = position(k, t) - centre;
     const double R = case_.balls[k].radius;
-    if (wall != 2) return testing::cylinder(case_.mill).half_height + (wall == 0 ? 1 : -1) * d.dot(y) - R;
+    if (wall != 2)
+      return testing::cylinder(case_.mill).half_height + (wall == 0 ? 1 : -1) * d.dot(y) - R;
     const double side = testing::cylinder(case_.mill).radius - R, p = d.dot(x), q = d.dot(z);
     return (side * side - p * p - q * q) / (2 * side);
   }
@@ -126,11 +133,12 @@ class FaultyMill {
   double wall_time(int k, int wall, double until) const {
     constexpr double bend = 20000, h = 1e-7;
     for (double t = time_; t < until;) {
-      const double f = gap(k, wall, t), slope = (gap(k, wall, t + h) - gap(k, wall, t - h)) / (2 * h);
+      const double f = gap(k, wall, t),
+                   slope = (gap(k, wall, t + h) - gap(k, wall, t - h)) / (2 * h);
       if (f < 2e-16 && slope < 0) return t;
       const double step = f < 1e-13 && slope > 0
-                              ? slope / bend
-                              : (slope + std::sqrt(slope * slope + 2 * bend * std::max(f, 0.0))) / bend;
+          ? slope / bend
+          : (slope + std::sqrt(slope * slope + 2 * bend * std::max(f, 0.0))) / bend;
       if (!(t + step > t)) {
         if (slope < 0) return t;
         t = std::nextafter(t, 1.0) + 1e-12;
@@ -147,7 +155,8 @@ class FaultyMill {
   }
 
   double pair_time(int i, int j) const {
-    const Vec r = states_[i].position - states_[j].position, v = states_[i].velocity - states_[j].velocity;
+    const Vec r = states_[i].position - states_[j].position,
+              v = states_[i].velocity - states_[j].velocity;
     const double sum = case_.balls[i].radius + case_.balls[j].radius;
     const double b = r.dot(v), c = r.squaredNorm() - sum * sum, d = b * b - v.squaredNorm() * c;
     if (b >= 0 || d < 0) return std::numeric_limits<double>::infinity();
@@ -164,7 +173,8 @@ class FaultyMill {
         if (except && !except->with_wall && except->ball == i && except->partner == j) continue;
         if (passing_ == std::pair(i, j)) {
           const Vec r = states_[i].position - states_[j].position;
-          if (r.norm() < case_.balls[i].radius + case_.balls[j].radius + 1e-12) continue;  // not through yet
+          if (r.norm() < case_.balls[i].radius + case_.balls[j].radius + 1e-12)
+            continue;  // not through yet
           passing_ = {-1, -1};
         }
         const double t = pair_time(i, j);
@@ -194,8 +204,8 @@ class FaultyMill {
   }
 
   /// Sets e_t of an impact whose friction ignores the least separation speed.
-  static void fix_friction(model::ContactLaw<double>& law, const Vec& g, const Vec& normal,
-                           double compliance) {
+  static void fix_friction(
+      model::ContactLaw<double>& law, const Vec& g, const Vec& normal, double compliance) {
     const double g_n = g.dot(normal), slip = (g - normal * g_n).norm();
     const double e_n = law.restitution(-g_n, {1, 1});  // of no law that asks for the bodies
     law.law = model::ConstantRestitution<double>{
@@ -215,22 +225,25 @@ class FaultyMill {
     axes(time_, x, y, z, centre, theta_rate, gamma_rate);
     const Vec d = one.position - centre;
     const Vec outward = x * d.dot(x) + z * d.dot(z);
-    impact.normal = c.partner == 2 ? Vec(-outward / outward.norm()) : Vec(y * (c.partner == 0 ? 1.0 : -1.0));
+    impact.normal =
+        c.partner == 2 ? Vec(-outward / outward.norm()) : Vec(y * (c.partner == 0 ? 1.0 : -1.0));
     const Vec point = one.position - impact.normal * case_.balls[c.ball].radius;
     const double s = centre[1] / testing::spex(case_.mill).arm(),
                  co = centre[0] / testing::spex(case_.mill).arm();
     Vec& wall = impact.wall;
-    wall = Vec(0, 0, theta_rate).cross(point) + Vec(Vec(co, s, 0) * gamma_rate).cross(Vec(point - centre));
+    wall = Vec(0, 0, theta_rate).cross(point) +
+        Vec(Vec(co, s, 0) * gamma_rate).cross(Vec(point - centre));
     if (faults_.printed_rotations)  // the derivative of the printed position
-      wall = Vec(0, 0, theta_rate).cross(centre) + Vec(gamma_rate, 0, 0).cross(Vec(point - centre)) +
-             Vec(z * theta_rate).cross(Vec(point - centre));
+      wall = Vec(0, 0, theta_rate).cross(centre) +
+          Vec(gamma_rate, 0, 0).cross(Vec(point - centre)) +
+          Vec(z * theta_rate).cross(Vec(point - centre));
     wall *= faults_.wall_at_rest ? 0 : faults_.wall_velocity_factor;
     const auto& ball = case_.balls[c.ball];
     if (faults_.restitution_friction)
-      fix_friction(law, one.velocity - wall - Vec(one.spin * ball.radius).cross(impact.normal), impact.normal,
-                   1 + 1 / ball.reduced_inertia);
-    impact.outcome =
-        dynamics::collide_with_wall<double>(impact.normal, ball, wall, one.velocity, one.spin, law, in_stall);
+      fix_friction(law, one.velocity - wall - Vec(one.spin * ball.radius).cross(impact.normal),
+          impact.normal, 1 + 1 / ball.reduced_inertia);
+    impact.outcome = dynamics::collide_with_wall<double>(
+        impact.normal, ball, wall, one.velocity, one.spin, law, in_stall);
     return impact;
   }
 
@@ -242,21 +255,21 @@ class FaultyMill {
     Vec& normal = impact.normal;
     normal = one.position - two.position;
     normal /= normal.norm();
-    const Vec g =
-        one.velocity - two.velocity - Vec(one.spin * bi.radius + two.spin * bj.radius).cross(normal);
+    const Vec g = one.velocity - two.velocity -
+        Vec(one.spin * bi.radius + two.spin * bj.radius).cross(normal);
     if (faults_.printed_compliance) {
       const double g_n = g.dot(normal), slip = (g - normal * g_n).norm();
-      law.law = model::ConstantRestitution<double>{
-          law.restitution(-g_n, {1, 1}), law.restitution_of_slip(law.separation_speed(-g_n, {1, 1}) - g_n,
-                                                                 slip, 1 + 1 / bi.reduced_inertia)};
+      law.law = model::ConstantRestitution<double>{law.restitution(-g_n, {1, 1}),
+          law.restitution_of_slip(
+              law.separation_speed(-g_n, {1, 1}) - g_n, slip, 1 + 1 / bi.reduced_inertia)};
     }
     if (faults_.restitution_friction) {
       const double total = bi.mass + bj.mass;
       fix_friction(law, g, normal,
-                   1 + bj.mass / total / bi.reduced_inertia + bi.mass / total / bj.reduced_inertia);
+          1 + bj.mass / total / bi.reduced_inertia + bi.mass / total / bj.reduced_inertia);
     }
-    impact.outcome = dynamics::collide_balls<double>(normal, bi, bj, one.velocity, one.spin, two.velocity,
-                                                     two.spin, law, in_stall);
+    impact.outcome = dynamics::collide_balls<double>(
+        normal, bi, bj, one.velocity, one.spin, two.velocity, two.spin, law, in_stall);
     const auto scale = [](auto& state, const auto& old, double factor) {
       state.velocity = old.velocity + (state.velocity - old.velocity) * factor;
       state.spin = old.spin + (state.spin - old.spin) * factor;
@@ -293,7 +306,8 @@ class FaultyMill {
     auto& two = states_[c.with_wall ? c.ball : c.partner];
     if (faults_.spin_lost) one.spin = two.spin = Vec(0, 0, 0);
     const auto before = std::pair(one, two);
-    if (faults_.restitution >= 0) std::get<model::WaltonBraun<double>>(law.law).normal = faults_.restitution;
+    if (faults_.restitution >= 0)
+      std::get<model::WaltonBraun<double>>(law.law).normal = faults_.restitution;
     if (faults_.least_separation >= 0) law.least_separation = faults_.least_separation;
     auto [normal, wall, o] =
         c.with_wall ? collide_with_wall(c, law, in_stall) : collide_balls(c, law, in_stall);
@@ -307,9 +321,9 @@ class FaultyMill {
       o.wall_work = case_.balls[c.ball].mass * wall.dot(one.velocity - before.first.velocity);
     }
     if (faults_.net_dose) o.milling_dose -= o.supplied_energy;
-    std::string line =
-        fmt::format(",{},{},{},{},{},{},{},{}", time_, c.ball, c.with_wall ? "wall" : "ball", c.partner,
-                    o.approach_speed, o.slip_speed, o.milling_dose * faults_.dose_factor, o.wall_work);
+    std::string line = fmt::format(",{},{},{},{},{},{},{},{}", time_, c.ball,
+        c.with_wall ? "wall" : "ball", c.partner, o.approach_speed, o.slip_speed,
+        o.milling_dose * faults_.dose_factor, o.wall_work);
     const auto add = [&](const auto& old, const auto& now) {
       for (const Vec* v : {&old.position, &old.velocity, &old.spin, &now.velocity, &now.spin})
         line += fmt::format(",{},{},{}", (*v)[0], (*v)[1], (*v)[2]);

@@ -1,5 +1,6 @@
-// The program of a room's tests: `ROOM_tests [FILE [short|long]]` runs the tests that stand in FILE, all of
-// them, those without "Long" in their names or those with it; without FILE, what --gtest_filter selects.
+// The program of a room's tests: `ROOM_tests [FILE [short|long]]` runs the tests that stand in
+// FILE, all of them, those without "Long" in their names or those with it; without FILE, what
+// --gtest_filter selects.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -9,7 +10,7 @@
 namespace {
 
 bool selected(const testing::TestSuite& suite, const testing::TestInfo& test, std::string_view file,
-              std::string_view part) {
+    std::string_view part) {
   if (!std::string_view(test.file()).ends_with(file)) {
     return false;
   }

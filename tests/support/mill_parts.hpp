@@ -9,12 +9,10 @@
 namespace edmill::testing {
 
 /// @pre the mill is a SPEX, or still
-template <class Real>
-const model::SpexMotion<Real>& spex(const model::Mill<Real>& mill) {
+template <class Real> const model::SpexMotion<Real>& spex(const model::Mill<Real>& mill) {
   return *mill.motion.template get_if<model::SpexMotion<Real>>();
 }
-template <class Real>
-const model::CylinderVessel<Real>& cylinder(const model::Mill<Real>& mill) {
+template <class Real> const model::CylinderVessel<Real>& cylinder(const model::Mill<Real>& mill) {
   return *mill.vessel.template get_if<model::CylinderVessel<Real>>();
 }
 
@@ -27,12 +25,15 @@ Real gap_per_metre(const model::Mill<Real>& mill, int wall, const Real& ball_rad
     return 2 * (sphere->radius - ball_radius);
   if (const auto* rounded = mill.vessel.template get_if<model::RoundedVessel<Real>>()) {
     const Real room = rounded->rounding() - ball_radius;
-    return wall < 2 ? Real(2 * room) : wall == 2 ? Real(2 * (rounded->core_radius() + room)) : Real(1);
+    return wall < 2 ? Real(2 * room)
+        : wall == 2 ? Real(2 * (rounded->core_radius() + room))
+                    : Real(1);
   }
   return Real(1);
 }
 
-/// Whether a joint translates at constant speed: the bounds then hold until the end of the case only.
+/// Whether a joint translates at constant speed: the bounds then hold until the end of the case
+/// only.
 inline bool slides(const auto& mill) {
   bool found = false;
   mill.motion.visit([&](const auto& motion) {
@@ -48,9 +49,9 @@ inline std::string text_of(const model::Mill<double>& mill) {
   out << std::hexfloat;
   if (const auto* chain = mill.motion.get_if<model::ChainMotion<double>>())
     for (const auto& j : chain->joints().list)
-      out << (j.rotates ? "turn " : "shift ") << j.axis[0] << " " << j.axis[1] << " " << j.axis[2] << " "
-          << j.shift[0] << " " << j.shift[1] << " " << j.shift[2] << " " << j.angle << " " << j.speed
-          << " swings " << j.swings.size() << "; ";
+      out << (j.rotates ? "turn " : "shift ") << j.axis[0] << " " << j.axis[1] << " " << j.axis[2]
+          << " " << j.shift[0] << " " << j.shift[1] << " " << j.shift[2] << " " << j.angle << " "
+          << j.speed << " swings " << j.swings.size() << "; ";
   else
     out << "arm " << spex(mill).arm() << " theta_max " << spex(mill).theta_max() << " gamma_max "
         << spex(mill).gamma_max();
@@ -63,7 +64,8 @@ inline std::string text_of(const model::Mill<double>& mill) {
     out << ", rounded " << rounded->core_radius() << " " << rounded->core_half() << " "
         << rounded->rounding();
   else if (const auto* polyhedron = mill.vessel.get_if<model::PolyhedronVessel<double>>())
-    for (const auto& [n, d] : polyhedron->planes()) out << ", plane " << n.transpose() << " at " << d;
+    for (const auto& [n, d] : polyhedron->planes())
+      out << ", plane " << n.transpose() << " at " << d;
   else if (mill.vessel.get_if<model::AlgebraicVessel<double>>())
     out << ", " << mill.vessel.wall_count() << " curved walls";
   else
@@ -78,12 +80,10 @@ using GeneralFunctions = dynamics::GapFunctions<model::AnyMotion<Real>, model::A
 template <class Real>
 using GeneralSearch = dynamics::WallSearch<model::AnyMotion<Real>, model::AnyVessel<Real>>;
 
-template <class Real>
-GeneralMill<Real> moving(const model::Mill<Real>& mill) {
+template <class Real> GeneralMill<Real> moving(const model::Mill<Real>& mill) {
   return {mill.motion, mill.vessel, mill.gravity};
 }
-template <class Real>
-GeneralSearch<Real> general_search(const model::Mill<Real>& mill) {
+template <class Real> GeneralSearch<Real> general_search(const model::Mill<Real>& mill) {
   return {mill.motion, mill.vessel, mill.gravity};
 }
 

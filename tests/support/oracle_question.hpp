@@ -8,21 +8,16 @@
 namespace edmill::testing {
 
 /// @param overtime  see OracleQuestion [s]
-inline OracleQuestion question_of(const model::Mill<double>& mill, const dynamics::WallQuery<double>& q,
-                                  double overtime = 0) {
+inline OracleQuestion question_of(
+    const model::Mill<double>& mill, const dynamics::WallQuery<double>& q, double overtime = 0) {
   const auto array = [](const Vec3<double>& v) { return std::array<double, 3>{v[0], v[1], v[2]}; };
   OracleQuestion question{};
   question.period = mill.motion.period();
   if (const auto* chain = mill.motion.get_if<model::ChainMotion<double>>()) {
     question.chain.emplace();
     for (const auto& j : chain->joints().list) {
-      OracleJoint joint{j.rotates,
-                        j.axis,
-                        j.shift,
-                        j.angle,
-                        {j.per_period.whole, j.per_period.bits},
-                        {},
-                        j.rotates ? 0 : j.speed};
+      OracleJoint joint{j.rotates, j.axis, j.shift, j.angle,
+          {j.per_period.whole, j.per_period.bits}, {}, j.rotates ? 0 : j.speed};
       for (const auto& s : j.swings)
         joint.swings.push_back({s.amplitude, s.phase, {s.per_period.whole, s.per_period.bits}});
       question.chain->push_back(joint);
@@ -39,14 +34,16 @@ inline OracleQuestion question_of(const model::Mill<double>& mill, const dynamic
   else if (const auto* rounded = mill.vessel.get_if<model::RoundedVessel<double>>())
     question.rounded = {rounded->core_radius(), rounded->core_half(), rounded->rounding()};
   else if (const auto* polyhedron = mill.vessel.get_if<model::PolyhedronVessel<double>>())
-    for (const auto& [n, d] : polyhedron->planes()) question.planes.push_back({n[0], n[1], n[2], d});
+    for (const auto& [n, d] : polyhedron->planes())
+      question.planes.push_back({n[0], n[1], n[2], d});
   else if (const auto* curved = mill.vessel.get_if<model::AlgebraicVessel<double>>())
     for (int wall = 0; wall < curved->wall_count(); ++wall) {
       auto& polynomial = question.polynomials.emplace_back();
       for (const auto& t : curved->form(wall).terms) polynomial.push_back({t.factor, t.powers});
     }
   else
-    question.vessel_radius = cylinder(mill).radius, question.half_height = cylinder(mill).half_height;
+    question.vessel_radius = cylinder(mill).radius,
+    question.half_height = cylinder(mill).half_height;
   if (const auto* pistons = mill.vessel.pistons())
     for (const auto& p : pistons->given()) {
       OraclePiston piston{p.wall, p.distance, p.speed, {}};

@@ -38,11 +38,11 @@ class ProgramTest : public ::testing::Test {
   }
   /// @param before  goes in front of the program, e.g. "mpirun -n 2"
   Outcome edmill(const std::string& arguments, const std::string& before = "") const {
-    const std::string command = "cd '" + scratch.string() + "' && " + before + " '" EDMILL_BINARY "' " +
-                                arguments + " >stdout 2>stderr </dev/null";
+    const std::string command = "cd '" + scratch.string() + "' && " + before +
+        " '" EDMILL_BINARY "' " + arguments + " >stdout 2>stderr </dev/null";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(scratch / "stdout"),
-            contents(scratch / "stderr")};
+        contents(scratch / "stderr")};
   }
 
   std::filesystem::path scratch;

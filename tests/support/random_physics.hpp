@@ -9,20 +9,17 @@
 namespace edmill::testing {
 
 /// Uniform in [low, high): a fraction k/2^40 of the range.
-template <class Real>
-Real draw(const Real& low, const Real& high) {
+template <class Real> Real draw(const Real& low, const Real& high) {
   const auto k = *rc::gen::inRange<std::int64_t>(0, std::int64_t{1} << 40);
   return low + (high - low) * (Real(k) / Real(std::int64_t{1} << 40));
 }
 
-template <class Real>
-Vec3<Real> draw_vector(const Real& size) {
+template <class Real> Vec3<Real> draw_vector(const Real& size) {
   const Real x = draw<Real>(-size, size), y = draw<Real>(-size, size), z = draw<Real>(-size, size);
   return {x, y, z};
 }
 
-template <class Real>
-Vec3<Real> draw_direction() {
+template <class Real> Vec3<Real> draw_direction() {
   const Vec3<Real> v = draw_vector<Real>(Real(1));
   const Real size = norm<Real>(v);
   if (size > Real(1) / 100) return v * (1 / size);
@@ -30,8 +27,7 @@ Vec3<Real> draw_direction() {
 }
 
 /// Radius 0.5 to 10 mm, mass by a density of 1 to 20 g/cm3, reduced inertia 0.1 to 0.7.
-template <class Real>
-model::BallProperties<Real> draw_ball() {
+template <class Real> model::BallProperties<Real> draw_ball() {
   const Real radius = draw<Real>(Real(1) / 2000, Real(1) / 100);
   const Real density = draw<Real>(Real(1000), Real(20000));
   return {radius, density * 4 * radius * radius * radius, draw<Real>(Real(1) / 10, Real(7) / 10)};

@@ -14,8 +14,7 @@ namespace edmill {
 /// @param observer  notified of every impact
 /// @pre `built` was made of `spec`
 inline io::Summary<double> simulated(const casefile::CaseSpec& spec,
-                                     const casefile::InitialCase<double>& built,
-                                     engine::Observer<double>* observer = nullptr) {
+    const casefile::InitialCase<double>& built, engine::Observer<double>* observer = nullptr) {
   run::Guests<double> guests;
   if (observer) guests.observers.push_back(observer);
   std::optional<run::RunDriver<double>> driver;

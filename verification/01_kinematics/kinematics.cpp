@@ -62,7 +62,6 @@ class Series {
   static void sin_cos(Series& s, Series& c, const Series& x) {
     arb_poly_sin_cos_series(s.p_, c.p_, x.p_, terms, bits);
   }
-
  private:
   arb_poly_t p_;
 };
@@ -75,8 +74,12 @@ Vector operator*(const Matrix& m, const Vector& v) {
   for (std::size_t i = 0; i < 3; ++i) r[i] = m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2];
   return r;
 }
-Vector operator+(const Vector& a, const Vector& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-Vector operator-(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Vector operator+(const Vector& a, const Vector& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+Vector operator-(const Vector& a, const Vector& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
 Matrix transposed(const Matrix& m) {
   Matrix t;
   for (std::size_t i = 0; i < 3; ++i)
@@ -122,12 +125,13 @@ Vector printed(const model::SpexMotion<exact>& m, const exact& t, const Vec3<exa
   return r.about_z * arm_of(m) + r.about_x * (r.about_z * constant(p));
 }
 
-template <class To, class From>
-model::SpexMotion<To> widened(const model::SpexMotion<From>& m) {
+template <class To, class From> model::SpexMotion<To> widened(const model::SpexMotion<From>& m) {
   return {To(m.arm()), To(m.theta_max()), To(m.gamma_max()), To(m.period())};
 }
 
-exact distance(const Vec3<exact>& a, const Vec3<exact>& b) { return norm<exact>(Vec3<exact>(a - b)); }
+exact distance(const Vec3<exact>& a, const Vec3<exact>& b) {
+  return norm<exact>(Vec3<exact>(a - b));
+}
 
 class Draw {
  public:
@@ -139,7 +143,6 @@ class Draw {
     const double x = (*this)(-size, size), y = (*this)(-size, size), z = (*this)(-size, size);
     return {x, y, z};
   }
-
  private:
   std::mt19937_64 bits_;
 };
@@ -147,13 +150,14 @@ class Draw {
 constexpr std::uint64_t seed = 20110101;
 constexpr int count = 2000;
 
-/// Largest errors over random mills, points and times in units of epsilon times the size of the quantity.
-template <class Real>
-void compare(double bound) {
+/// Largest errors over random mills, points and times in units of epsilon times the size of the
+/// quantity.
+template <class Real> void compare(double bound) {
   Draw draw(seed);
   exact position(0), velocity(0), acceleration(0), local_velocity(0), local_acceleration(0);
   for (int k = 0; k < count; ++k) {
-    const model::SpexMotion<double> mill{draw(0.02, 0.2), draw(0.01, 0.8), draw(0.01, 0.6), draw(0.02, 0.5)};
+    const model::SpexMotion<double> mill{
+        draw(0.02, 0.2), draw(0.01, 0.8), draw(0.01, 0.6), draw(0.02, 0.5)};
     const auto m = widened<Real>(mill);
     const auto reference = widened<exact>(mill);
     const Vec3<double> p = draw.vector(0.03), v = draw.vector(5), g = draw.vector(10);
@@ -161,7 +165,8 @@ void compare(double bound) {
     const Vector truth = nested(reference, exact(t), vector_cast<exact>(p));
     const auto pose = m.pose({0, Real(t)});
     const Vec3<Real> at = m.to_inertial(pose, vector_cast<Real>(p));
-    const exact unit = exact(epsilon<Real>()) * (reference.arm() + exact(0.03)), w(2 * M_PI / mill.period());
+    const exact unit = exact(epsilon<Real>()) * (reference.arm() + exact(0.03)),
+                w(2 * M_PI / mill.period());
     const auto error = [&](const Vec3<Real>& found, const Vector& series, slong order) {
       return distance(vector_cast<exact>(found), derivative(series, order));
     };
@@ -177,33 +182,39 @@ void compare(double bound) {
       flight[i].set(2, exact(g[axis]) / 2);
     }
     const Rotations r(reference, exact(t));
-    const Vector seen = transposed(r.about_x) * (transposed(r.about_z) * flight - arm_of(reference));
+    const Vector seen =
+        transposed(r.about_x) * (transposed(r.about_z) * flight - arm_of(reference));
     const Vec3<Real> velocity_in = vector_cast<Real>(v);
     const auto state = m.to_vessel_frame(pose, at, velocity_in);
     const auto second = m.vessel_frame_acceleration(pose, state, velocity_in, vector_cast<Real>(g));
     const exact fast = exact(epsilon<Real>()) * (exact(5) + (reference.arm() + exact(0.03)) * w);
     raise(local_velocity, exact(error(state.velocity, seen, 1) / fast));
-    raise(local_acceleration, exact(error(second, seen, 2) / (fast * w + exact(epsilon<Real>()) * 10)));
+    raise(local_acceleration,
+        exact(error(second, seen, 2) / (fast * w + exact(epsilon<Real>()) * 10)));
   }
-  const std::string in = std::string(" in ") + std::string(ScalarName<Real>::value) + ", largest error";
+  const std::string in =
+      std::string(" in ") + std::string(ScalarName<Real>::value) + ", largest error";
   claim.at_most("position of a vessel point" + in, position, bound, " eps");
   claim.at_most("its velocity" + in, velocity, bound, " eps");
   claim.at_most("its acceleration" + in, acceleration, bound, " eps");
-  claim.at_most("velocity of a flying ball seen from the vessel" + in, local_velocity, bound, " eps");
+  claim.at_most(
+      "velocity of a flying ball seen from the vessel" + in, local_velocity, bound, " eps");
   claim.at_most("its acceleration" + in, local_acceleration, bound, " eps");
 }
 
 TEST(Kinematics, PointsOfTheVesselMoveAsTheSeriesSay) {
-  claim.say(std::to_string(count) + " random mills, points and times, seed " + std::to_string(seed));
+  claim.say(
+      std::to_string(count) + " random mills, points and times, seed " + std::to_string(seed));
   compare<double>(8);
   compare<float128>(8);
   compare<mpfr>(8);
 }
 
-/// What one kilogram carried by the vessel's point p is booked as wall work in one drive period: the integral
-/// of (P'' - g).v_w, with v_w the velocity that the collisions use. The integrand is smooth and periodic, so
-/// the sum over equal steps converges faster than any power.
-exact booked_work(const model::SpexMotion<exact>& m, const Vec3<exact>& p, bool as_printed, int steps) {
+/// What one kilogram carried by the vessel's point p is booked as wall work in one drive period:
+/// the integral of (P'' - g).v_w, with v_w the velocity that the collisions use. The integrand is
+/// smooth and periodic, so the sum over equal steps converges faster than any power.
+exact booked_work(
+    const model::SpexMotion<exact>& m, const Vec3<exact>& p, bool as_printed, int steps) {
   const Vec3<exact> gravity(exact(0), exact("-9.8"), exact(0));
   exact work(0);
   for (int k = 0; k < steps; ++k) {
@@ -219,7 +230,8 @@ exact booked_work(const model::SpexMotion<exact>& m, const Vec3<exact>& p, bool 
 }
 
 TEST(Kinematics, ThePrintedOrderOfRotationsCreatesEnergy) {
-  const auto m = widened<exact>(*testing::spex_mill<mpfr>().motion.get_if<model::SpexMotion<mpfr>>());
+  const auto m =
+      widened<exact>(*testing::spex_mill<mpfr>().motion.get_if<model::SpexMotion<mpfr>>());
   const Vec3<exact> p(exact("0.01"), exact("0.02"), exact("0.005"));
   exact apart(0), faster(0);
   for (int k = 0; k < 256; ++k) {
@@ -228,18 +240,22 @@ TEST(Kinematics, ThePrintedOrderOfRotationsCreatesEnergy) {
     raise(apart, distance(derivative(a, 0), derivative(b, 0)));
     // Printed velocity: that of the nested model at the printed place.
     const auto narrow = widened<mpfr>(m);
-    const auto wall = narrow.wall_velocity(narrow.pose({0, mpfr(t)}), vector_cast<mpfr>(derivative(b, 0)));
+    const auto wall =
+        narrow.wall_velocity(narrow.pose({0, mpfr(t)}), vector_cast<mpfr>(derivative(b, 0)));
     raise(faster, distance(vector_cast<exact>(wall), derivative(b, 1)));
   }
   claim.at_least("printed (2.14) puts the point (10, 20, 5) mm off by", apart, 1e-3, " m");
-  claim.at_least("printed wall velocity is off the derivative of the printed position by", faster, 0.1,
-                 " m/s");
+  claim.at_least("printed wall velocity is off the derivative of the printed position by", faster,
+      0.1, " m/s");
   const exact right = booked_work(m, p, false, 128), wrong = booked_work(m, p, true, 128);
   const exact finer = booked_work(m, p, true, 160);
-  claim.at_most("wall work of 1 kg carried round one period, nested model: |W|", abs(right), 1e-45, " J");
+  claim.at_most(
+      "wall work of 1 kg carried round one period, nested model: |W|", abs(right), 1e-45, " J");
   claim.at_most("quadrature error of the next figure", abs(wrong - finer), 1e-20, " J");
-  claim.at_least("the same with printed position and printed velocity: |W|", abs(wrong), 0.01, " J");
-  claim.say("that is " + Claim::text(static_cast<double>(wrong / m.period()), 6) + " W/kg out of nothing");
+  claim.at_least(
+      "the same with printed position and printed velocity: |W|", abs(wrong), 0.01, " J");
+  claim.say("that is " + Claim::text(static_cast<double>(wrong / m.period()), 6) +
+      " W/kg out of nothing");
 }
 
 }  // namespace

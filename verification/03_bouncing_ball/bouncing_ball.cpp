@@ -1,5 +1,5 @@
-// Claim 03: a bouncing ball against closed forms on a still floor, and against an independent 100-digit map
-// on the swinging cap.
+// Claim 03: a bouncing ball against closed forms on a still floor, and against an independent
+// 100-digit map on the swinging cap.
 #include "claim.hpp"
 #include "core.hpp"
 #include "event_recorder.hpp"
@@ -9,21 +9,20 @@ namespace {
 
 const Claim claim("03 bouncing ball");
 
-template <class Real>
-std::string in() {
+template <class Real> std::string in() {
   return std::string(" in ") + std::string(ScalarName<Real>::value);
 }
 
-template <class Real>
-exact relative(const Real& found, const exact& truth) {
+template <class Real> exact relative(const Real& found, const exact& truth) {
   return abs(exact(found) / truth - 1);
 }
 
-/// A ball let fall on a still cap: gravity of 9.81 m/s2 along -X, towards cap 1 at X = -1/2 m. All numbers
-/// are decimals, so that closed forms in 100 digits are those of the case.
+/// A ball let fall on a still cap: gravity of 9.81 m/s2 along -X, towards cap 1 at X = -1/2 m. All
+/// numbers are decimals, so that closed forms in 100 digits are those of the case.
 casefile::CaseSpec drop(const std::string& e, const std::string& x, const std::string& diameter) {
   return casefile::parse_case(
-      "[run]\nend_time = \"1000 s\"\ngravity = [\"-9.81\", \"0\", \"0\"]\n[mill]\ntype = \"still\"\narm = "
+      "[run]\nend_time = \"1000 s\"\ngravity = [\"-9.81\", \"0\", \"0\"]\n[mill]\ntype = "
+      "\"still\"\narm = "
       "\"1 m\"\n"
       "[vessel]\ndiameter = \"1 m\"\nheight = \"1 m\"\n[contact]\nrestitution = " +
           e + "\nfriction = 0\nleast_separation = \"0 m/s\"\n[[ball]]\ndiameter = \"" + diameter +
@@ -31,10 +30,10 @@ casefile::CaseSpec drop(const std::string& e, const std::string& x, const std::s
       "drop.toml");
 }
 
-template <class Real>
-struct Drop {
+template <class Real> struct Drop {
   testing::EventRecorder<Real> log;
-  std::vector<Real> times, heights;  ///< of impacts, and of the tops after them, above the place of impact
+  std::vector<Real> times,
+      heights;  ///< of impacts, and of the tops after them, above the place of impact
   std::optional<model::InelasticCollapse<Real>> collapse;
 
   Drop(const casefile::CaseSpec& spec, std::size_t count) {
@@ -47,7 +46,8 @@ struct Drop {
       void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& s) override {
         EXPECT_TRUE(impact.with_wall && impact.partner == 1);
         self.times.push_back(s.clock().seconds(impact.time));
-        // Read off the path, not off the velocity: where the ball is at half the time to its return.
+        // Read off the path, not off the velocity: where the ball is at half the time to its
+        // return.
         const auto& flight = s.flight(impact.ball);
         const Real rise = flight.velocity[0] / Real(-s.mill().gravity[0]);
         const auto top = dynamics::position_after<Real>(flight, s.mill().gravity, rise);
@@ -61,8 +61,8 @@ struct Drop {
   }
 };
 
-/// sqrt(2h/g) (1 + 2 (e + e^2 + ... + e^k)) is the time of impact k, e^(2k) h the height that follows impact
-/// k.
+/// sqrt(2h/g) (1 + 2 (e + e^2 + ... + e^k)) is the time of impact k, e^(2k) h the height that
+/// follows impact k.
 template <class Real>
 void expect_closed_forms(double bound_times, double bound_heights, double bound_zeno) {
   const exact g("9.81"), h("0.7"), e("0.9");
@@ -76,25 +76,27 @@ void expect_closed_forms(double bound_times, double bound_heights, double bound_
     sum += 2 * power;
     raise(worst_height, relative(run.heights[k], exact(h * power * power)));
   }
-  claim.at_most("e 0.9, largest relative error of 40 impact times" + in<Real>(), worst_time, bound_times);
-  claim.at_most("e 0.9, largest relative error of 40 heights" + in<Real>(), worst_height, bound_heights);
+  claim.at_most(
+      "e 0.9, largest relative error of 40 impact times" + in<Real>(), worst_time, bound_times);
+  claim.at_most(
+      "e 0.9, largest relative error of 40 heights" + in<Real>(), worst_height, bound_heights);
   const Drop<Real> zeno(drop("0.9", "0.3 m", "0.2 m"), 1000000);
   ASSERT_TRUE(zeno.collapse.has_value());
   claim.at_most("Zeno time sqrt(2h/g)(1+e)/(1-e), relative error" + in<Real>() + " after " +
-                    std::to_string(zeno.times.size()) + " impacts",
-                relative(zeno.collapse->accumulation_time, exact(fall * (1 + e) / (1 - e))), bound_zeno);
+          std::to_string(zeno.times.size()) + " impacts",
+      relative(zeno.collapse->accumulation_time, exact(fall * (1 + e) / (1 - e))), bound_zeno);
 }
 
 TEST(BouncingBall, HeightsAndTimesAreTheClosedForms) {
   expect_closed_forms<double>(1e-14, 1e-12, 1e-10);
-  // The Zeno time is as good as an interval at which the hop is a million roundings u D of a position: that
-  // is known to 1e-6 of itself, 5e-21 s, and enters (1 + e)/(1 - e) = 19 times.
+  // The Zeno time is as good as an interval at which the hop is a million roundings u D of a
+  // position: that is known to 1e-6 of itself, 5e-21 s, and enters (1 + e)/(1 - e) = 19 times.
   expect_closed_forms<float128>(1e-32, 1e-30, 1e-19);
   expect_closed_forms<mpfr>(1e-47, 1e-45, 1e-28);
 }
 
-/// MFIX DEM02: diameter 0.2 m, 2600 kg/m3, centre at 0.5 m above the floor, hard-sphere heights of the centre
-/// h_k = (h_0 - r) e^(2k) + r.
+/// MFIX DEM02: diameter 0.2 m, 2600 kg/m3, centre at 0.5 m above the floor, hard-sphere heights of
+/// the centre h_k = (h_0 - r) e^(2k) + r.
 TEST(BouncingBall, HeightsOfMfixDem02) {
   double worst = 0;
   for (const int tenths : {5, 6, 7, 8, 9, 10}) {
@@ -114,8 +116,9 @@ TEST(BouncingBall, HeightsOfMfixDem02) {
   claim.at_most("DEM02, largest relative error of 36 heights", worst, 1e-14);
 }
 
-/// A frictionless ball on cap 1 of a vessel that swings about Z alone: all happens in the plane Z = 0.
-/// Written from theta = theta_max cos(w t) + pi/2 and the arm, in 100 digits, with nothing of the solver.
+/// A frictionless ball on cap 1 of a vessel that swings about Z alone: all happens in the plane Z =
+/// 0. Written from theta = theta_max cos(w t) + pi/2 and the arm, in 100 digits, with nothing of
+/// the solver.
 class SwingingCap {
  public:
   exact theta_max, w, gap, e, g;  ///< gap: half height less radius
@@ -135,7 +138,8 @@ class SwingingCap {
     x += vx * low - g * low * low / 2;
     y += vy * low;
     vx -= g * low;
-    // n along the vessel's axis, from cap 1 to the ball; the cap's point moves with theta' about the fulcrum.
+    // n along the vessel's axis, from cap 1 to the ball; the cap's point moves with theta' about
+    // the fulcrum.
     const exact theta = angle(t), rate = -theta_max * w * sin(w * t);
     const exact nx = sin(theta), ny = -cos(theta);
     const exact px = x - nx * radius, py = y - ny * radius;
@@ -144,7 +148,6 @@ class SwingingCap {
     vy -= (1 + e) * approach * ny;
   }
   exact radius;
-
  private:
   static exact pi() { return boost::math::constants::pi<exact>(); }
   exact angle(const exact& when) const { return theta_max * cos(w * when) + pi() / 2; }
@@ -155,10 +158,11 @@ class SwingingCap {
   }
 };
 
-// An arm of 16 m that swings by 2^-11 rad at 8 Hz: the cap moves by 8 mm with up to 2 g and stays nearly
-// level, so that the ball stays near the middle. All numbers are the same doubles for both sides.
-constexpr double period = 0.125, arm = 16, theta_max = 0x1p-11, half_height = 2, radius = 0.0625, e = 0.8125,
-                 g = 9.8, start_x = -1.5;
+// An arm of 16 m that swings by 2^-11 rad at 8 Hz: the cap moves by 8 mm with up to 2 g and stays
+// nearly level, so that the ball stays near the middle. All numbers are the same doubles for both
+// sides.
+constexpr double period = 0.125, arm = 16, theta_max = 0x1p-11, half_height = 2, radius = 0.0625,
+                 e = 0.8125, g = 9.8, start_x = -1.5;
 constexpr int bounces = 80;
 
 std::vector<exact> map_times() {
@@ -180,19 +184,17 @@ std::vector<exact> map_times() {
   return times;
 }
 
-template <class Real>
-std::vector<Real> simulated_times() {
+template <class Real> std::vector<Real> simulated_times() {
   model::Case<Real> the_case{};
   the_case.mill = {model::SpexMotion<Real>(Real(arm), Real(theta_max), Real(0), Real(period)),
-                   model::CylinderVessel<Real>{Real(8), Real(half_height)},
-                   {Real(-g), Real(0), Real(0)},
-                   {},
-                   {}};
+      model::CylinderVessel<Real>{Real(8), Real(half_height)}, {Real(-g), Real(0), Real(0)}, {},
+      {}};
   the_case.mill.ball_wall = {model::WaltonBraun<Real>{.normal = Real(e)}, Real(0)};
   the_case.mill.ball_ball = the_case.mill.ball_wall;
   the_case.balls = {{Real(radius), Real(1), Real(2) / 5}};
   const Vec3<Real> zero(Real(0), Real(0), Real(0));
-  engine::Simulation<Real> simulation(the_case, {{{Real(start_x), Real(arm), Real(0)}, zero, zero}}, {});
+  engine::Simulation<Real> simulation(
+      the_case, {{{Real(start_x), Real(arm), Real(0)}, zero, zero}}, {});
   struct Log : engine::Observer<Real> {
     std::vector<Real> times;
     bool on_cap = true;
@@ -221,10 +223,11 @@ void expect_followed(const std::vector<exact>& map, std::size_t early, double bo
     if (k < early) raise(worst, error);
     if (error < exact("1e-6") && followed == k) ++followed;
   }
-  claim.at_most("swinging cap, largest |time - map| of " + std::to_string(early) + " bounces" + in<Real>(),
-                worst, bound, " s");
-  claim.at_least("bounces of " + std::to_string(bounces) + " within 1 us of the map" + in<Real>(), followed,
-                 at_least);
+  claim.at_most(
+      "swinging cap, largest |time - map| of " + std::to_string(early) + " bounces" + in<Real>(),
+      worst, bound, " s");
+  claim.at_least("bounces of " + std::to_string(bounces) + " within 1 us of the map" + in<Real>(),
+      followed, at_least);
 }
 
 TEST(BouncingBall, ASwingingCapFollowsAnExactMap) {

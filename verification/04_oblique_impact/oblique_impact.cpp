@@ -1,4 +1,5 @@
-// Claim 04: oblique impacts, thrown in a run, against the rigid body's closed form and published numbers.
+// Claim 04: oblique impacts, thrown in a run, against the rigid body's closed form and published
+// numbers.
 #include <cmath>
 
 #include "claim.hpp"
@@ -19,15 +20,16 @@ struct Motion {
   double normal, tangent, spin;
 };
 
-/// Coulomb's impact of rigid bodies by impulses, with no coefficient e_t: the tangential impulse is the one
-/// that turns the slip of the contact points to -beta of itself, but not more than mu times the normal one.
-/// The second body stands for a wall when its mass is infinite.
-void impact(const Body& one, const Body& two, Motion& a, Motion& b, double e, double mu, double beta) {
+/// Coulomb's impact of rigid bodies by impulses, with no coefficient e_t: the tangential impulse is
+/// the one that turns the slip of the contact points to -beta of itself, but not more than mu times
+/// the normal one. The second body stands for a wall when its mass is infinite.
+void impact(
+    const Body& one, const Body& two, Motion& a, Motion& b, double e, double mu, double beta) {
   const double give = 1 / one.mass + 1 / two.mass;
   const double pull = give + 1 / (one.inertia * one.mass) +
-                      (std::isinf(two.mass) ? 0 : 1 / (two.inertia * two.mass));  // 1/m + R^2/J, both
-  // A spin about n x t moves the contact point, at -R n, by -R spin along t; the other ball's, at +R n, by
-  // +R.
+      (std::isinf(two.mass) ? 0 : 1 / (two.inertia * two.mass));  // 1/m + R^2/J, both
+  // A spin about n x t moves the contact point, at -R n, by -R spin along t; the other ball's, at
+  // +R n, by +R.
   const double slip = (a.tangent - one.radius * a.spin) - (b.tangent + two.radius * b.spin);
   const double pressing = -(1 + e) * (a.normal - b.normal) / give;
   double drag = -(1 + beta) * slip / pull;
@@ -41,8 +43,8 @@ void impact(const Body& one, const Body& two, Motion& a, Motion& b, double e, do
   b.spin -= drag / (two.inertia * two.mass * two.radius);
 }
 
-/// One impact in a run without gravity: of a ball with cap 1 of a still vessel, or of two balls. The normal
-/// is inertial +X, t is +Y, n x t is +Z.
+/// One impact in a run without gravity: of a ball with cap 1 of a still vessel, or of two balls.
+/// The normal is inertial +X, t is +Y, n x t is +Z.
 struct Throw {
   Body one, two;
   Motion a, b{0, 0, 0};
@@ -51,8 +53,8 @@ struct Throw {
   bool wall() const { return std::isinf(two.mass); }
   void run() {
     model::Case<double> the_case{};
-    the_case.mill = {
-        model::SpexMotion<double>(1, 0, 0, 1), model::CylinderVessel<double>{1, 1}, {0, 0, 0}, {}, {}};
+    the_case.mill = {model::SpexMotion<double>(1, 0, 0, 1), model::CylinderVessel<double>{1, 1},
+        {0, 0, 0}, {}, {}};
     the_case.mill.ball_wall = {model::WaltonBraun<double>{e, mu, min_tangential}, 0};
     the_case.mill.ball_ball = the_case.mill.ball_wall;
     const auto state = [](double x, const Motion& m) {
@@ -99,13 +101,14 @@ const Body bead{0.0025, 1, 0.4};
 
 Throw chung_ooi(double degrees_from_normal, double e = 1, double speed = 3.9) {
   const double angle = degrees_from_normal * pi / 180;
-  return {bead, plate, {-speed * std::cos(angle), speed * std::sin(angle), 0}, {0, 0, 0}, e, 0.092, 0};
+  return {
+      bead, plate, {-speed * std::cos(angle), speed * std::sin(angle), 0}, {0, 0, 0}, e, 0.092, 0};
 }
 
 double difference(const Motion& found, const Motion& truth, double speed, double radius) {
   return std::max({std::abs(found.normal - truth.normal), std::abs(found.tangent - truth.tangent),
-                   std::abs(found.spin - truth.spin) * radius}) /
-         speed;
+             std::abs(found.spin - truth.spin) * radius}) /
+      speed;
 }
 
 TEST(ObliqueImpact, GrossSlidingOfChungAndOoi) {
@@ -119,7 +122,7 @@ TEST(ObliqueImpact, GrossSlidingOfChungAndOoi) {
       const double tangent = thrown.a.tangent;
       thrown.run();
       return std::max(std::abs(std::abs(thrown.a.spin) / row.spin - 1),
-                      std::abs(thrown.a.tangent / tangent / row.restitution - 1));
+          std::abs(thrown.a.tangent / tangent / row.restitution - 1));
     };
     raise(worst, off(row.degrees));
     if (row.degrees != 45) other = std::min(other, off(90 - row.degrees));
@@ -127,16 +130,16 @@ TEST(ObliqueImpact, GrossSlidingOfChungAndOoi) {
     const double tangent = thrown.a.tangent;
     thrown.run();
     claim.say("Chung & Ooi " + Claim::text(row.degrees) + " deg: spin " +
-              Claim::text(std::abs(thrown.a.spin), 7) + " rad/s, tangential restitution " +
-              Claim::text(thrown.a.tangent / tangent, 6));
+        Claim::text(std::abs(thrown.a.spin), 7) + " rad/s, tangential restitution " +
+        Claim::text(thrown.a.tangent / tangent, 6));
   }
   // The numbers have five and four digits.
   claim.at_most("largest relative difference, angle from the normal", worst, 6e-5);
   claim.at_least("the same, angle from the plane", other, 0.1);
 }
 
-/// Every angle, sliding and sticking, with the two usual ends of the sticking branch: rolling (beta 0) and
-/// perfectly rough (beta 1).
+/// Every angle, sliding and sticking, with the two usual ends of the sticking branch: rolling (beta
+/// 0) and perfectly rough (beta 1).
 TEST(ObliqueImpact, EveryAngleIsTheRigidBodysOwn) {
   for (const double beta : {0.0, 1.0}) {
     double worst = 0, last_sticking = 0;
@@ -148,25 +151,26 @@ TEST(ObliqueImpact, EveryAngleIsTheRigidBodysOwn) {
       thrown.run();
       raise(worst, difference(thrown.a, truth, 3.9, bead.radius));
       const double slip = thrown.a.tangent - bead.radius * thrown.a.spin;
-      if (std::abs(slip + beta * 3.9 * std::sin(0.1 * step * pi / 180)) < 1e-12) last_sticking = 0.1 * step;
+      if (std::abs(slip + beta * 3.9 * std::sin(0.1 * step * pi / 180)) < 1e-12)
+        last_sticking = 0.1 * step;
     }
     const double edge = std::atan(3.5 * 2 * 0.092 / (1 + beta)) * 180 / pi;
-    claim.at_most("plate, 889 angles, beta " + Claim::text(beta) + ", largest difference over the speed",
-                  worst, 1e-14);
+    claim.at_most(
+        "plate, 889 angles, beta " + Claim::text(beta) + ", largest difference over the speed",
+        worst, 1e-14);
     claim.at_most("last sticking angle " + Claim::text(last_sticking) +
-                      " deg off tan = 7/2 mu (1+e)/(1+beta), " + Claim::text(edge, 5) + " deg",
-                  std::abs(last_sticking - edge), 0.1, " deg");
+            " deg off tan = 7/2 mu (1+e)/(1+beta), " + Claim::text(edge, 5) + " deg",
+        std::abs(last_sticking - edge), 0.1, " deg");
   }
 }
 
-/// As Chung & Ooi's cases with given normal speed and spin: on a plate, of two equal spheres, of two unequal
-/// ones.
+/// As Chung & Ooi's cases with given normal speed and spin: on a plate, of two equal spheres, of
+/// two unequal ones.
 TEST(ObliqueImpact, SpinningSpheresAndPairs) {
   const Body small{0.0025, 1, 0.4}, large{0.01, 32, 0.4}, hollow{0.004, 2, 2.0 / 3};
-  for (const auto& [name, two] : {std::pair<const char*, Body>{"plate", plate},
-                                  {"equal spheres", small},
-                                  {"unequal spheres", large},
-                                  {"solid and hollow sphere", hollow}}) {
+  for (const auto& [name, two] :
+      {std::pair<const char*, Body>{"plate", plate}, {"equal spheres", small},
+          {"unequal spheres", large}, {"solid and hollow sphere", hollow}}) {
     double worst = 0;
     int sticking = 0, count = 0;
     for (const double e : {0.5, 1.0})
@@ -177,19 +181,20 @@ TEST(ObliqueImpact, SpinningSpheresAndPairs) {
           Motion a = thrown.a, b = thrown.b;
           impact(small, two, a, b, e, thrown.mu, 0);
           thrown.run();
-          sticking +=
-              std::abs((a.tangent - small.radius * a.spin) - (b.tangent + two.radius * b.spin)) < 1e-12;
+          sticking += std::abs((a.tangent - small.radius * a.spin) -
+                          (b.tangent + two.radius * b.spin)) < 1e-12;
           raise(worst, difference(thrown.a, a, 1, small.radius));
           if (!thrown.wall()) raise(worst, difference(thrown.b, b, 1, two.radius));
         }
     EXPECT_TRUE(sticking > 20 && sticking < count - 20) << sticking;
     claim.at_most(std::string(name) + ", " + std::to_string(count) + " spins and slips, " +
-                      std::to_string(sticking) + " sticking, largest difference",
-                  worst, 1e-13, " m/s");
+            std::to_string(sticking) + " sticking, largest difference",
+        worst, 1e-13, " m/s");
   }
 }
 
-/// Measured, not computed: says how far the law is from an experiment, aluminium oxide on glass, 3.9 m/s.
+/// Measured, not computed: says how far the law is from an experiment, aluminium oxide on
+/// glass, 3.9 m/s.
 TEST(ObliqueImpact, SpinsMeasuredByKharaz) {
   struct Row {
     double degrees, spin;
@@ -201,12 +206,13 @@ TEST(ObliqueImpact, SpinsMeasuredByKharaz) {
       auto thrown = chung_ooi(row.degrees, e);
       thrown.run();
       const double off = std::abs(thrown.a.spin) / row.spin - 1;
-      line += " " + Claim::text(row.degrees, 4) + " deg " + Claim::text(std::abs(thrown.a.spin), 5) +
-              " rad/s (" + Claim::text(100 * off) + " %)";
+      line += " " + Claim::text(row.degrees, 4) + " deg " +
+          Claim::text(std::abs(thrown.a.spin), 5) + " rad/s (" + Claim::text(100 * off) + " %)";
       raise(worst, std::abs(off));
     }
     claim.say(line);
-    claim.at_most("largest relative difference from the measured spins, e " + Claim::text(e), worst, 0.08);
+    claim.at_most(
+        "largest relative difference from the measured spins, e " + Claim::text(e), worst, 0.08);
   }
 }
 

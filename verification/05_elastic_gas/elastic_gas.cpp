@@ -1,5 +1,5 @@
-// Claim 05: elastic balls in a still vessel are the hard-sphere fluid: collision rate, pressure, energy,
-// equipartition.
+// Claim 05: elastic balls in a still vessel are the hard-sphere fluid: collision rate, pressure,
+// energy, equipartition.
 #include <cmath>
 #include <vector>
 
@@ -15,20 +15,19 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double sigma = 0.01;  // diameter [m]
 constexpr int seed = 7;
 
-/// Balls in a vessel as high as it is wide, at rest; its volume is that of the balls over the packing
-/// fraction.
+/// Balls in a vessel as high as it is wide, at rest; its volume is that of the balls over the
+/// packing fraction.
 struct Gas {
   double radius, half_height, mass, arm;
   casefile::InitialCase<double> built;
   engine::Simulation<double> simulation;
 
   Gas(int count, double packing, const std::string& contact)
-      : radius(sigma * std::cbrt(count / (12 * packing))),
-        half_height(radius),
+      : radius(sigma * std::cbrt(count / (12 * packing))), half_height(radius),
         built(casefile::build_case<double>(casefile::parse_case(
             "[run]\nend_time = \"1000 s\"\nseed = " + std::to_string(seed) +
-                "\n[mill]\ntype = \"still\"\n[vessel]\ndiameter = \"" + Claim::text(2 * radius, 17) +
-                " m\"\nheight = \"" + Claim::text(2 * radius, 17) +
+                "\n[mill]\ntype = \"still\"\n[vessel]\ndiameter = \"" +
+                Claim::text(2 * radius, 17) + " m\"\nheight = \"" + Claim::text(2 * radius, 17) +
                 " m\"\n[contact]\nleast_separation = \"0 m/s\"\n" + contact +
                 "\n[[balls]]\ncount = " + std::to_string(count) +
                 "\ndiameter = \"10 mm\"\nrandom_speed = \"1 m/s\"\ngap_ball = \"0.01 mm\"\n" +
@@ -61,13 +60,13 @@ struct Gas {
       energy += inertia / 2 * squared_norm<double>(simulation.spin(i));
     return energy;
   }
-
  private:
   bool attached_ = false;
 };
 
 const std::string smooth = "restitution = 1\nfriction = 0";
-const std::string rough = "model = \"constant\"\nrestitution_normal = 1\nrestitution_tangential = -1";
+const std::string rough =
+    "model = \"constant\"\nrestitution_normal = 1\nrestitution_tangential = -1";
 
 /// Mean of blocks, and half the 99 % confidence interval by Student's t with 19 degrees of freedom.
 struct Estimate {
@@ -86,14 +85,16 @@ struct Estimate {
 class Bulk : public engine::Observer<double> {
  public:
   static constexpr double margin = 4 * sigma;
-  explicit Bulk(const Gas& gas) : gas_(gas), wide_(gas.radius - margin), high_(gas.half_height - margin) {}
+  explicit Bulk(const Gas& gas)
+      : gas_(gas), wide_(gas.radius - margin), high_(gas.half_height - margin) {}
 
   void on_impact(const engine::Impact<double>& impact, engine::Simulation<double>& s) override {
     const auto& flight = s.flight(impact.ball);
     if (impact.with_wall) {
       // Momentum given to the middle of a cap; its wall is flat, so that p = n kT Z there.
       if (impact.partner < 2 && across(flight.position) < wide_)
-        momentum += gas_.mass * norm<double>(Vec3<double>(flight.velocity - impact.velocity_before[0]));
+        momentum +=
+            gas_.mass * norm<double>(Vec3<double>(flight.velocity - impact.velocity_before[0]));
     } else {
       collisions += inside((flight.position + s.flight(impact.partner).position) / 2);
     }
@@ -109,7 +110,6 @@ class Bulk : public engine::Observer<double> {
 
   long collisions = 0;
   double momentum = 0;
-
  private:
   // The vessel stands with its axis along X and its centre at the arm's length along Y.
   double across(const Vec3<double>& r) const { return std::hypot(r[1] - gas_.arm, r[2]); }
@@ -138,7 +138,8 @@ void expect_hard_sphere_fluid(double packing) {
     }
     const double time = gas.simulation.seconds() - begin;
     const double phi = n * pi * sigma * sigma * sigma / 6;
-    // Carnahan and Starling: contact value and compressibility; Enskog's collisions per volume and time.
+    // Carnahan and Starling: contact value and compressibility; Enskog's collisions per volume and
+    // time.
     const double contact = (1 - phi / 2) / std::pow(1 - phi, 3);
     const double z = (1 + phi + phi * phi - phi * phi * phi) / std::pow(1 - phi, 3);
     const double enskog = 2 * n * n * sigma * sigma * contact * std::sqrt(pi * kT / gas.mass);
@@ -149,7 +150,7 @@ void expect_hard_sphere_fluid(double packing) {
   const Estimate rate(rates), pressure(pressures), phi(packings);
   const std::string at = "packing " + Claim::text(packing) + " (bulk " + phi.text() + "), ";
   claim.say(at + "collision rate / Enskog " + rate.text() + ", pressure / Carnahan-Starling " +
-            pressure.text());
+      pressure.text());
   claim.at_most(at + "collision rate off by", std::abs(rate.mean - 1), 0.015);
   claim.at_most(at + "half its 99 % interval", rate.half, 0.015);
   claim.at_most(at + "pressure off by", std::abs(pressure.mean - 1), 0.03);
@@ -168,8 +169,8 @@ void expect_energy_kept(std::uint64_t impacts, double bound) {
     gas.run(impacts);
     EXPECT_EQ(gas.simulation.counts().impacts, impacts);
     claim.at_most(std::string(name) + " balls, relative change of energy in " +
-                      Claim::text(static_cast<double>(impacts)) + " collisions",
-                  std::abs(gas.kinetic() / before - 1), bound);
+            Claim::text(static_cast<double>(impacts)) + " collisions",
+        std::abs(gas.kinetic() / before - 1), bound);
   }
 }
 
@@ -191,7 +192,8 @@ TEST(ElasticGas, SpinTakesHalfOfTheEnergyOfRoughBalls) {
   }
   const Estimate share(blocks);
   claim.say("share of spin in the energy of rough balls " + share.text());
-  claim.at_most("its distance from 1/2 in 99 % intervals", std::abs(share.mean - 0.5) / share.half, 1);
+  claim.at_most(
+      "its distance from 1/2 in 99 % intervals", std::abs(share.mean - 0.5) / share.half, 1);
   claim.at_most("half that interval", share.half, 0.002);
 }
 

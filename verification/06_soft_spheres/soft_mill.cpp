@@ -13,8 +13,12 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846, inertia = 0.4;
 
-Triple operator+(const Triple& a, const Triple& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-Triple operator-(const Triple& a, const Triple& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Triple operator+(const Triple& a, const Triple& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+Triple operator-(const Triple& a, const Triple& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
 Triple operator*(double s, const Triple& a) { return {s * a[0], s * a[1], s * a[2]}; }
 double dot(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Triple cross(const Triple& a, const Triple& b) {
@@ -32,12 +36,15 @@ struct Vessel {
     const double w = 2 * pi / s.period, angle = w * time;
     const double theta = s.amplitude * std::cos(angle) + pi / 2,
                  theta_rate = -s.amplitude * w * std::sin(angle);
-    const double gamma = s.amplitude * std::sin(angle), gamma_rate = s.amplitude * w * std::cos(angle);
-    const double ct = std::cos(theta), st = std::sin(theta), cg = std::cos(gamma), sg = std::sin(gamma);
+    const double gamma = s.amplitude * std::sin(angle),
+                 gamma_rate = s.amplitude * w * std::cos(angle);
+    const double ct = std::cos(theta), st = std::sin(theta), cg = std::cos(gamma),
+                 sg = std::sin(gamma);
     const Triple out{ct, st, 0}, side{-st, ct, 0}, up{0, 0, 1};
     axis = {out, cg * side + sg * up, cg * up - sg * side};
     const Triple out_rate = theta_rate * side, side_rate = -theta_rate * out;
-    axis_rate = {out_rate, gamma_rate * axis[2] + cg * side_rate, -gamma_rate * axis[1] - sg * side_rate};
+    axis_rate = {
+        out_rate, gamma_rate * axis[2] + cg * side_rate, -gamma_rate * axis[1] - sg * side_rate};
     centre = s.arm * out, centre_rate = s.arm * out_rate;
   }
   Triple inward(const Triple& point) const {
@@ -58,18 +65,20 @@ struct Touch {
 
 std::array<Touch, 3> walls(const SoftSetting& s, const Triple& p) {
   const double r = std::hypot(p[0], p[2]), free_height = s.vessel_half_height - s.ball_radius;
-  return {
-      {{free_height + p[1], {0, 1, 0}},
-       {free_height - p[1], {0, -1, 0}},
-       {s.vessel_radius - s.ball_radius - r, r > 0 ? (-1 / r) * Triple{p[0], 0, p[2]} : Triple{1, 0, 0}}}};
+  return {{{free_height + p[1], {0, 1, 0}}, {free_height - p[1], {0, -1, 0}},
+      {s.vessel_radius - s.ball_radius - r,
+          r > 0 ? (-1 / r) * Triple{p[0], 0, p[2]} : Triple{1, 0, 0}}}};
 }
 
 }  // namespace
 
-/// With share s = c / (2 sqrt(k m)), depth x, rate x': k x + c x' vanishes first when the phase of the damped
-/// oscillation is pi - atan2(2 s q, 1 - 2 s^2), q = sqrt(1 - s^2), and there x' = -v exp(-s phase / q).
+/// With share s = c / (2 sqrt(k m)), depth x, rate x': k x + c x' vanishes first when the phase of
+/// the damped oscillation is pi - atan2(2 s q, 1 - 2 s^2), q = sqrt(1 - s^2), and there x' = -v
+/// exp(-s phase / q).
 Dashpot::Dashpot(double restitution) {
-  const auto phase = [](double s) { return pi - std::atan2(2 * s * std::sqrt(1 - s * s), 1 - 2 * s * s); };
+  const auto phase = [](double s) {
+    return pi - std::atan2(2 * s * std::sqrt(1 - s * s), 1 - 2 * s * s);
+  };
   double low = 0, high = 0.999;
   for (int i = 0; i < 60; ++i) {
     share = (low + high) / 2;
@@ -90,9 +99,9 @@ SoftMill::SoftMill(const SoftSetting& setting, const std::vector<SoftBall>& ball
       y_.insert(y_.end(), part->begin(), part->end());
 }
 
-/// Newton's and Euler's equations. In a contact of reduced mass M the normal force is k x + c x' and never
-/// pulls; friction opposes the slip with mu times that, or less when a drag that stops it within a small part
-/// of the contact asks for less.
+/// Newton's and Euler's equations. In a contact of reduced mass M the normal force is k x + c x'
+/// and never pulls; friction opposes the slip with mu times that, or less when a drag that stops it
+/// within a small part of the contact asks for less.
 int SoftMill::rates(double time, const double y[], double dydt[], void* self) {
   const SoftMill& mill = *static_cast<SoftMill*>(self);
   const SoftSetting& s = mill.setting_;
@@ -101,11 +110,13 @@ int SoftMill::rates(double time, const double y[], double dydt[], void* self) {
   const auto part = [&](int ball, int k) { return triple(y + 9 * ball + 3 * k); };
   for (int i = 0; i < mill.count_; ++i) {
     double* d = dydt + 9 * i;
-    for (int k = 0; k < 3; ++k) d[k] = y[9 * i + 3 + k], d[3 + k] = k == 1 ? -s.gravity : 0, d[6 + k] = 0;
+    for (int k = 0; k < 3; ++k)
+      d[k] = y[9 * i + 3 + k], d[3 + k] = k == 1 ? -s.gravity : 0, d[6 + k] = 0;
   }
   const auto push = [&](int ball, const Triple& normal, const Triple& force) {
     const Triple turn = (-R / (inertia * R * R)) * cross(normal, force);
-    for (int k = 0; k < 3; ++k) dydt[9 * ball + 3 + k] += force[k], dydt[9 * ball + 6 + k] += turn[k];
+    for (int k = 0; k < 3; ++k)
+      dydt[9 * ball + 3 + k] += force[k], dydt[9 * ball + 6 + k] += turn[k];
   };
   // `g` is the velocity of the contact point of the ball against the partner's.
   const auto force = [&](double depth, const Triple& n, const Triple& g, double mass) -> Triple {
@@ -157,14 +168,14 @@ void SoftMill::advance(double time) {
       gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, size), gsl_odeiv2_step_free);
   const std::unique_ptr<gsl_odeiv2_control, void (*)(gsl_odeiv2_control*)> control(
       gsl_odeiv2_control_y_new(setting_.tolerance, setting_.tolerance), gsl_odeiv2_control_free);
-  const std::unique_ptr<gsl_odeiv2_evolve, void (*)(gsl_odeiv2_evolve*)> evolve(gsl_odeiv2_evolve_alloc(size),
-                                                                                gsl_odeiv2_evolve_free);
+  const std::unique_ptr<gsl_odeiv2_evolve, void (*)(gsl_odeiv2_evolve*)> evolve(
+      gsl_odeiv2_evolve_alloc(size), gsl_odeiv2_evolve_free);
   gsl_odeiv2_system system{&SoftMill::rates, nullptr, size, this};
   while (time_ < time) {
     // No step may jump over a contact: nothing here approaches faster than 20 m/s.
     step_ = std::min(step_, std::max(setting_.contact_time / 20, smallest_gap(time_) / 20));
-    if (gsl_odeiv2_evolve_apply(evolve.get(), control.get(), stepper.get(), &system, &time_, time, &step_,
-                                y_.data()) != GSL_SUCCESS)
+    if (gsl_odeiv2_evolve_apply(evolve.get(), control.get(), stepper.get(), &system, &time_, time,
+            &step_, y_.data()) != GSL_SUCCESS)
       throw std::runtime_error("GSL's integration failed");
   }
 }

@@ -26,11 +26,12 @@ struct Checkpoint {
 
 constexpr double ball_radius = 0.00476;
 const std::vector<SoftBall> start{{{-0.026, 0.097, 0.002}, {1.1, -0.6, 0.4}, {40, -20, 60}},
-                                  {{-0.012, 0.102, -0.003}, {-0.7, 0.5, 0.9}, {-30, 70, 10}},
-                                  {{-0.040, 0.093, 0.004}, {0.5, 0.8, -0.8}, {0, 50, -40}}};
+    {{-0.012, 0.102, -0.003}, {-0.7, 0.5, 0.9}, {-30, 70, 10}},
+    {{-0.040, 0.093, 0.004}, {0.5, 0.8, -0.8}, {0, 50, -40}}};
 
 std::string list(const Triple& v) {
-  return "[" + Claim::text(v[0], 17) + ", " + Claim::text(v[1], 17) + ", " + Claim::text(v[2], 17) + "]";
+  return "[" + Claim::text(v[0], 17) + ", " + Claim::text(v[1], 17) + ", " + Claim::text(v[2], 17) +
+      "]";
 }
 
 Triple triple(const Vec3<double>& v) { return {v[0], v[1], v[2]}; }
@@ -44,7 +45,7 @@ std::vector<Checkpoint> event_driven(const Scene& scene) {
       Claim::text(scene.restitution) + "\nfriction = " + Claim::text(scene.friction) + "\n";
   for (int i = 0; i < scene.balls; ++i)
     text += "[[ball]]\ndiameter = \"9.52 mm\"\nposition = " + list(start[i].position) +
-            "\nvelocity = " + list(start[i].velocity) + "\nspin = " + list(start[i].spin) + "\n";
+        "\nvelocity = " + list(start[i].velocity) + "\nspin = " + list(start[i].spin) + "\n";
   const auto built = casefile::build_case<double>(casefile::parse_case(text, scene.name));
   testing::EventRecorder<double> events;
   engine::Simulation<double> simulation(built.the_case, built.states, built.start);
@@ -58,9 +59,9 @@ std::vector<Checkpoint> event_driven(const Scene& scene) {
     ++(!impact.with_wall ? pairs : impact.partner == 2 ? cylinder : caps);
     stopped += scene.friction > 0 && impact.outcome.restitution_tangential == 0;
   }
-  claim.say(scene.name + ", impacts: " + std::to_string(caps) + " caps, " + std::to_string(cylinder) +
-            " cylinder, " + std::to_string(pairs) + " between balls; slip stopped in " +
-            std::to_string(stopped));
+  claim.say(scene.name + ", impacts: " + std::to_string(caps) + " caps, " +
+      std::to_string(cylinder) + " cylinder, " + std::to_string(pairs) +
+      " between balls; slip stopped in " + std::to_string(stopped));
   std::vector<Checkpoint> checkpoints;
   engine::Simulation<double> again(built.the_case, built.states, built.start);
   for (int k = 0; k < scene.impacts; ++k) {
@@ -79,8 +80,8 @@ std::vector<Checkpoint> event_driven(const Scene& scene) {
 }
 
 SoftSetting setting_of(const Scene& scene, double contact_time) {
-  return {0.1,         std::acos(-1.0) / 12, 60.0 / 1054,    9.8,         0.019, 0.0285,
-          ball_radius, scene.restitution,    scene.friction, contact_time};
+  return {0.1, std::acos(-1.0) / 12, 60.0 / 1054, 9.8, 0.019, 0.0285, ball_radius,
+      scene.restitution, scene.friction, contact_time};
 }
 
 /// Largest difference of position over 10 mm, velocity and surface speed over 1 m/s.
@@ -96,7 +97,8 @@ double distance(const std::vector<SoftBall>& a, const std::vector<SoftBall>& b) 
 }
 
 std::vector<double> errors(const std::vector<Checkpoint>& checkpoints, const SoftSetting& setting) {
-  SoftMill mill(setting, {start.begin(), start.begin() + static_cast<long>(checkpoints[0].balls.size())});
+  SoftMill mill(
+      setting, {start.begin(), start.begin() + static_cast<long>(checkpoints[0].balls.size())});
   std::vector<double> all;
   for (const Checkpoint& point : checkpoints) {
     mill.advance(point.time);
@@ -111,7 +113,8 @@ void converge(const Scene& scene) {
   double lowest = 10, highest = -10, finest = 0;
   for (double contact_time = 16e-6; contact_time > 5e-8; contact_time /= 4) {
     const auto now = errors(checkpoints, setting_of(scene, contact_time));
-    std::string line = scene.name + ", contacts of " + Claim::text(contact_time * 1e6) + " us, difference";
+    std::string line =
+        scene.name + ", contacts of " + Claim::text(contact_time * 1e6) + " us, difference";
     for (std::size_t k = 0; k < now.size(); ++k) {
       if (k % (now.size() / 4) == 0 || k + 1 == now.size())
         line += " after " + std::to_string(checkpoints[k].impacts) + ": " + Claim::text(now[k], 2);
@@ -125,8 +128,9 @@ void converge(const Scene& scene) {
   }
   claim.at_least(scene.name + ", lowest order in the contact time", lowest, 0.9);
   claim.at_most(scene.name + ", highest", highest, 1.1);
-  claim.at_most(scene.name + ", " + std::to_string(scene.impacts) + " impacts, stiffest: difference", finest,
-                1e-2);
+  claim.at_most(
+      scene.name + ", " + std::to_string(scene.impacts) + " impacts, stiffest: difference", finest,
+      1e-2);
 }
 
 TEST(SoftSpheres, OneSmoothBall) { converge({"1 smooth ball", 0.8, 0, 1, 10}); }

@@ -16,8 +16,7 @@ void Lammps::Closer::operator()(void*) const {}  // MPI inside it does not survi
 
 bool Lammps::present() { return dlopen(library_name, RTLD_NOW | RTLD_GLOBAL) != nullptr; }
 
-template <class Function>
-void Lammps::find(Function& function, const char* name) {
+template <class Function> void Lammps::find(Function& function, const char* name) {
   function = reinterpret_cast<Function>(dlsym(library_.get(), name));
   if (!function) throw std::runtime_error(std::string(library_name) + " has no " + name);
 }

@@ -10,13 +10,15 @@ namespace edmill::verification {
 /// The C interface of LAMMPS (its `library.h`), as far as it is needed here.
 class Lammps {
  public:
-  /// Called at every step with the time step, the number of balls, their ids, positions [m] and forces to be
-  /// added [N].
-  using Callback = void (*)(void* self, std::int64_t step, int count, int* ids, double** x, double** forces);
+  /// Called at every step with the time step, the number of balls, their ids, positions [m] and
+  /// forces to be added [N].
+  using Callback = void (*)(
+      void* self, std::int64_t step, int count, int* ids, double** x, double** forces);
 
   /// Where `dlopen` finds the library; empty when it is absent.
   static bool present();
-  /// A new instance without any output. @throws std::runtime_error when the library is absent or unfit
+  /// A new instance without any output. @throws std::runtime_error when the library is absent or
+  /// unfit
   Lammps();
   ~Lammps();
   Lammps(const Lammps&) = delete;
@@ -36,13 +38,11 @@ class Lammps {
   void set_callback(const char* fix, Callback callback, void* self) {
     set_callback_(handle_, fix, callback, self);
   }
-
  private:
   struct Closer {
     void operator()(void* library) const;
   };
-  template <class Function>
-  void find(Function& function, const char* name);
+  template <class Function> void find(Function& function, const char* name);
 
   std::unique_ptr<void, Closer> library_;
   void* handle_ = nullptr;

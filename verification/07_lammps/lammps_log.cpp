@@ -1,5 +1,5 @@
-// A collision log of LAMMPS, as a user of a soft-sphere code writes one, and what `edmill audit --identify`
-// says of it.
+// A collision log of LAMMPS, as a user of a soft-sphere code writes one, and what `edmill audit
+// --identify` says of it.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -15,8 +15,8 @@
 namespace edmill::verification {
 namespace {
 
-/// A line for each contact: bodies and states at the first step with an overlap, velocities and spins at the
-/// first step without one.
+/// A line for each contact: bodies and states at the first step with an overlap, velocities and
+/// spins at the first step without one.
 class ContactLog {
  public:
   ContactLog(const LammpsMotion& m, const LammpsSetting& s)
@@ -27,9 +27,9 @@ class ContactLog {
     const auto state = [&](std::size_t k) {
       const auto vec = [](const Triple& t) { return Vec3<double>(t[0], t[1], t[2]); };
       const Vec3<double> place = motion_.to_inertial(pose, vec(balls[k].position));
-      return model::BallState<double>{
-          place,
-          motion_.direction_to_inertial(pose, vec(balls[k].velocity)) + motion_.wall_velocity(pose, place),
+      return model::BallState<double>{place,
+          motion_.direction_to_inertial(pose, vec(balls[k].velocity)) +
+              motion_.wall_velocity(pose, place),
           motion_.direction_to_inertial(pose, vec(balls[k].spin)) + motion_.angular_velocity(pose)};
     };
     const double radius = setting_.ball_diameter / 2;
@@ -40,8 +40,9 @@ class ContactLog {
         open_[key] = {time, state(ball), wall ? model::BallState<double>{} : state(partner)};
       if (gap < 0 || open == open_.end()) return;
       durations.push_back(time - open->second.time);
-      lines_.emplace_back(open->second.time, line(ball, wall, partner, open->second, state(ball),
-                                                  wall ? open->second.two : state(partner)));
+      lines_.emplace_back(open->second.time,
+          line(ball, wall, partner, open->second, state(ball),
+              wall ? open->second.two : state(partner)));
       open_.erase(open);
     };
     for (std::size_t i = 0; i < balls.size(); ++i) {
@@ -65,14 +66,13 @@ class ContactLog {
     for (const auto& [time, line] : lines_) out << line << '\n';
   }
   std::vector<double> durations;
-
  private:
   struct Open {
     double time;
     model::BallState<double> one, two;
   };
   static std::string line(std::size_t ball, bool wall, std::size_t partner, const Open& before,
-                          const model::BallState<double>& one, const model::BallState<double>& two) {
+      const model::BallState<double>& one, const model::BallState<double>& two) {
     auto text = fmt::format("{},{},{},{}", before.time, ball, wall ? "wall" : "ball", partner);
     const auto add = [&](const model::BallState<double>& b, const model::BallState<double>& a) {
       for (const auto* v : {&b.position, &b.velocity, &b.spin, &a.velocity, &a.spin})
@@ -93,9 +93,8 @@ class ContactLog {
 };
 
 TEST_F(LammpsPeer, ItsLogIsDiagnosedAsSoftContacts) {
-  const auto spec =
-      casefile::read_case(EDMILL_SOURCE_DIR "/docs/examples/ward.toml",
-                          {"balls.0.count=7", "balls.0.diameter=9.52 mm", "contact.restitution=0.52"});
+  const auto spec = casefile::read_case(EDMILL_SOURCE_DIR "/docs/examples/ward.toml",
+      {"balls.0.count=7", "balls.0.diameter=9.52 mm", "contact.restitution=0.52"});
   auto setting = setting_of(0.00952, 50e-6);
   setting.damping = damping_for(0.52, setting);
   setting.motion = spex;
@@ -107,7 +106,8 @@ TEST_F(LammpsPeer, ItsLogIsDiagnosedAsSoftContacts) {
   for (const auto& state : built.states) {
     const auto seen = motion.to_vessel_frame(pose, state.position, state.velocity);
     const auto &x = seen.position, &v = seen.velocity;
-    balls.push_back({{x[0], x[1], x[2]}, {v[0], v[1], v[2]}, {-turning[0], -turning[1], -turning[2]}});
+    balls.push_back(
+        {{x[0], x[1], x[2]}, {v[0], v[1], v[2]}, {-turning[0], -turning[1], -turning[2]}});
   }
   LammpsMill mill(setting, balls);
   ContactLog log(spex, setting);
@@ -124,17 +124,19 @@ TEST_F(LammpsPeer, ItsLogIsDiagnosedAsSoftContacts) {
   std::filesystem::remove(file);
   ASSERT_TRUE(found.stepping.soft);
   auto& all = log.durations;
-  std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2), all.end());
+  std::nth_element(
+      all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2), all.end());
   const double true_duration = all[all.size() / 2];
   claim.at_most(
       "LAMMPS log of 7 balls, contact time that is identified over the true median, as a factor",
-      std::max(found.stepping.soft->duration / true_duration, true_duration / found.stepping.soft->duration),
+      std::max(found.stepping.soft->duration / true_duration,
+          true_duration / found.stepping.soft->duration),
       1.5);
   claim.at_most("LAMMPS log of 7 balls, wrong parameters that are named",
-                static_cast<double>(found.causes.size()), 0);
+      static_cast<double>(found.causes.size()), 0);
   ASSERT_TRUE(found.stepping.step);
   claim.at_most("LAMMPS log of 7 balls, its step from the log, relative error",
-                std::abs(*found.stepping.step / setting.time_step - 1), 1e-6);
+      std::abs(*found.stepping.step / setting.time_step - 1), 1e-6);
 }
 
 }  // namespace

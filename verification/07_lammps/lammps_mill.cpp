@@ -17,18 +17,22 @@ Triple plus(const Triple& a, double factor, const Triple& b) {
 
 }  // namespace
 
-VesselFrame::VesselFrame(const LammpsMotion& m, double time) : spin{}, spin_rate{}, pull{0, -m.gravity, 0} {
+VesselFrame::VesselFrame(const LammpsMotion& m, double time)
+    : spin{}, spin_rate{}, pull{0, -m.gravity, 0} {
   if (m.period == 0) return;
   const double w = 2 * pi / m.period, c = std::cos(w * time), s = std::sin(w * time);
   const double theta = m.theta_max * c + pi / 2, theta_rate = -m.theta_max * w * s,
                theta_second = -m.theta_max * w * w * c;
-  const double gamma = m.gamma_max * s, gamma_rate = m.gamma_max * w * c, gamma_second = -w * w * gamma;
+  const double gamma = m.gamma_max * s, gamma_rate = m.gamma_max * w * c,
+               gamma_second = -w * w * gamma;
   const double cg = std::cos(gamma), sg = std::sin(gamma);
-  // The vessel turns with theta' about Z and with gamma' about x'; Z is (0, sin gamma, cos gamma) to it.
+  // The vessel turns with theta' about Z and with gamma' about x'; Z is (0, sin gamma, cos gamma)
+  // to it.
   spin = {gamma_rate, theta_rate * sg, theta_rate * cg};
   spin_rate = {gamma_second, theta_second * sg + theta_rate * gamma_rate * cg,
-               theta_second * cg - theta_rate * gamma_rate * sg};
-  // In the axes turned by theta alone: gravity, less the centre's acceleration on its circle about Z.
+      theta_second * cg - theta_rate * gamma_rate * sg};
+  // In the axes turned by theta alone: gravity, less the centre's acceleration on its circle about
+  // Z.
   const double along = -m.gravity * std::sin(theta) + m.arm * theta_rate * theta_rate,
                across = -m.gravity * std::cos(theta) - m.arm * theta_second;
   pull = {along, across * cg, -across * sg};
@@ -61,22 +65,26 @@ LammpsMill::LammpsMill(const LammpsSetting& s, const std::vector<LammpsBall>& ba
   say("boundary f f f");
   say("comm_modify vel yes");
   const double wide = 1.2 * s.vessel_radius, high = 1.2 * s.vessel_half_height;
-  say("region box block ", -wide, " ", wide, " ", -high, " ", high, " ", -wide, " ", wide, " units box");
+  say("region box block ", -wide, " ", wide, " ", -high, " ", high, " ", -wide, " ", wide,
+      " units box");
   say("create_box 1 box");
   for (const LammpsBall& b : balls)
-    say("create_atoms 1 single ", b.position[0], " ", b.position[1], " ", b.position[2], " units box");
+    say("create_atoms 1 single ", b.position[0], " ", b.position[1], " ", b.position[2],
+        " units box");
   say("set group all diameter ", s.ball_diameter, " density ", s.density);
-  // limit_damping: without it a parting contact attracts, and friction takes mu times that force too.
+  // limit_damping: without it a parting contact attracts, and friction takes mu times that force
+  // too.
   std::ostringstream contact;
   contact.precision(17);
   // The polynomial of tsuji has no zero at restitution 1.
   const bool elastic = s.damping == 1;
   if (s.stiffness > 0)
-    contact << " hooke " << s.stiffness << " " << (elastic ? 0 : s.damping) << " tangential linear_history "
-            << s.stiffness * 2 / 7;
+    contact << " hooke " << s.stiffness << " " << (elastic ? 0 : s.damping)
+            << " tangential linear_history " << s.stiffness * 2 / 7;
   else
-    contact << " hertz/material " << s.modulus << " " << (elastic ? 0 : s.damping) << " " << s.poisson
-            << " tangential " << (s.without_springs ? "linear_nohistory" : "mindlin NULL");
+    contact << " hertz/material " << s.modulus << " " << (elastic ? 0 : s.damping) << " "
+            << s.poisson << " tangential "
+            << (s.without_springs ? "linear_nohistory" : "mindlin NULL");
   contact << " " << s.tangential_damping << " " << s.friction << " damping "
           << (elastic ? "velocity" : "tsuji") << " limit_damping ";
   say("pair_style granular");
@@ -84,14 +92,16 @@ LammpsMill::LammpsMill(const LammpsSetting& s, const std::vector<LammpsBall>& ba
   say("neighbor ", 0.3 * radius, " bin");
   say("neigh_modify delay 0 every 1 check yes");
   if (s.vial.empty())
-    say("region vial cylinder y 0 0 ", s.vessel_radius, " ", -s.vessel_half_height, " ", s.vessel_half_height,
-        " side in units box");
+    say("region vial cylinder y 0 0 ", s.vessel_radius, " ", -s.vessel_half_height, " ",
+        s.vessel_half_height, " side in units box");
   for (const auto& command : s.vial) say(command);
   say("fix walls all wall/gran/region granular", contact.str(), "region vial");
   for (std::size_t k = 0; k < s.bodies.size(); ++k) {
     say("variable angle", k, " equal step*dt*", s.bodies[k].speed);
-    say("region body", k, " ", s.bodies[k].region, " side out units box rotate v_angle", k, " 0 0 0 0 1 0");
-    say("fix body", k, " all wall/gran/region granular", contact.str(), "region body", k, " contacts");
+    say("region body", k, " ", s.bodies[k].region, " side out units box rotate v_angle", k,
+        " 0 0 0 0 1 0");
+    say("fix body", k, " all wall/gran/region granular", contact.str(), "region body", k,
+        " contacts");
   }
   work_of_bodies_.resize(s.bodies.size());
   say("fix motion all nve/sphere");
@@ -126,13 +136,14 @@ double LammpsMill::kinetic_energy() {
   return sum;
 }
 
-void LammpsMill::on_step(void* self, std::int64_t step, int count, int*, double** x, double** forces) {
+void LammpsMill::on_step(
+    void* self, std::int64_t step, int count, int*, double** x, double** forces) {
   static_cast<LammpsMill*>(self)->drive(step, count, x, forces);
 }
 
-/// LAMMPS calls between its two half kicks: positions are those of the step, velocities half a step older.
-/// The step's own velocity needs all forces, of which those that depend on velocity are taken with the older
-/// one.
+/// LAMMPS calls between its two half kicks: positions are those of the step, velocities half a step
+/// older. The step's own velocity needs all forces, of which those that depend on velocity are
+/// taken with the older one.
 void LammpsMill::drive(std::int64_t step, int count, double** x, double** forces) {
   if (count != count_) throw std::runtime_error("LAMMPS lost a ball");
   double **v = lammps_.vectors("v"), **spins = lammps_.vectors("omega");
@@ -150,7 +161,8 @@ void LammpsMill::drive(std::int64_t step, int count, double** x, double** forces
       forces[i][k] = mass_ * a[k];
       torque[i][k] += inertia_ * turn[k];
     }
-    if (step > driven_ && step > 0) work_ += dt * (mass_ * dot(a, now_v) + inertia_ * dot(turn, now_spin));
+    if (step > driven_ && step > 0)
+      work_ += dt * (mass_ * dot(a, now_v) + inertia_ * dot(turn, now_spin));
   }
   if (step > driven_ && step > 0) add_work_of_bodies();
   driven_ = step;

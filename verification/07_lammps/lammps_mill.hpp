@@ -45,8 +45,10 @@ struct LammpsBody {
 
 struct LammpsSetting {
   LammpsMotion motion;
-  std::function<VesselFrame(double time)> frame{};  ///< of another motion, in the place of the above
-  std::vector<std::string> vial{};  ///< commands that make the region "vial", in the place of a cylinder
+  std::function<VesselFrame(double time)>
+      frame{};  ///< of another motion, in the place of the above
+  std::vector<std::string>
+      vial{};  ///< commands that make the region "vial", in the place of a cylinder
   std::vector<LammpsBody> bodies{};
   double vessel_radius = 0, vessel_half_height = 0;  ///< [m]
   double ball_diameter = 0, density = 0;             ///< [m, kg/m3]
@@ -54,12 +56,13 @@ struct LammpsSetting {
   double stiffness = 0;  ///< [N/m]: linear springs in the place of Hertz's and Mindlin's
   double damping = 1;    ///< the number that `damping tsuji` takes for the restitution; 1: elastic
   double friction = 0, tangential_damping = 0;  ///< mu; the latter as a share of the normal damping
-  bool without_springs = false;  ///< along the surface: the damping alone holds it, up to mu times the force
-  double time_step = 0;          ///< [s]
+  bool without_springs =
+      false;  ///< along the surface: the damping alone holds it, up to mu times the force
+  double time_step = 0;  ///< [s]
 };
 
-/// Hertz, Mindlin and Coulomb between balls and with the walls of a region. Fictitious forces and torques
-/// come through `fix external`, whose work is added up.
+/// Hertz, Mindlin and Coulomb between balls and with the walls of a region. Fictitious forces and
+/// torques come through `fix external`, whose work is added up.
 class LammpsMill {
  public:
   LammpsMill(const LammpsSetting& setting, const std::vector<LammpsBall>& balls);
@@ -73,11 +76,12 @@ class LammpsMill {
   double work_of_body(std::size_t body) const { return work_of_bodies_[body]; }
   /// Kinetic energy against the vessel, spin included. [J]
   double kinetic_energy();
-  /// work() less the change of kinetic_energy(): lost in contacts, or stored in those that last. [J]
+  /// work() less the change of kinetic_energy(): lost in contacts, or stored in those that last.
+  /// [J]
   double milling_dose() { return work_ - (kinetic_energy() - first_energy_); }
-
  private:
-  static void on_step(void* self, std::int64_t step, int count, int* ids, double** x, double** forces);
+  static void on_step(
+      void* self, std::int64_t step, int count, int* ids, double** x, double** forces);
   VesselFrame frame_at(double time) const {
     return setting_.frame ? setting_.frame(time) : VesselFrame(setting_.motion, time);
   }

@@ -1,5 +1,5 @@
-// Claim 07 for a stirred mill: a bar that turns in a box at rest, as a region of LAMMPS. A box, since balls
-// that circle along a cylinder evade the bar for long, and the dose rate fluctuates.
+// Claim 07 for a stirred mill: a bar that turns in a box at rest, as a region of LAMMPS. A box,
+// since balls that circle along a cylinder evade the bar for long, and the dose rate fluctuates.
 #include <cmath>
 
 #include "core.hpp"
@@ -85,7 +85,8 @@ Rates edmill_stirred(int batches) {
   auto initial = casefile::build_case<double>(spec);
   auto& mill = initial.the_case.mill;
   const auto flat = setting_when_stirred(brief);
-  mill.ball_ball.law = law_of_contacts(flat, true), mill.ball_wall.law = law_of_contacts(flat, false);
+  mill.ball_ball.law = law_of_contacts(flat, true),
+  mill.ball_wall.law = law_of_contacts(flat, false);
   struct Works : engine::Observer<double> {
     double work = 0;
     std::vector<double> batches;
@@ -114,10 +115,11 @@ void agree_when_stirred(int lammps_batches, int edmill_batches, double bound) {
       [&](double duration) {
         const auto rates = lammps_stirred(duration, lammps_batches);
         const double dose = *numerics::estimate(rates.doses).mean;
-        claim.say("stirred box: power of LAMMPS's torque on the bar " + Claim::text(rates.power, 4) +
-                  " W, over edmill's wall work " + Claim::text(rates.power / edmill.power, 4));
-        claim.at_most("stirred box: that power over the dose rate, off one", std::abs(rates.power / dose - 1),
-                      bound);
+        claim.say("stirred box: power of LAMMPS's torque on the bar " +
+            Claim::text(rates.power, 4) + " W, over edmill's wall work " +
+            Claim::text(rates.power / edmill.power, 4));
+        claim.at_most("stirred box: that power over the dose rate, off one",
+            std::abs(rates.power / dose - 1), bound);
         return rates.doses;
       },
       bound, longest);
@@ -128,13 +130,15 @@ TEST_F(LammpsPeer, LongStirredBox) { agree_when_stirred(3000, 20000, 0.01); }
 /// A rough check of the coupling: contacts of 50 us lower the dose rate by a few percent.
 TEST_F(LammpsPeer, AStirredBoxInShort) {
   const auto lammps = lammps_stirred(50e-6, 20), edmill = edmill_stirred(400);
-  const double dose = *numerics::estimate(lammps.doses).mean, other = *numerics::estimate(edmill.doses).mean;
+  const double dose = *numerics::estimate(lammps.doses).mean,
+               other = *numerics::estimate(edmill.doses).mean;
   claim.at_most("stirred box: edmill's wall work over its dose rate, off one",
-                std::abs(edmill.power / other - 1), 0.01);
-  claim.at_most("stirred box, contacts of 50 us: LAMMPS's power of the bar over its dose rate, off one",
-                std::abs(lammps.power / dose - 1), 0.03);
-  claim.at_most("stirred box, contacts of 50 us: LAMMPS over edmill, off one", std::abs(dose / other - 1),
-                0.15);
+      std::abs(edmill.power / other - 1), 0.01);
+  claim.at_most(
+      "stirred box, contacts of 50 us: LAMMPS's power of the bar over its dose rate, off one",
+      std::abs(lammps.power / dose - 1), 0.03);
+  claim.at_most("stirred box, contacts of 50 us: LAMMPS over edmill, off one",
+      std::abs(dose / other - 1), 0.15);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
-// A ball that lies against a wall is hit by another: LAMMPS has both contacts at one time, edmill one after
-// the other. Hertz's contacts have no time of their own, so that no stiffness makes the two agree.
+// A ball that lies against a wall is hit by another: LAMMPS has both contacts at one time, edmill
+// one after the other. Hertz's contacts have no time of their own, so that no stiffness makes the
+// two agree.
 #include <Eigen/Dense>
 #include <cmath>
 
@@ -32,7 +33,9 @@ struct Hit {
 
 Eigen::Vector3d direction(casefile::Random& random) {
   Eigen::Vector3d d;
-  do d = Eigen::Vector3d(random.symmetric<double>(), random.symmetric<double>(), random.symmetric<double>());
+  do
+    d = Eigen::Vector3d(
+        random.symmetric<double>(), random.symmetric<double>(), random.symmetric<double>());
   while (d.squaredNorm() > 1 || d.squaredNorm() < 0.01);
   return d.normalized();
 }
@@ -62,13 +65,12 @@ double left_by_lammps(const LammpsSetting& s, const Hit& hit) {
 class HardBalls {
  public:
   explicit HardBalls(const LammpsSetting& s)
-      : spec_(casefile::read_case(
-            EDMILL_SOURCE_DIR "/docs/examples/ward.toml",
-            {"balls.0.count=2", "balls.0.diameter=12.7 mm", "vessel.diameter=200 mm", "mill.speed=1e-6 rpm",
-             "run.gravity=0 m/s2", "run.start_time=0 s", "run.end_time=" + Claim::text(duration) + " s",
-             "contact.least_separation=1e-6 m/s"})),
-        of_pairs_(law_of_contacts(s, true)),
-        of_walls_(law_of_contacts(s, false)) {}
+      : spec_(casefile::read_case(EDMILL_SOURCE_DIR "/docs/examples/ward.toml",
+            {"balls.0.count=2", "balls.0.diameter=12.7 mm", "vessel.diameter=200 mm",
+                "mill.speed=1e-6 rpm", "run.gravity=0 m/s2", "run.start_time=0 s",
+                "run.end_time=" + Claim::text(duration) + " s",
+                "contact.least_separation=1e-6 m/s"})),
+        of_pairs_(law_of_contacts(s, true)), of_walls_(law_of_contacts(s, false)) {}
 
   double left(const Hit& hit) const {
     auto initial = casefile::build_case<double>(spec_);
@@ -79,14 +81,15 @@ class HardBalls {
     const auto pose = motion.pose({0, 0.0});
     const Vec3<double> none{0, 0, 0};
     const auto turned = [&](const auto& v) {
-      return Vec3<double>(Motion::axis_x(pose) * v[0] + Motion::axis_y(pose) * v[1] +
-                          Motion::axis_z(pose) * v[2]);
+      return Vec3<double>(
+          Motion::axis_x(pose) * v[0] + Motion::axis_y(pose) * v[1] + Motion::axis_z(pose) * v[2]);
     };
     const Vec3<double> centre = -turned(motion.to_vessel_frame(pose, none, none).position);
     const auto balls = hit.balls();
     for (std::size_t k = 0; k < balls.size(); ++k) {
       auto& state = initial.states[k];
-      state.position = centre + turned(balls[k].position), state.velocity = turned(balls[k].velocity);
+      state.position = centre + turned(balls[k].position),
+      state.velocity = turned(balls[k].velocity);
       state.spin = none;
     }
     struct Dose : engine::Observer<double> {
@@ -99,7 +102,6 @@ class HardBalls {
     const double mass = 8000 * 4 / 3 * pi * std::pow(radius, 3);
     return 1 - dose.sum / (mass / 2);
   }
-
  private:
   casefile::CaseSpec spec_;
   model::LawOfProgram<double> of_pairs_, of_walls_;
@@ -122,10 +124,10 @@ Comparison compare(double restitution, double friction, double gap) {
     c.lammps += theirs / count, c.edmill += ours / count;
     raise(c.most, std::abs(theirs - ours));
   }
-  claim.say("restitution " + Claim::text(restitution) + ", friction " + Claim::text(friction) + ", gap of " +
-            Claim::text(gap * 1e6) + " um: of the energy is left in LAMMPS " + Claim::text(c.lammps, 4) +
-            ", in edmill " + Claim::text(c.edmill, 4) + "; one hit differs by at most " +
-            Claim::text(c.most, 2));
+  claim.say("restitution " + Claim::text(restitution) + ", friction " + Claim::text(friction) +
+      ", gap of " + Claim::text(gap * 1e6) + " um: of the energy is left in LAMMPS " +
+      Claim::text(c.lammps, 4) + ", in edmill " + Claim::text(c.edmill, 4) +
+      "; one hit differs by at most " + Claim::text(c.most, 2));
   return c;
 }
 
@@ -141,10 +143,12 @@ TEST_F(LammpsPeer, LongABallThatLiesAgainstAWallIsHit) {
       const auto lies = compare(restitution, friction, 0);
       least = std::min(least, lies.lammps - lies.edmill);
     }
-  claim.at_most("mean share of the energy left after hits, contacts one after the other, most apart", apart,
-                0.002);
-  claim.at_least("after hits of a ball that lies against the wall, the mean of LAMMPS less that of edmill",
-                 least, 0.01);
+  claim.at_most(
+      "mean share of the energy left after hits, contacts one after the other, most apart", apart,
+      0.002);
+  claim.at_least(
+      "after hits of a ball that lies against the wall, the mean of LAMMPS less that of edmill",
+      least, 0.01);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// What the programs of claim 09 share: one ball on one wall, orders of convergence, the bound on impacts.
+// What the programs of claim 09 share: one ball on one wall, orders of convergence, the bound on
+// impacts.
 #pragma once
 
 #include <fmt/format.h>
@@ -34,23 +35,21 @@ struct Law {
 
   std::string text() const {
     return "[contact]\nrestitution = " + digits(restitution) + "\nfriction = " + digits(friction) +
-           "\nmin_tangential = " + digits(min_tangential) + "\nleast_separation = \"" +
-           digits(least_separation) + " m/s\"\n";
+        "\nmin_tangential = " + digits(min_tangential) + "\nleast_separation = \"" +
+        digits(least_separation) + " m/s\"\n";
   }
 };
 
-/// A run of one ball that touches one wall and no other; counts impacts against the bound a/(2 v_s).
-template <class Real>
-class OneBall : engine::Observer<Real> {
+/// A run of one ball that touches one wall and no other; counts impacts against the bound a/(2
+/// v_s).
+template <class Real> class OneBall : engine::Observer<Real> {
  public:
   using Impact = engine::Impact<Real>;
 
   /// @param fastest  no acceleration [m/s2] of the ball to the wall along the normal is greater
   OneBall(const std::string& text, int wall, double fastest)
       : built_(casefile::build_case<Real>(casefile::parse_case(text, "sustained_contact.toml"))),
-        simulation_(built_.the_case, built_.states, built_.start),
-        wall_(wall),
-        fastest_(fastest) {
+        simulation_(built_.the_case, built_.states, built_.start), wall_(wall), fastest_(fastest) {
     simulation_.attach(*this);
   }
 
@@ -75,7 +74,6 @@ class OneBall : engine::Observer<Real> {
     const double most = static_cast<double>(simulation_.seconds()) * fastest_ / (2 * v_s()) + 1;
     return static_cast<double>(impacts_) / std::floor(most);
   }
-
  private:
   double v_s() const { return static_cast<double>(simulation_.mill().ball_wall.least_separation); }
 
@@ -99,7 +97,9 @@ class Convergence {
  public:
   explicit Convergence(std::string name) : name_(std::move(name)) {}
 
-  void add(double v_s, double error) { log_v_s_.push_back(std::log(v_s)), errors_.push_back(error); }
+  void add(double v_s, double error) {
+    log_v_s_.push_back(std::log(v_s)), errors_.push_back(error);
+  }
 
   /// Slope of the least-squares line through log(error) over log(v_s).
   double order() const {
@@ -120,17 +120,16 @@ class Convergence {
     sustained.say(line);
     const double found = order();
     sustained.at_most(name_ + ", order " + Claim::text(found) + ", off " + Claim::text(expected),
-                      std::abs(found - expected), tolerance);
+        std::abs(found - expected), tolerance);
   }
 
   /// @param tolerance  relative, of the error over v_s at the least v_s
   void expect_factor(double expected, double tolerance) const {
     const double found = errors_.back() / std::exp(log_v_s_.back());
     sustained.at_most(name_ + ", error over v_s " + Claim::text(found, 5) + " s/m, relative to " +
-                          Claim::text(expected, 5) + " off by",
-                      std::abs(found / expected - 1), tolerance);
+            Claim::text(expected, 5) + " off by",
+        std::abs(found / expected - 1), tolerance);
   }
-
  private:
   std::string name_;
   std::vector<double> log_v_s_, errors_;
@@ -141,16 +140,16 @@ struct ImpactBound {
   double shortest = 1e300, share = 0;
   std::uint64_t impacts = 0;
 
-  template <class Real>
-  void add(const OneBall<Real>& run) {
+  template <class Real> void add(const OneBall<Real>& run) {
     shortest = std::min(shortest, run.shortest_flight());
     raise(share, run.share_of_bound());
     impacts += run.impacts();
   }
   /// @param rounding  by which the times of impact may shorten a flight, as a share of 2 v_s/a
   void expect(const std::string& name, double rounding) const {
-    sustained.at_most(name + ", " + std::to_string(impacts) + " impacts, largest share of a t/(2 v_s) + 1",
-                      share, 1);
+    sustained.at_most(
+        name + ", " + std::to_string(impacts) + " impacts, largest share of a t/(2 v_s) + 1", share,
+        1);
     sustained.at_most(name + ", shortest flight below 2 v_s/a by", 1 - shortest, rounding);
   }
 };

@@ -16,32 +16,31 @@ const std::vector<double> two_decades{1e-2, 3e-3, 1e-3, 3e-4, 1e-4};
 
 /// A still vessel of 2 m x 1 m about the X axis; SI, in the inertial frame.
 std::string still_case(const Components& gravity, const Law& law, const Components& position,
-                       const Components& velocity) {
+    const Components& velocity) {
   const auto vector = [](const Components& v) { return vector_text(v[0], v[1], v[2]); };
   return "[run]\nend_time = \"1000 s\"\ngravity = " + vector(gravity) +
-         "[mill]\ntype = \"still\"\n[vessel]\ndiameter = \"2 m\"\nheight = \"1 m\"\n" + law.text() +
-         "[[ball]]\ndiameter = \"" + (2 * radius).str() + " m\"\nposition = " + vector(position) +
-         "velocity = " + vector(velocity);
+      "[mill]\ntype = \"still\"\n[vessel]\ndiameter = \"2 m\"\nheight = \"1 m\"\n" + law.text() +
+      "[[ball]]\ndiameter = \"" + (2 * radius).str() + " m\"\nposition = " + vector(position) +
+      "velocity = " + vector(velocity);
 }
 
 const Components at_rest{0, 0, 0};
 
-/// Over cap 1, the floor at X = -1/2 m, at the top of a hop that left it at v_s where `gravity` presses.
+/// Over cap 1, the floor at X = -1/2 m, at the top of a hop that left it at v_s where `gravity`
+/// presses.
 Components on_floor(const Law& law, double gravity) {
   const exact v_s = decimal(law.least_separation);
   return {radius - exact(1) / 2 + v_s * v_s / (2 * exact(gravity)), 0, 0};
 }
 
 /// Speed along Z of the ball's point that touches the floor. [m/s]
-template <class Real>
-Real slip_on_floor(const model::BallState<Real>& s) {
+template <class Real> Real slip_on_floor(const model::BallState<Real>& s) {
   return s.velocity[2] + static_cast<Real>(radius) * s.spin[1];
 }
 
 // --- Sliding to rolling: a throw along the floor without spin ---
 
-template <class Real>
-struct Throw {
+template <class Real> struct Throw {
   static constexpr double mu = 0.25;
   Real slip_end{-1};  ///< time of the first impact that sticks [s]
   Real speed, slip;   ///< once it rolls [m/s]
@@ -78,8 +77,8 @@ struct ThrowErrors {
   }
 };
 
-/// Sticking that takes all slip away leaves 5/7 of the speed at any v_s, and 1/7 of m v0^2 as dose, but for
-/// rounding: up to 12500 impacts, at each of which the place is rounded by up to 1.1e-16 m.
+/// Sticking that takes all slip away leaves 5/7 of the speed at any v_s, and 1/7 of m v0^2 as dose,
+/// but for rounding: up to 12500 impacts, at each of which the place is rounded by up to 1.1e-16 m.
 TEST(SustainedContact, AThrownBallEndsRolling) {
   Convergence time("throw, e_t >= 0, time when slip ends");
   ImpactBound bound;
@@ -93,9 +92,10 @@ TEST(SustainedContact, AThrownBallEndsRolling) {
   }
   time.expect_order(1, 0.05);
   sustained.at_most("the same, largest error over v_s/g", worst_time, 1.001);
-  sustained.at_most("throw, e_t >= 0, largest error of 5/7 v0 at any v_s", worst_speed, 1e-12, " m/s");
-  sustained.at_most("throw, e_t >= 0, largest relative error of the dose m v0^2/7 at any v_s", worst_dose,
-                    1e-10);
+  sustained.at_most(
+      "throw, e_t >= 0, largest error of 5/7 v0 at any v_s", worst_speed, 1e-12, " m/s");
+  sustained.at_most(
+      "throw, e_t >= 0, largest relative error of the dose m v0^2/7 at any v_s", worst_dose, 1e-10);
   bound.expect("throws", 1e-6);
 }
 
@@ -125,7 +125,7 @@ TEST(SustainedContact, AThrownBallEndsRollingInFloat128) {
   ImpactBound bound;
   const Throw<float128> run(1, 1e-4, 0, bound);
   sustained.at_most("throw in float128, e_t >= 0, v_s 1e-4, error of 5/7 v0",
-                    abs(run.speed - float128(5) / 7), 1e-31, " m/s");
+      abs(run.speed - float128(5) / 7), 1e-31, " m/s");
   sustained.at_most("the same, slip left", abs(run.slip), 1e-31, " m/s");
   sustained.at_most("the same, relative error of the dose", abs(run.dose * 7 - 1), 1e-28);
   bound.expect("throw in float128", 1e-20);
@@ -161,16 +161,16 @@ void expect_incline(const Incline& c) {
   }
   speed.expect_order(1, 0.05);
   sustained.at_most("the same, largest error over v_s", worst, c.speed_bound);
-  sustained.at_most(name + ", v_s 1e-4: mean acceleration " + Claim::text(mean, 7) + " m/s2, relative to " +
-                        Claim::text(c.acceleration, 6) + " off by",
-                    std::abs(mean / c.acceleration - 1), c.distance_error);
+  sustained.at_most(name + ", v_s 1e-4: mean acceleration " + Claim::text(mean, 7) +
+          " m/s2, relative to " + Claim::text(c.acceleration, 6) + " off by",
+      std::abs(mean / c.acceleration - 1), c.distance_error);
   bound.expect(name, 1e-6);
 }
 
-/// tan = 3/4: it rolls where tan < 7/2 mu, 0.214 < mu. In flight the slip grows by d = 6 m/s2 * 2 v_s/8.
-/// Where an impact takes it away the speed runs ahead by up to 2/7 d and in the mean by d/7, which makes 2e-5
-/// of the way at 1e-4 m/s; where an impact reverses it, from -d/2 to d/2, by up to d/7 and not in the mean.
-/// While sliding an impact takes 2 mu v_s.
+/// tan = 3/4: it rolls where tan < 7/2 mu, 0.214 < mu. In flight the slip grows by d = 6 m/s2 * 2
+/// v_s/8. Where an impact takes it away the speed runs ahead by up to 2/7 d and in the mean by d/7,
+/// which makes 2e-5 of the way at 1e-4 m/s; where an impact reverses it, from -d/2 to d/2, by up to
+/// d/7 and not in the mean. While sliding an impact takes 2 mu v_s.
 TEST(SustainedContact, ABallRollsOrSlidesDownAnIncline) {
   const double rolling = 6.0 * 5 / 7, ahead = 2.0 / 7 * 6 * 2 / 8;
   expect_incline({"mu 0.5, e_t >= 0", 0.5, 0, rolling, 1.001 * ahead, 2.01e-5});
@@ -182,7 +182,8 @@ TEST(SustainedContact, ABallRollsOrSlidesDownAnIncline) {
 
 // --- Rolling pendulum ---
 
-/// Gravity along -Y; the ball is let go at 60 deg from the lowest place of the cylinder, at the top of a hop.
+/// Gravity along -Y; the ball is let go at 60 deg from the lowest place of the cylinder, at the top
+/// of a hop.
 namespace pendulum {
 
 const exact length = 1 - radius, amplitude = boost::math::constants::pi<exact>() / 3;
@@ -190,10 +191,10 @@ const exact modulus = sin(amplitude / 2);
 
 exact period() { return 4 * sqrt(7 * length / (5 * exact(g))) * boost::math::ellint_1(modulus); }
 
-/// What impacts that take the slip away cost: slip d = 2 v_s g sin(phi)/a in a hop, m d^2/7 of energy with
-/// it, a = g cos(phi) + v^2/length. Shares of the amplitude in Z and of the period, over v_s, at the end of
-/// the first half swing and between the first and the third passage of the lowest place, where the amplitude
-/// has lost 1.5 times as much. [s/m]
+/// What impacts that take the slip away cost: slip d = 2 v_s g sin(phi)/a in a hop, m d^2/7 of
+/// energy with it, a = g cos(phi) + v^2/length. Shares of the amplitude in Z and of the period,
+/// over v_s, at the end of the first half swing and between the first and the third passage of the
+/// lowest place, where the amplitude has lost 1.5 times as much. [s/m]
 struct Damping {
   double turning, period;
 
@@ -210,7 +211,8 @@ struct Damping {
     const exact integral = sum * pi / count * sqrt(7 * length / (5 * exact(g)));
     const exact lost = 2 * exact(g) * integral / (7 * length * sin(amplitude));
     const exact K = boost::math::ellint_1(modulus), E = boost::math::ellint_2(modulus);
-    const exact slope = (E / (modulus * (1 - modulus * modulus)) - K / modulus) * cos(amplitude / 2) / 2;
+    const exact slope =
+        (E / (modulus * (1 - modulus * modulus)) - K / modulus) * cos(amplitude / 2) / 2;
     turning = static_cast<double>(lost / tan(amplitude));
     period = static_cast<double>(lost * exact(3) / 2 * slope / K);
   }
@@ -223,10 +225,11 @@ struct Errors {
     const Law law{v_s, 1, min_tangential};
     const exact hop = decimal(v_s) * decimal(v_s) / (2 * exact(g) * cos(amplitude));
     const exact y = -(length - hop) * cos(amplitude), z = (length - hop) * sin(amplitude);
-    // A rolling ball presses at most with g + v^2/length, v^2 = 10/7 g length (1 - cos 60 deg). Its slip is
-    // at most 2 v_s tan 60 deg, 2/7 of which is less than v_s.
+    // A rolling ball presses at most with g + v^2/length, v^2 = 10/7 g length (1 - cos 60 deg). Its
+    // slip is at most 2 v_s tan 60 deg, 2/7 of which is less than v_s.
     const double l = static_cast<double>(length), fastest = std::sqrt(5.0 / 7 * g * l) + v_s;
-    OneBall<double> run(still_case({0, -g, 0}, law, {0, y, z}, at_rest), 2, g + fastest * fastest / l);
+    OneBall<double> run(
+        still_case({0, -g, 0}, law, {0, y, z}, at_rest), 2, g + fastest * fastest / l);
     std::vector<double> passages;  // of the lowest place
     double before = 1, furthest = 0;
     run.watch = [&](const auto& impact) {

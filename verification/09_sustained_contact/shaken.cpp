@@ -1,5 +1,6 @@
-// Claim 09, a swinging vessel: a ball that the cylinder carries along its axis, and a cap that throws a ball.
-// The vial swings about Z alone on an arm of 100 m, by so little that it moves along X, its own axis.
+// Claim 09, a swinging vessel: a ball that the cylinder carries along its axis, and a cap that
+// throws a ball. The vial swings about Z alone on an arm of 100 m, by so little that it moves along
+// X, its own axis.
 #include "mill_parts.hpp"
 #include "one_ball.hpp"
 
@@ -10,15 +11,17 @@ constexpr double arm = 100, radius = 0.0625, g = 10, pi = 3.14159265358979323846
 
 /// @param along, across  of the ball's centre in the vessel, along the arm and along the axis [m]
 /// @param speed          of the ball along X [m/s]
-std::string shaken_case(const std::string& gravity, const Law& law, double frequency, double theta_max,
-                        const exact& along, const exact& across, const exact& speed) {
-  const exact a = exact(arm) + along, sine = sin(decimal(theta_max)), cosine = cos(decimal(theta_max));
-  return "[run]\nend_time = \"1000 s\"\ngravity = " + gravity + "[mill]\narm = \"100 m\"\ntheta_max = \"" +
-         digits(theta_max) + " rad\"\ngamma_max = \"0 rad\"\nspeed = \"" + digits(frequency) +
-         " Hz\"\n[vessel]\ndiameter = \"2 m\"\nheight = \"1 m\"\n" + law.text() +
-         "[[ball]]\ndiameter = \"0.125 m\"\nposition = " +
-         vector_text(-sine * a - cosine * across, cosine * a - sine * across, 0) +
-         "velocity = " + vector_text(speed, 0, 0);
+std::string shaken_case(const std::string& gravity, const Law& law, double frequency,
+    double theta_max, const exact& along, const exact& across, const exact& speed) {
+  const exact a = exact(arm) + along, sine = sin(decimal(theta_max)),
+              cosine = cos(decimal(theta_max));
+  return "[run]\nend_time = \"1000 s\"\ngravity = " + gravity +
+      "[mill]\narm = \"100 m\"\ntheta_max = \"" + digits(theta_max) +
+      " rad\"\ngamma_max = \"0 rad\"\nspeed = \"" + digits(frequency) +
+      " Hz\"\n[vessel]\ndiameter = \"2 m\"\nheight = \"1 m\"\n" + law.text() +
+      "[[ball]]\ndiameter = \"0.125 m\"\nposition = " +
+      vector_text(-sine * a - cosine * across, cosine * a - sine * across, 0) +
+      "velocity = " + vector_text(speed, 0, 0);
 }
 
 // --- A ball carried by the cylinder, 2 Hz, 3 cm to either side ---
@@ -28,9 +31,10 @@ namespace carried {
 constexpr double w = 2 * pi * 2, theta_max = 0.0003;
 constexpr double wall_arm = arm - 1;  ///< of the place that the ball touches
 
-/// The ball's motion over the wall's: 2/7 for a plate that stays level; but the vial tilts by its angle,
-/// and gravity acts along it, on a rolling ball with 5/7. All else is of the order theta_max^2, if the ball
-/// begins where it is at the middle of the vial when the vial is at the middle of its swing.
+/// The ball's motion over the wall's: 2/7 for a plate that stays level; but the vial tilts by its
+/// angle, and gravity acts along it, on a rolling ball with 5/7. All else is of the order
+/// theta_max^2, if the ball begins where it is at the middle of the vial when the vial is at the
+/// middle of its swing.
 constexpr double share = 2.0 / 7 - 5.0 / 7 * g / (wall_arm * w * w);
 constexpr double begin = -5.0 / 7 * wall_arm * theta_max;
 
@@ -39,8 +43,8 @@ double error(double v_s, double min_tangential, ImpactBound& bound) {
   const exact hop = decimal(v_s) * decimal(v_s) / (2 * exact(g));
   const double rate = theta_max * w;
   OneBall<double> run(shaken_case(vector_text(0, -g, 0), {v_s, 1, min_tangential}, 2, theta_max,
-                                  hop - (1 - exact(radius)), decimal(begin), 0),
-                      2, g + arm * rate * rate);
+                          hop - (1 - exact(radius)), decimal(begin), 0),
+      2, g + arm * rate * rate);
   const double first = run.at(0).position[0];
   double worst = 0;
   for (int k = 1; k <= 128; ++k) {
@@ -58,7 +62,8 @@ TEST(SustainedContact, ACylinderCarriesABallWithTwoSevenths) {
   ImpactBound bound;
   for (const double v_s : {1e-2, 3e-3, 1e-3, 3e-4, 1e-4}) taken.add(v_s, error(v_s, 0, bound));
   taken.expect_order(1, 0.02);
-  // In a hop the ball keeps the speed that the wall gave it at the last impact: it is late by v_s/g.
+  // In a hop the ball keeps the speed that the wall gave it at the last impact: it is late by
+  // v_s/g.
   taken.expect_factor(2.0 / 7 * w / g, 0.005);
   for (const double v_s : {1e-1, 3e-2, 1e-2, 3e-3}) reversed.add(v_s, error(v_s, -1, bound));
   reversed.expect_order(2, 0.2);
@@ -83,8 +88,9 @@ double acceleration(double t) { return A * w * w * std::cos(w * t); }
 struct Limit {
   double leaves = std::acos(-g / (A * w * w)) / w;  ///< where the table's acceleration is -g
   double lands, locks;
-  double landing_speed;                                ///< relative to the table
-  double jerk = A * w * w * w * std::sin(w * leaves);  ///< less of the pressing acceleration, at `leaves`
+  double landing_speed;  ///< relative to the table
+  double jerk =
+      A * w * w * w * std::sin(w * leaves);  ///< less of the pressing acceleration, at `leaves`
 
   Limit() {
     lands = next(leaves, 0, 1e-3);
@@ -97,7 +103,6 @@ struct Limit {
     }
     locks = t + 2 * v / ((g + acceleration(t)) * (1 - e));  // intervals shrink by e from here on
   }
-
  private:
   /// The first meeting after `t`, when the ball left at `v` relative to the table.
   static double next(double t, double v, double sure) {
@@ -124,15 +129,14 @@ struct Errors {
   Errors(double v_s, const Limit& limit, ImpactBound& bound) {
     for (int k = 0; k < throws; ++k) one_throw(v_s, limit, (k + 0.5) / throws, bound);
   }
-
  private:
   /// @param part  of a hop after which the ball begins
   void one_throw(double v_s, const Limit& limit, double part, ImpactBound& bound) {
     const exact most = exact(g) + exact(A) * w * w, rise = decimal(v_s) * (1 - 2 * exact(part));
     const exact begin = (decimal(v_s) * decimal(v_s) - rise * rise) / (2 * most);
     OneBall<double> run(shaken_case(vector_text(-g, 0, 0), {v_s, 0, 0, e}, frequency, theta_max, 0,
-                                    exact(1) / 2 - exact(radius) - begin, rise),
-                        1, static_cast<double>(most) * (1 + 1e-6));
+                            exact(1) / 2 - exact(radius) - begin, rise),
+        1, static_cast<double>(most) * (1 + 1e-6));
     bool locked = true;
     run.watch = [&](const auto& impact) {
       const double t = run.seconds(impact), flight = impact.flight_time[0];
@@ -175,15 +179,15 @@ struct Errors {
 /// @param rounding  of the height of a hop, as a share of the lowest
 void expect_throws(const std::vector<double>& speeds, double rounding) {
   const Limit limit;
-  sustained.say("table, A w^2/g " + Claim::text(A * w * w / g, 6) + ", leaves, lands, locks at phase " +
-                Claim::text(w * limit.leaves, 6) + " " + Claim::text(w * limit.lands, 6) + " " +
-                Claim::text(w * limit.locks, 6));
+  sustained.say("table, A w^2/g " + Claim::text(A * w * w / g, 6) +
+      ", leaves, lands, locks at phase " + Claim::text(w * limit.leaves, 6) + " " +
+      Claim::text(w * limit.lands, 6) + " " + Claim::text(w * limit.locks, 6));
   Convergence leaves("table, time of leaving"), lands("table, time of landing"),
       locks("table, time of locking"), height("table, height while locked");
   ImpactBound bound;
-  // A hop that begins s before the phase of leaving ends as long as j s^2 >= 8/3 v_s; the last one that ends
-  // does so at most s/2 after the phase. What its start adds to the speed of the throw is v_s - j s^2/2.
-  // The bounds leave 5 % to higher orders of v_s.
+  // A hop that begins s before the phase of leaving ends as long as j s^2 >= 8/3 v_s; the last one
+  // that ends does so at most s/2 after the phase. What its start adds to the speed of the throw is
+  // v_s - j s^2/2. The bounds leave 5 % to higher orders of v_s.
   const double throw_time = limit.lands - limit.leaves, later = throw_time / limit.landing_speed;
   const double pressing = g + acceleration(limit.lands);
   const double lock_bound = later * (1 + e) / (1 - e) + 2 * (1 + e) / (pressing * (1 - e));
@@ -206,7 +210,8 @@ void expect_throws(const std::vector<double>& speeds, double rounding) {
   sustained.at_most("the same, largest error over sqrt(8 v_s/(3 j))", worst_leaves, 1.05);
   sustained.at_most("the same, where it leaves late", worst_late, 0.525);
   lands.expect_order(1, 0.1);
-  sustained.at_most("the same, largest error over " + Claim::text(later) + " s2/m v_s", worst_lands, 1.05);
+  sustained.at_most(
+      "the same, largest error over " + Claim::text(later) + " s2/m v_s", worst_lands, 1.05);
   locks.expect_order(1, 0.1);
   sustained.at_most("the same, largest error over v_s", worst_locks, lock_bound, " s2/m");
   height.expect_order(2, 0.05);
@@ -214,8 +219,8 @@ void expect_throws(const std::vector<double>& speeds, double rounding) {
   bound.expect("table", rounding);
 }
 
-/// A place 100 m from the fulcrum is rounded by up to 7e-15 m; hops at the greatest acceleration are 2.3e-10
-/// m high at 1e-4 m/s.
+/// A place 100 m from the fulcrum is rounded by up to 7e-15 m; hops at the greatest acceleration
+/// are 2.3e-10 m high at 1e-4 m/s.
 TEST(SustainedContact, ATableThrowsTheBallAtItsPhaseAndCatchesIt) {
   expect_throws({3e-3, 1e-3, 3e-4, 1e-4}, 1e-4);
 }

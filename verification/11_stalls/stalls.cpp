@@ -19,7 +19,8 @@ struct Charge {
 };
 
 struct Figures {
-  double rate = 0, half_width = 0, rested = 0;  ///< the last: share of the dose in impacts without friction
+  double rate = 0, half_width = 0,
+         rested = 0;  ///< the last: share of the dose in impacts without friction
 };
 
 /// In a SPEX at 1054 rpm, statistics after half a second.
@@ -27,11 +28,12 @@ Figures figures(const Charge& charge, const model::StallRule& rule) {
   std::vector<double> rates;
   Figures f;
   for (int seed = 1; seed <= charge.seeds; ++seed) {
-    const auto spec = casefile::read_case(
-        EDMILL_SOURCE_DIR "/docs/examples/ward.toml",
-        {"balls.0.count=" + std::to_string(charge.count), std::string("balls.0.diameter=") + charge.diameter,
-         std::string("contact.restitution=") + charge.restitution, "run.seed=" + std::to_string(seed),
-         "run.start_time=0.5 s", "run.end_time=" + Claim::text(0.5 + charge.seconds, 12) + " s"});
+    const auto spec = casefile::read_case(EDMILL_SOURCE_DIR "/docs/examples/ward.toml",
+        {"balls.0.count=" + std::to_string(charge.count),
+            std::string("balls.0.diameter=") + charge.diameter,
+            std::string("contact.restitution=") + charge.restitution,
+            "run.seed=" + std::to_string(seed), "run.start_time=0.5 s",
+            "run.end_time=" + Claim::text(0.5 + charge.seconds, 12) + " s"});
     auto built = casefile::build_case<double>(spec);
     built.the_case.mill.stall = rule;
     const auto s = simulated(spec, built);
@@ -42,9 +44,9 @@ Figures figures(const Charge& charge, const model::StallRule& rule) {
   const auto rate = numerics::estimate(rates);
   f.rate = *rate.mean, f.half_width = *rate.half_width;
   claim.say(std::to_string(charge.count) + " balls, N " + std::to_string(rule.impacts) + ", a_s " +
-            std::to_string(rule.acceleration) + " m/s2: dose rate " + Claim::text(f.rate, 5) + " +- " +
-            Claim::text(f.half_width, 2) + " W, " + Claim::text(100 * f.rested, 2) +
-            " % of the dose without friction");
+      std::to_string(rule.acceleration) + " m/s2: dose rate " + Claim::text(f.rate, 5) + " +- " +
+      Claim::text(f.half_width, 2) + " W, " + Claim::text(100 * f.rested, 2) +
+      " % of the dose without friction");
   return f;
 }
 
@@ -53,21 +55,24 @@ void keeps_its_dose_rate(const Charge& charge, double largest_interval) {
   const model::StallRule rule;
   const Figures own = figures(charge, rule);
   for (const auto& other : {model::StallRule{10 * rule.impacts, rule.acceleration},
-                            model::StallRule{rule.impacts / 10, rule.acceleration},
-                            model::StallRule{rule.impacts, 10 * rule.acceleration},
-                            model::StallRule{rule.impacts, rule.acceleration / 10}}) {
+           model::StallRule{rule.impacts / 10, rule.acceleration},
+           model::StallRule{rule.impacts, 10 * rule.acceleration},
+           model::StallRule{rule.impacts, rule.acceleration / 10}}) {
     const Figures f = figures(charge, other);
     const double interval = std::hypot(own.half_width, f.half_width);
-    const std::string name = std::to_string(charge.count) + " balls, N " + std::to_string(other.impacts) +
-                             ", a_s " + std::to_string(other.acceleration) + ": ";
-    // 1.5 times the 95 % interval: at four comparisons a case one false alarm in 100 runs of the claim.
+    const std::string name = std::to_string(charge.count) + " balls, N " +
+        std::to_string(other.impacts) + ", a_s " + std::to_string(other.acceleration) + ": ";
+    // 1.5 times the 95 % interval: at four comparisons a case one false alarm in 100 runs of the
+    // claim.
     claim.at_most(name + "difference of the dose rate over its interval",
-                  std::abs(f.rate - own.rate) / interval, 1.5);
+        std::abs(f.rate - own.rate) / interval, 1.5);
     claim.at_most(name + "and that interval as a share", interval / own.rate, largest_interval);
   }
 }
 
-TEST(Stalls, FourteenBallsKeepTheirDoseRate) { keeps_its_dose_rate({14, "9.52 mm", "0.55", 2, 6}, 0.03); }
+TEST(Stalls, FourteenBallsKeepTheirDoseRate) {
+  keeps_its_dose_rate({14, "9.52 mm", "0.55", 2, 6}, 0.03);
+}
 
 TEST(Stalls, LongFiveChargesKeepTheirDoseRates) {
   keeps_its_dose_rate({6, "9.52 mm", "0.55", 60, 8}, 0.006);

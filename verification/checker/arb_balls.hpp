@@ -13,8 +13,8 @@
 namespace checker {
 
 /// An enclosure: all real numbers within a radius of a midpoint.
-/// The result of an operation holds the results for all numbers of its operands. A comparison is true if it
-/// is true for all of them; if it is false, it may be undecided.
+/// The result of an operation holds the results for all numbers of its operands. A comparison is
+/// true if it is true for all of them; if it is false, it may be undecided.
 struct Real {
   arb_t arb;
 
@@ -49,10 +49,18 @@ Real result_of(Function function, const Arguments&... arguments) {
   return result;
 }
 
-inline Real operator+(const Real& a, const Real& b) { return result_of(arb_add, a.arb, b.arb, precision); }
-inline Real operator-(const Real& a, const Real& b) { return result_of(arb_sub, a.arb, b.arb, precision); }
-inline Real operator*(const Real& a, const Real& b) { return result_of(arb_mul, a.arb, b.arb, precision); }
-inline Real operator/(const Real& a, const Real& b) { return result_of(arb_div, a.arb, b.arb, precision); }
+inline Real operator+(const Real& a, const Real& b) {
+  return result_of(arb_add, a.arb, b.arb, precision);
+}
+inline Real operator-(const Real& a, const Real& b) {
+  return result_of(arb_sub, a.arb, b.arb, precision);
+}
+inline Real operator*(const Real& a, const Real& b) {
+  return result_of(arb_mul, a.arb, b.arb, precision);
+}
+inline Real operator/(const Real& a, const Real& b) {
+  return result_of(arb_div, a.arb, b.arb, precision);
+}
 inline Real operator-(const Real& a) { return 0 - a; }
 
 inline bool operator<(const Real& a, const Real& b) { return arb_lt(a.arb, b.arb); }
@@ -92,7 +100,9 @@ inline Real interval(const Real& from, const Real& to) {
 }
 
 /// Whether one enclosure lies within another.
-inline bool contains(const Real& outer, const Real& inner) { return arb_contains(outer.arb, inner.arb); }
+inline bool contains(const Real& outer, const Real& inner) {
+  return arb_contains(outer.arb, inner.arb);
+}
 
 /// Adds 2^-bits to the radius.
 inline void widen(Real& a, slong bits) { arb_add_error_2exp_si(a.arb, -bits); }

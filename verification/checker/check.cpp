@@ -11,8 +11,9 @@ namespace {
 
 Json read_header(std::istream& in) {
   Json header = next_line(in);
-  with_keys(header, {"format", "version", "case", "digest", "events", "bits", "start", "gravity", "joints",
-                     "walls", "laws", "balls", "law_of_walls", "law_of_balls"});
+  with_keys(header,
+      {"format", "version", "case", "digest", "events", "bits", "start", "gravity", "joints",
+          "walls", "laws", "balls", "law_of_walls", "law_of_balls"});
   return header;
 }
 
@@ -34,8 +35,8 @@ std::string check(std::istream& in) {
   const Json header = read_header(in);
   const Index bits = index(header.at("bits"), 65537);
   if (bits > most_bits)
-    throw std::invalid_argument("more than " + std::to_string(most_bits) +
-                                " bits, which take the checker with Arb");
+    throw std::invalid_argument(
+        "more than " + std::to_string(most_bits) + " bits, which take the checker with Arb");
   const Index events = index(header.at("events"), std::numeric_limits<long>::max());
   if (header.at("format") != "edmill certificate" ||
       (header.at("version") != 1 && header.at("version") != 2) || bits < 64 || events < 1)
@@ -44,7 +45,7 @@ std::string check(std::istream& in) {
   Induction induction(header, static_cast<Bits>(bits));
   take_lines(in, events, induction);
   return "accepted: " + std::to_string(events) + " events of " + std::to_string(induction.balls()) +
-         " balls in " + std::to_string(bits) + " bits";
+      " balls in " + std::to_string(bits) + " bits";
 }
 
 }  // namespace checker

@@ -54,7 +54,8 @@ bool Stalls::stalled(Index ball, const Law& law, const Real& elapsed) {
   return unmoved_[ball] > 32;
 }
 
-State after_wall_impact(const Motion& motion, Index i, Index wall_number, const Real& T, bool in_stall) {
+State after_wall_impact(
+    const Motion& motion, Index i, Index wall_number, const Real& T, bool in_stall) {
   const Mill& mill = motion.mill;
   const Ball& ball = mill.balls[i];
   const Wall& wall = mill.walls[wall_number];
@@ -77,7 +78,8 @@ State after_wall_impact(const Motion& motion, Index i, Index wall_number, const 
   return {r - P * d, v + P, s + Q * (1 / (ball.radius * ball.reduced_inertia))};
 }
 
-std::array<State, 2> after_pair_impact(const Motion& motion, Index i, Index j, const Real& T, bool in_stall) {
+std::array<State, 2> after_pair_impact(
+    const Motion& motion, Index i, Index j, const Real& T, bool in_stall) {
   const Mill& mill = motion.mill;
   const Ball &A = mill.balls[i], &B = mill.balls[j];
   const Real m = middle(T), d = T - m;
@@ -92,9 +94,9 @@ std::array<State, 2> after_pair_impact(const Motion& motion, Index i, Index j, c
   const Law& law = mill.laws[mill.law_of_balls[i][j]];  // i is the lower number
   const auto [P, Q] = impulse(law, n, G, c, in_stall);
   return {State{motion.position(i, m) - P * share_i * d, motion.velocity(i, m) + P * share_i,
-                s_i + Q * (share_i / (A.radius * A.reduced_inertia))},
-          State{motion.position(j, m) + P * share_j * d, motion.velocity(j, m) - P * share_j,
-                s_j + Q * (share_j / (B.radius * B.reduced_inertia))}};
+              s_i + Q * (share_i / (A.radius * A.reduced_inertia))},
+      State{motion.position(j, m) + P * share_j * d, motion.velocity(j, m) - P * share_j,
+          s_j + Q * (share_j / (B.radius * B.reduced_inertia))}};
 }
 
 }  // namespace checker

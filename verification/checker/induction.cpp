@@ -13,8 +13,8 @@ namespace {
 
 /// "At the start": each component, but a velocity or spin of zero, has the radius 2^-bits.
 State state_at_start(const Ball& ball, const Pose& pose, Bits bits) {
-  State state{ball.in_vessel ? pose.origin + pose.to_inertial(ball.position) : ball.position, ball.velocity,
-              ball.spin};
+  State state{ball.in_vessel ? pose.origin + pose.to_inertial(ball.position) : ball.position,
+      ball.velocity, ball.spin};
   for (Real& component : state.position) widen(component, bits);
   for (Vec* vector : {&state.velocity, &state.spin})
     for (Real& component : *vector)
@@ -44,8 +44,9 @@ Vec require_within(const Json& given, const Vec& computed) {
 
 State require_within(const Json& given, const State& computed) {
   with_keys(given, {"r", "v", "s"});
-  return {require_within(given.at("r"), computed.position), require_within(given.at("v"), computed.velocity),
-          require_within(given.at("s"), computed.spin)};
+  return {require_within(given.at("r"), computed.position),
+      require_within(given.at("v"), computed.velocity),
+      require_within(given.at("s"), computed.spin)};
 }
 
 }  // namespace
@@ -54,7 +55,8 @@ Induction::Induction(const Json& header, Bits bits)
     : motion_{read_mill(header), {}}, stalls_(motion_.mill.balls.size()) {
   const Pose pose = pose_of(motion_.mill, 0);
   for (const Ball& ball : motion_.mill.balls)
-    motion_.flights.push_back(flight_from(state_at_start(ball, pose, bits), 0, -1, motion_.mill.gravity));
+    motion_.flights.push_back(
+        flight_from(state_at_start(ball, pose, bits), 0, -1, motion_.mill.gravity));
 }
 
 void Induction::take_event(const Json& line) {
@@ -67,11 +69,13 @@ void Induction::take_event(const Json& line) {
   // Rule 1: the bracket comes after the one before, and the first after the start.
   const Real bracket = enclosure(line.at("time").get<std::string>());
   const Real until = upper_end(bracket);
-  if (!(end_ < lower_end(bracket))) throw Violation("rule 1: it does not come after the one before");
+  if (!(end_ < lower_end(bracket)))
+    throw Violation("rule 1: it does not come after the one before");
 
   const Json &windows = line.at("windows"), &states = line.at("states");
   const Index bodies = with_wall ? 1 : 2;
-  if (list(windows, 2).size() != bodies || list(states, 2).size() != bodies) throw Violation("other bodies");
+  if (list(windows, 2).size() != bodies || list(states, 2).size() != bodies)
+    throw Violation("other bodies");
 
   // Rule 2: the event happens. Rules 4 and 5: no other event comes first.
   require_contact(motion_, contact, bracket);
@@ -119,29 +123,33 @@ void Induction::take_end(const Json& line) const {
 Contact Induction::read_contact(const Json& line) const {
   const bool with_wall = line.contains("wall");
   const Index ball = index(line.at("ball"), balls());
-  const Index other =
-      with_wall ? index(line.at("wall"), motion_.mill.walls.size()) : index(line.at("partner"), balls());
-  if (!with_wall && other <= ball) throw Violation("the ball with the lower number is not the first");
+  const Index other = with_wall ? index(line.at("wall"), motion_.mill.walls.size())
+                                : index(line.at("partner"), balls());
+  if (!with_wall && other <= ball)
+    throw Violation("the ball with the lower number is not the first");
   return {ball, with_wall, other};
 }
 
 /// Rule 4: no other wall than the last one, with which the flight of the ball ends.
-void Induction::require_no_walls(Index ball, const Json& windows, const Real& until,
-                                 std::optional<Index> last) const {
+void Induction::require_no_walls(
+    Index ball, const Json& windows, const Real& until, std::optional<Index> last) const {
   const Index walls = motion_.mill.walls.size();
   if (list(windows, 64).size() != walls) throw Violation("rule 4: windows of other walls");
   for (Index wall = 0; wall < walls; ++wall)
     require_no_wall(motion_, ball, wall, windows.at(wall).get<std::string>(), until, last == wall);
 }
 
-/// Rule 5: no other ball than the partner, with which the flight of ball i ends in this event. It is compared
-/// with the flights that have not ended; those that ended before were compared with it then.
-void Induction::require_no_balls(Index i, std::optional<Index> partner, const Real& until, long event) const {
+/// Rule 5: no other ball than the partner, with which the flight of ball i ends in this event. It
+/// is compared with the flights that have not ended; those that ended before were compared with it
+/// then.
+void Induction::require_no_balls(
+    Index i, std::optional<Index> partner, const Real& until, long event) const {
   const Flight& a = motion_.flights[i];
   for (Index j = 0; j < balls(); ++j) {
     const Flight& b = motion_.flights[j];
     if (j == i || j == partner || std::max(a.event, b.event) >= event) continue;
-    const bool parting = a.event == b.event && a.partner == j && b.partner == i;  // from their collision
+    const bool parting =
+        a.event == b.event && a.partner == j && b.partner == i;  // from their collision
     if (!parting) require_no_pair(motion_, i, j, until);
   }
 }
@@ -157,7 +165,8 @@ std::vector<State> Induction::after_impact(const Contact& contact, const Real& b
   return {states[0], states[1]};
 }
 
-void Induction::begin_flight(Index ball, const State& state, const Contact& contact, const Real& bracket) {
+void Induction::begin_flight(
+    Index ball, const State& state, const Contact& contact, const Real& bracket) {
   Flight& flight = motion_.flights[ball];
   flight = flight_from(state, bracket, events_, motion_.mill.gravity);
   if (contact.with_wall)

@@ -28,11 +28,12 @@ class Induction {
   /// Takes the last line.
   /// @throws as take_event
   void take_end(const Json& line) const;
-
  private:
   Contact read_contact(const Json& line) const;
-  void require_no_walls(Index ball, const Json& windows, const Real& until, std::optional<Index> last) const;
-  void require_no_balls(Index ball, std::optional<Index> partner, const Real& until, long event) const;
+  void require_no_walls(
+      Index ball, const Json& windows, const Real& until, std::optional<Index> last) const;
+  void require_no_balls(
+      Index ball, std::optional<Index> partner, const Real& until, long event) const;
   std::vector<State> after_impact(const Contact& contact, const Real& bracket);
   void begin_flight(Index ball, const State& state, const Contact& contact, const Real& bracket);
 

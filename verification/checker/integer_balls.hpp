@@ -1,5 +1,5 @@
-// Enclosures by integers of any size (Boost's cpp_int, header files only): for where Arb is not, and as a
-// second arithmetic under the same rules.
+// Enclosures by integers of any size (Boost's cpp_int, header files only): for where Arb is not,
+// and as a second arithmetic under the same rules.
 #pragma once
 
 #include <algorithm>
@@ -68,8 +68,8 @@ inline Dyadic quotient_rounded_up(const Dyadic& a, const Dyadic& b) {
 }
 
 /// An enclosure: all real numbers within a radius of a midpoint; or all there are.
-/// The result of an operation holds the results for all numbers of its operands. A comparison is true if it
-/// is true for all of them; if it is false, it may be undecided.
+/// The result of an operation holds the results for all numbers of its operands. A comparison is
+/// true if it is true for all of them; if it is false, it may be undecided.
 struct Real {
   Dyadic midpoint, radius;
   bool unbounded = false;
@@ -80,7 +80,8 @@ struct Real {
     const Exponent surplus = bits_of(m.m) - precision;
     if (surplus <= 0) return;
     const Integer half = shifted(1, surplus - 1);
-    midpoint = {shifted(m.m < 0 ? Integer(m.m - half) : Integer(m.m + half), -surplus), m.e + surplus};
+    midpoint = {
+        shifted(m.m < 0 ? Integer(m.m - half) : Integer(m.m + half), -surplus), m.e + surplus};
     if ((m - midpoint).m != 0) radius = rounded_up(radius + Dyadic{1, m.e + surplus - 1});
   }
   static Real exact(const Dyadic& m, const Dyadic& r = {}) {
@@ -113,8 +114,9 @@ inline Real operator-(const Real& a) {
 inline Real operator-(const Real& a, const Real& b) { return a + -b; }
 inline Real operator*(const Real& a, const Real& b) {
   if (a.unbounded || b.unbounded) return Real::any();
-  return {a.midpoint * b.midpoint, rounded_up(size_of(a.midpoint)) * b.radius +
-                                       rounded_up(size_of(b.midpoint)) * a.radius + a.radius * b.radius};
+  return {a.midpoint * b.midpoint,
+      rounded_up(size_of(a.midpoint)) * b.radius + rounded_up(size_of(b.midpoint)) * a.radius +
+          a.radius * b.radius};
 }
 inline Real operator/(const Real& a, const Real& b) {
   const Dyadic divisor = size_of(b.midpoint), least = divisor - b.radius;
@@ -163,7 +165,7 @@ inline Real interval(const Real& from, const Real& to) {
 /// Whether one enclosure lies within another.
 inline bool contains(const Real& outer, const Real& inner) {
   return outer.unbounded ||
-         (!inner.unbounded && !(inner.lower() < outer.lower()) && !(outer.upper() < inner.upper()));
+      (!inner.unbounded && !(inner.lower() < outer.lower()) && !(outer.upper() < inner.upper()));
 }
 
 /// Adds 2^-bits to the radius.
@@ -184,7 +186,8 @@ inline Real square_root(const Real& a) {
   return hull(below(a.lower()), square ? high : high + Dyadic{1, high.e});
 }
 
-/// Fixed-point numbers: integers in units of 2^-bits. Cut off at each operation, far below the precision.
+/// Fixed-point numbers: integers in units of 2^-bits. Cut off at each operation, far below the
+/// precision.
 namespace fixed {
 
 inline Exponent bits() { return precision + spare_bits; }
@@ -239,7 +242,8 @@ inline std::pair<Real, Real> sine_and_cosine_of_pi(const Real& a) {
   Integer quarters = shifted(twice.m, twice.e);
   if (twice.m < 0 && (twice - Dyadic{quarters, 0}).m != 0) --quarters;  // downwards
   const Dyadic rest = a.midpoint - Dyadic{quarters, -1};
-  const Integer angle = shifted(fixed::pi() * shifted(rest.m, rest.e + fixed::bits()), -fixed::bits());
+  const Integer angle =
+      shifted(fixed::pi() * shifted(rest.m, rest.e + fixed::bits()), -fixed::bits());
   const auto [s, c] = fixed::sine_and_cosine(angle);
   const Dyadic error = rest.m == 0 ? Dyadic{} : fixed::error();  // 0 and 1 are exact
   // |sin(x + d) - sin x| <= |cos x| |d| + d^2 / 2, and the same with the two exchanged.
@@ -249,14 +253,10 @@ inline std::pair<Real, Real> sine_and_cosine_of_pi(const Real& a) {
   };
   const Real sine({s, -fixed::bits()}, within(c)), cosine({c, -fixed::bits()}, within(s));
   switch (static_cast<int>(((quarters % 4) + 4) % 4)) {
-    case 0:
-      return {sine, cosine};
-    case 1:
-      return {cosine, -sine};
-    case 2:
-      return {-sine, -cosine};
-    default:
-      return {-cosine, sine};
+    case 0: return {sine, cosine};
+    case 1: return {cosine, -sine};
+    case 2: return {-sine, -cosine};
+    default: return {-cosine, sine};
   }
 }
 

@@ -22,8 +22,10 @@ Json next_line(std::istream& in) {
   std::vector<Keys> open;  // keys of the objects that have begun and not ended
   Index objects = 0;
   return Json::parse(line, [&](int depth, Json::parse_event_t event, Json& key) {
-    // The parser takes a time that grows with their square, and copies of deep values fill the stack.
-    if (depth > deepest || objects > most_objects) throw std::invalid_argument("a line with too much in it");
+    // The parser takes a time that grows with their square, and copies of deep values fill the
+    // stack.
+    if (depth > deepest || objects > most_objects)
+      throw std::invalid_argument("a line with too much in it");
     if (event == Json::parse_event_t::object_start) open.emplace_back(), ++objects;
     if (event == Json::parse_event_t::object_end) open.pop_back();
     if (event == Json::parse_event_t::key && !open.back().insert(key).second)
@@ -50,10 +52,14 @@ Index index(const Json& json, std::uint64_t count) {
   return json.get<Index>();
 }
 
-Real number(const Json& object, const char* key) { return exact_number(object.at(key).get<std::string>()); }
+Real number(const Json& object, const char* key) {
+  return exact_number(object.at(key).get<std::string>());
+}
 
 Vec vector(const Json& json) {
-  const auto component = [&](Index k) { return exact_number(list(json, 3).at(k).get<std::string>()); };
+  const auto component = [&](Index k) {
+    return exact_number(list(json, 3).at(k).get<std::string>());
+  };
   return {component(0), component(1), component(2)};
 }
 

@@ -22,7 +22,8 @@ Json next_line(std::istream& in);
 /// Rule 6: an object that has no other keys than these.
 const Json& with_keys(const Json& object, const Keys& keys);
 
-// The functions below throw a std::exception, but no Rejected, for anything else than what they name.
+// The functions below throw a std::exception, but no Rejected, for anything else than what they
+// name.
 
 /// A list of at most so many elements.
 const Json& list(const Json& json, Index most);

@@ -12,7 +12,8 @@ struct Swing {
   Real amplitude, frequency, phase;
 };
 
-/// A rotation by an angle [turns], or a shift [m], of the vessel or the body and the joints that follow.
+/// A rotation by an angle [turns], or a shift [m], of the vessel or the body and the joints that
+/// follow.
 struct Joint {
   bool rotates;
   Vec axis;    ///< a unit vector; of a shift: its direction
@@ -25,7 +26,8 @@ struct Joint {
 struct Wall {
   enum { plane, cylinder, sphere, solid_box, solid_cylinder } kind;
   Vec outward, point;  ///< of a plane: its normal, of any length, and a point within
-  Real size;  ///< of a plane: its distance from the point; of a solid: its rounding; else: the radius
+  Real size;  ///< of a plane: its distance from the point; of a solid: its rounding; else: the
+              ///< radius
   Vec half;   ///< of a solid's core: half edges, or radius, half height, radius
   std::vector<Joint> joints;  ///< of a solid: from the ground
 

@@ -31,7 +31,8 @@ Real Motion::gap_rate(const Contact& contact, const Real& t) const {
     const Vec r = position(contact.ball, t);
     return checker::gap_rate(wall, pose.place(r), pose.velocity(r, velocity(contact.ball, t)));
   }
-  return dot(separation(contact.ball, contact.other, t), relative_velocity(contact.ball, contact.other, t));
+  return dot(separation(contact.ball, contact.other, t),
+      relative_velocity(contact.ball, contact.other, t));
 }
 
 }  // namespace checker

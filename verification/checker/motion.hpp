@@ -15,18 +15,20 @@ struct State {
 
 /// The flight of a ball between two of its events a and b: r + v (t - m) + g (t - m)^2 / 2.
 struct Flight {
-  Real time;                           ///< m, the middle of the bracket of event a, exact; 0 at the start
-  State state;                         ///< at m
-  Real bracket;                        ///< of event a; 0 at the start
-  Real begin;                          ///< A, the lower end of the bracket
-  long event;                          ///< a; -1 at the start
+  Real time;     ///< m, the middle of the bracket of event a, exact; 0 at the start
+  State state;   ///< at m
+  Real bracket;  ///< of event a; 0 at the start
+  Real begin;    ///< A, the lower end of the bracket
+  long event;    ///< a; -1 at the start
   std::optional<Index> wall, partner;  ///< what the ball met in event a
   Vec position_at_0, velocity_at_0;    ///< of the same parabola, in few bits: for quick comparisons
 
   Vec position(const Real& t, const Vec& gravity) const {
     return state.position + (state.velocity + gravity * ((t - time) / 2)) * (t - time);
   }
-  Vec velocity(const Real& t, const Vec& gravity) const { return state.velocity + gravity * (t - time); }
+  Vec velocity(const Real& t, const Vec& gravity) const {
+    return state.velocity + gravity * (t - time);
+  }
 };
 
 /// What meets in an event: a ball and a wall, or two balls i = `ball` and j = `other`.

@@ -18,7 +18,7 @@ constexpr auto none = std::string::npos;
 bool is_hexadecimal(const std::string& word, bool may_be_negative, std::size_t most_digits) {
   const std::string digits = word.substr(may_be_negative && word[0] == '-');
   return !digits.empty() && digits.size() <= most_digits &&
-         digits.find_first_not_of("0123456789abcdef") == none;
+      digits.find_first_not_of("0123456789abcdef") == none;
 }
 
 /// A mantissa of zero is written "0 0", with its exponent; no other mantissa begins with a zero.
@@ -51,12 +51,14 @@ Real exact_number(const std::string& text) {
 Real enclosure(const std::string& text) {
   std::istringstream in(text);
   std::string midpoint, midpoint_exponent, radius, radius_exponent, more;
-  const bool four_words = in >> midpoint >> midpoint_exponent >> radius >> radius_exponent && !(in >> more);
+  const bool four_words =
+      in >> midpoint >> midpoint_exponent >> radius >> radius_exponent && !(in >> more);
   // Arb aborts on a radius of more than 30 bits, and on a zero with an exponent.
-  const bool good =
-      four_words && is_hexadecimal(midpoint, true, 25000) && is_hexadecimal(midpoint_exponent, true, 6) &&
-      is_hexadecimal(radius, false, 7) && is_hexadecimal(radius_exponent, true, 6) &&
-      writes_zero_as_zero(midpoint, midpoint_exponent) && writes_zero_as_zero(radius, radius_exponent);
+  const bool good = four_words && is_hexadecimal(midpoint, true, 25000) &&
+      is_hexadecimal(midpoint_exponent, true, 6) && is_hexadecimal(radius, false, 7) &&
+      is_hexadecimal(radius_exponent, true, 6) &&
+      writes_zero_as_zero(midpoint, midpoint_exponent) &&
+      writes_zero_as_zero(radius, radius_exponent);
   const std::optional<Real> value = good ? midpoint_and_radius(text) : std::nullopt;
   if (!value) refuse(text);
   return *value;

@@ -15,7 +15,8 @@ long small_integer(const std::string& text);
 /// A rational times a power of pi: "119/25000", "-2", "1/12*pi", "55*pi^-1".
 Real exact_number(const std::string& text);
 
-/// Midpoint and radius, each an integer times a power of two, the four in hexadecimal: "1a2b -8c 3ff -98".
+/// Midpoint and radius, each an integer times a power of two, the four in hexadecimal: "1a2b -8c
+/// 3ff -98".
 Real enclosure(const std::string& text);
 
 }  // namespace checker

@@ -25,8 +25,8 @@ void add(Pose& pose, const Joint& joint, const Real& value, const Real& rate, co
     rotate(pose, joint.axis, sine, cosine);
   } else {
     const Vec D = pose.to_inertial(joint.offset + joint.axis * value);
-    pose.origin_velocity =
-        pose.origin_velocity + (pose.to_inertial(joint.axis * rate) + cross(pose.angular_velocity, D));
+    pose.origin_velocity = pose.origin_velocity +
+        (pose.to_inertial(joint.axis * rate) + cross(pose.angular_velocity, D));
     pose.origin = pose.origin + D;
   }
 }
@@ -41,10 +41,12 @@ Real excess(const Real& p, const Real& half) {
   return half.zero() ? p : positive_part(p - half) - positive_part(-p - half);
 }
 
-/// How far p is beyond a solid's core along x, y and z, or across the axis of a cylinder, along it, and 0.
+/// How far p is beyond a solid's core along x, y and z, or across the axis of a cylinder, along it,
+/// and 0.
 Vec excesses(const Wall& wall, const Vec& p) {
   const Real up = excess(p[1], wall.half[1]);
-  if (wall.kind == Wall::solid_box) return {excess(p[0], wall.half[0]), up, excess(p[2], wall.half[2])};
+  if (wall.kind == Wall::solid_box)
+    return {excess(p[0], wall.half[0]), up, excess(p[2], wall.half[2])};
   return {positive_part(square_root(p[0] * p[0] + p[2] * p[2]) - wall.half[0]), up, 0};
 }
 
@@ -63,7 +65,8 @@ Pose pose_of(const Mill& mill, const std::vector<Joint>& joints, const Real& tim
     Real value = joint.angle + joint.speed * clock;
     Real rate = joint.speed;
     for (const Swing& swing : joint.swings) {
-      const auto [sine, cosine] = sine_and_cosine_of_pi(2 * (swing.frequency * clock + swing.phase));
+      const auto [sine, cosine] =
+          sine_and_cosine_of_pi(2 * (swing.frequency * clock + swing.phase));
       value = value + swing.amplitude * sine;
       rate = rate + swing.amplitude * (mill.two_pi * swing.frequency) * cosine;
     }

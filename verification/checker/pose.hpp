@@ -8,7 +8,8 @@
 
 namespace checker {
 
-/// The vessel or a solid at a time, or at all times of a bracket. Its frame is meant by "vessel frame".
+/// The vessel or a solid at a time, or at all times of a bracket. Its frame is meant by "vessel
+/// frame".
 struct Pose {
   std::array<Vec, 3> rows{Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}};  ///< of the rotation R
   Vec origin{};                                                       ///< C
@@ -16,7 +17,9 @@ struct Pose {
   Vec angular_velocity{};                                             ///< w
 
   /// R x, of a vector in the vessel frame
-  Vec to_inertial(const Vec& x) const { return {dot(rows[0], x), dot(rows[1], x), dot(rows[2], x)}; }
+  Vec to_inertial(const Vec& x) const {
+    return {dot(rows[0], x), dot(rows[1], x), dot(rows[2], x)};
+  }
 
   /// R^T x, of an inertial vector
   Vec to_vessel(const Vec& x) const { return rows[0] * x[0] + rows[1] * x[1] + rows[2] * x[2]; }

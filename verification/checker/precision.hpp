@@ -8,9 +8,9 @@ using Bits = long;
 /// They suffice for most inequalities, and cost less than the bits of a certificate.
 constexpr Bits few_bits = 128;
 
-/// Bits of the arithmetic beyond those of a certificate, and the most that a certificate may have. Whoever
-/// rounds in another way than Arb, with which certificates are made, needs more of them to find enclosures
-/// that lie within those of the file.
+/// Bits of the arithmetic beyond those of a certificate, and the most that a certificate may have.
+/// Whoever rounds in another way than Arb, with which certificates are made, needs more of them to
+/// find enclosures that lie within those of the file.
 #ifdef CHECKER_WITHOUT_ARB
 constexpr Bits more_bits = 96,
                most_bits = 8192;  // integers are slow, and few terms of series have few errors
@@ -28,7 +28,6 @@ class WithPrecision {
   WithPrecision(const WithPrecision&) = delete;
   WithPrecision& operator=(const WithPrecision&) = delete;
   ~WithPrecision() { precision = before_; }
-
  private:
   Bits before_;
 };

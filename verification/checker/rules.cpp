@@ -26,35 +26,41 @@ Window read_window(const std::string& text, long begin) {
   if (depth < 0 || depth > finest_depth) throw Violation("rule 4: a window of another depth");
   const long length = whole_flight >> depth;
   const long end = begin + length;
-  if (begin % length != 0 || end > whole_flight) throw Violation("rule 4: windows that are no bisection");
+  if (begin % length != 0 || end > whole_flight)
+    throw Violation("rule 4: windows that are no bisection");
   return {text[0], begin, end};
 }
 
-/// Whether the claim of a letter is proven from one time to another, at once or on the parts of a bisection.
-bool holds(char letter, const Motion& motion, const Contact& contact, const Real& from, const Real& to,
-           int bisections) {
+/// Whether the claim of a letter is proven from one time to another, at once or on the parts of a
+/// bisection.
+bool holds(char letter, const Motion& motion, const Contact& contact, const Real& from,
+    const Real& to, int bisections) {
   const Real centre = (from + to) / 2;
   const Real all = interval(from, to);
   const Real rate = motion.gap_rate(contact, all);
   // p: f > 0, by the mean value theorem. r: f' > 0. f: f' < 0.
-  if (letter == 'p' && (motion.gap(contact, centre) + rate * (all - centre)).positive()) return true;
+  if (letter == 'p' && (motion.gap(contact, centre) + rate * (all - centre)).positive())
+    return true;
   if (letter == 'r' && rate.positive()) return true;
   if (letter == 'f' && rate.negative()) return true;
   return bisections > 0 && holds(letter, motion, contact, from, centre, bisections - 1) &&
-         holds(letter, motion, contact, centre, to, bisections - 1);
+      holds(letter, motion, contact, centre, to, bisections - 1);
 }
 
 /// Whether the claim of a window is proven for a flight that ends at a time.
 bool holds(const Window& window, const Motion& motion, const Contact& contact, const Real& until) {
   const Real& begin = motion.flights[contact.ball].begin;
-  const auto time = [&](long place) { return begin + (until - begin) * Real(place) / whole_flight; };
-  return holds(window.letter, motion, contact, time(window.begin), time(window.end), most_bisections);
+  const auto time = [&](long place) {
+    return begin + (until - begin) * Real(place) / whole_flight;
+  };
+  return holds(
+      window.letter, motion, contact, time(window.begin), time(window.end), most_bisections);
 }
 
-/// Whether one of the conditions of rule 5 is proven between the times A and B. The separations r_i - r_j are
-/// those at A and B, `velocity` is v_i - v_j, and balls touch at the distance `reach`.
+/// Whether one of the conditions of rule 5 is proven between the times A and B. The separations r_i
+/// - r_j are those at A and B, `velocity` is v_i - v_j, and balls touch at the distance `reach`.
 bool are_apart(const Vec& at_A, const Vec& at_B, const Vec& velocity, const Real& reach,
-               const Real& duration) {
+    const Real& duration) {
   const Real f = dot(at_A, at_A) - reach * reach;
   const Real half_rate = dot(at_A, velocity);
   if (f.positive()) {
@@ -78,21 +84,23 @@ void require_contact(const Motion& motion, const Contact& contact, const Real& b
 }
 
 void require_no_wall(const Motion& motion, Index ball, Index wall, const std::string& windows,
-                     const Real& until, bool at_end) {
+    const Real& until, bool at_end) {
   const bool at_start = motion.flights[ball].wall == wall;
   const Contact contact{ball, true, wall};
   long place = 0;
   for (Index first = 0, next; first < windows.size(); first = next) {
     next = std::min(windows.find_first_of("prf", first + 1), windows.size());
     const Window window = read_window(windows.substr(first, next - first), place);
-    const bool allowed = window.letter == 'p' || (window.letter == 'r' && at_start && window.begin == 0) ||
-                         (window.letter == 'f' && at_end && window.end == whole_flight);
+    const bool allowed = window.letter == 'p' ||
+        (window.letter == 'r' && at_start && window.begin == 0) ||
+        (window.letter == 'f' && at_end && window.end == whole_flight);
     if (!allowed) throw Violation("rule 4: a letter in the wrong place");
     const auto holds_in = [&](long bits) {
       const WithPrecision scope(bits);
       return holds(window, motion, contact, until);
     };
-    if (!holds_in(few_bits) && !holds_in(precision)) throw Violation("rule 4: a wall is not excluded");
+    if (!holds_in(few_bits) && !holds_in(precision))
+      throw Violation("rule 4: a wall is not excluded");
     place = window.end;
   }
   if (place != whole_flight) throw Violation("rule 4: windows that leave a part of a flight out");
@@ -107,12 +115,12 @@ void require_no_pair(const Motion& motion, Index i, Index j, const Real& until) 
     const WithPrecision scope(few_bits);
     const Vec velocity = a.velocity_at_0 - b.velocity_at_0;
     const Vec separation = a.position_at_0 - b.position_at_0;
-    return are_apart(separation + velocity * from, separation + velocity * until, velocity, reach,
-                     until - from);
+    return are_apart(
+        separation + velocity * from, separation + velocity * until, velocity, reach, until - from);
   };
   const auto shown = [&] {
     return are_apart(motion.separation(i, j, from), motion.separation(i, j, until),
-                     motion.relative_velocity(i, j, from), reach, until - from);
+        motion.relative_velocity(i, j, from), reach, until - from);
   };
   if (!shown_in_few_bits() && !shown()) throw Violation("rule 5: balls are not proven apart");
 }

@@ -19,10 +19,11 @@ dynamics::AnyWallSearch<double>::Policy sampled(const model::Mill<double>& mill)
     const SpexFunctions functions(walls->mill(), query.flight, query.radius, query.begin.period);
     const auto ball = functions.seen(query.begin.offset, pose);
     const double speed = norm<double>(ball.velocity) + walls->mill().gravity_size * query.length;
-    if (!dynamics::any_from(walls->within_reach(functions, ball.state.position, speed, query.length), 0))
+    if (!dynamics::any_from(
+            walls->within_reach(functions, ball.state.position, speed, query.length), 0))
       return dynamics::WallAnswer<double>{dynamics::Verdict::none, -1, {}, false, query.length, 0};
-    return uncertified_search(*walls, functions, functions.start(query.begin.offset, pose, ball), query,
-                              samples);
+    return uncertified_search(
+        *walls, functions, functions.start(query.begin.offset, pose, ball), query, samples);
   };
 }
 

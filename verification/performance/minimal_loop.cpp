@@ -44,7 +44,8 @@ void EventHeap::shift(double span) {
   for (auto& entry : entries_) entry.time -= span;
 }
 
-MinimalLoop::MinimalLoop(int balls, double packing, std::uint64_t seed, bool in_order) : heap_(balls) {
+MinimalLoop::MinimalLoop(int balls, double packing, std::uint64_t seed, bool in_order)
+    : heap_(balls) {
   const PeriodicGas gas(balls, packing, seed, in_order);
   box_ = gas.box;
   side_ = gas.cells_a_side();
@@ -103,8 +104,8 @@ void MinimalLoop::collide(int i, int j) {
   predict(j);
 }
 
-/// The contact that the ball has stays valid; only the nine cells that are new to it can bring an earlier
-/// one.
+/// The contact that the ball has stays valid; only the nine cells that are new to it can bring an
+/// earlier one.
 void MinimalLoop::cross(int i) {
   ++crossings_;
   Ball& ball = balls_[i];
@@ -142,7 +143,8 @@ void MinimalLoop::predict(int i) {
 }
 
 /// Finds an earlier contact among the balls of the cells from `low` to `high`.
-void MinimalLoop::predict_contacts(int i, const std::array<int, 3>& low, const std::array<int, 3>& high) {
+void MinimalLoop::predict_contacts(
+    int i, const std::array<int, 3>& low, const std::array<int, 3>& high) {
   Ball& ball = balls_[i];
   for (int z = low[2]; z <= high[2]; ++z)
     for (int y = low[1]; y <= high[1]; ++y)

@@ -1,5 +1,6 @@
-// The plain reference implementation: the textbook event-driven loop for elastic smooth spheres in a periodic
-// box. Cells, a heap, one event for each ball, and nothing else. Units as in periodic_gas.hpp.
+// The plain reference implementation: the textbook event-driven loop for elastic smooth spheres in
+// a periodic box. Cells, a heap, one event for each ball, and nothing else. Units as in
+// periodic_gas.hpp.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +20,6 @@ class EventHeap {
   void set(int ball, double time);
   /// Takes `span` from every time.
   void shift(double span);
-
  private:
   struct Entry {
     double time;
@@ -47,7 +47,6 @@ class MinimalLoop {
   double kinetic_energy() const;
   /// The places of all balls now; a ball may be a little outside of the box.
   std::vector<std::array<double, 3>> positions() const;
-
  private:
   using Vector = std::array<double, 3>;
 
@@ -59,7 +58,8 @@ class MinimalLoop {
     int next, previous;  ///< in the list of the cell; -1 ends it
     std::uint32_t impacts;
 
-    // The ball's first contact, void once the partner has collided with somebody else, and its next cell.
+    // The ball's first contact, void once the partner has collided with somebody else, and its next
+    // cell.
     double contact_time;
     int partner;
     std::uint32_t partner_impacts;
@@ -67,7 +67,9 @@ class MinimalLoop {
     int axis, step;
   };
 
-  int wrapped(int place) const { return place < 0 ? place + side_ : place >= side_ ? place - side_ : place; }
+  int wrapped(int place) const {
+    return place < 0 ? place + side_ : place >= side_ ? place - side_ : place;
+  }
   int& first_in(const std::array<int, 3>& cell) {
     return cells_[cell[0] + side_ * (cell[1] + side_ * cell[2])];
   }
@@ -81,7 +83,9 @@ class MinimalLoop {
   void predict_contacts(int i, const std::array<int, 3>& low, const std::array<int, 3>& high);
   void predict_crossing(Ball& ball) const;
   void requeue(int i) { heap_.set(i, std::min(balls_[i].contact_time, balls_[i].crossing_time)); }
-  double nearest_image(double r) const { return r > box_ / 2 ? r - box_ : r < -box_ / 2 ? r + box_ : r; }
+  double nearest_image(double r) const {
+    return r > box_ / 2 ? r - box_ : r < -box_ / 2 ? r + box_ : r;
+  }
   void restart_clock();
 
   double box_, edge_;

@@ -34,7 +34,6 @@ class Harvest : public engine::Observer<double> {
   }
 
   Questions questions;
-
  private:
   void take(int ball, const engine::Simulation<double>& s) {
     const auto& pairs = ladder_->pairs();
@@ -75,7 +74,8 @@ struct Source {
 
 Source& shaken() {
   static Source source(
-      casefile::build_case<double>(casefile::parse_case(spex_text(spex_subjects[1]), "bench.toml")), 0.5);
+      casefile::build_case<double>(casefile::parse_case(spex_text(spex_subjects[1]), "bench.toml")),
+      0.5);
   return source;
 }
 Source& gas() {
@@ -127,15 +127,16 @@ struct alignas(64) Line {
   std::uint32_t next;
 };
 
-/// A cache line from anywhere in so much memory: where the one before it says, or wherever, so that many come
-/// at once.
+/// A cache line from anywhere in so much memory: where the one before it says, or wherever, so that
+/// many come at once.
 void memory_line(benchmark::State& state, std::size_t megabytes, bool one_by_one) {
   LargeVector<Line> lines((megabytes << 20) / sizeof(Line));
   std::vector<std::uint32_t> order(lines.size());
   std::iota(order.begin(), order.end(), 0);
   std::mt19937_64 random(20110101);
   std::shuffle(order.begin(), order.end(), random);
-  for (std::size_t k = 0; k < order.size(); ++k) lines[order[k]].next = order[(k + 1) % order.size()];
+  for (std::size_t k = 0; k < order.size(); ++k)
+    lines[order[k]].next = order[(k + 1) % order.size()];
   std::uint32_t at = 0, sum = 0;
   std::uint64_t draw = 1;
   for (auto _ : state) {
@@ -148,16 +149,17 @@ void memory_line(benchmark::State& state, std::size_t megabytes, bool one_by_one
   benchmark::DoNotOptimize(at + sum);
 }
 
-template <class Function>
-void add(const std::string& name, Function function) {
+template <class Function> void add(const std::string& name, Function function) {
   benchmark::RegisterBenchmark(("operation/" + name).c_str(), function)->MinTime(0.1);
 }
 
 }  // namespace
 
 void register_operations() {
-  add("wall_query/spex_111/to_next_pair", [](benchmark::State& s) { wall_query(s, shaken(), false); });
-  add("wall_query/spex_111/whole_window", [](benchmark::State& s) { wall_query(s, shaken(), true); });
+  add("wall_query/spex_111/to_next_pair",
+      [](benchmark::State& s) { wall_query(s, shaken(), false); });
+  add("wall_query/spex_111/whole_window",
+      [](benchmark::State& s) { wall_query(s, shaken(), true); });
   add("wall_query/gas_1000/to_next_pair", [](benchmark::State& s) { wall_query(s, gas(), false); });
   add("wall_query/gas_1000/whole_window", [](benchmark::State& s) { wall_query(s, gas(), true); });
   add("pair_query/spex_111", [](benchmark::State& s) { pair_query(s, shaken()); });

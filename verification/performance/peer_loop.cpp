@@ -90,7 +90,8 @@ void PeerLoop::step() {
   // The partner has collided since: the next contact that holds takes its place.
   ++stale_;
   int stale = 1;
-  while (stale < a.count && balls_[a.contacts[stale].partner].impacts != a.contacts[stale].partner_impacts)
+  while (stale < a.count &&
+      balls_[a.contacts[stale].partner].impacts != a.contacts[stale].partner_impacts)
     ++stale;
   for (int k = stale; k < a.count; ++k) a.contacts[k - stale] = a.contacts[k];
   a.count = static_cast<std::uint8_t>(a.count - stale);
@@ -127,13 +128,16 @@ void PeerLoop::collide(int i, int j) {
   }
 }
 
-/// The ball keeps its flight; when it leaves through a face of the box, the whole flight moves over.
+/// The ball keeps its flight; when it leaves through a face of the box, the whole flight moves
+/// over.
 void PeerLoop::cross(int i) {
   ++crossings_;
   Ball& ball = balls_[i];
   const int axis = agendas_[i].axis, step = agendas_[i].step;
   leave(index(ball.cell), i);
-  const auto wrapped = [&](int place) { return place < 0 ? side_ - 1 : place == side_ ? 0 : place; };
+  const auto wrapped = [&](int place) {
+    return place < 0 ? side_ - 1 : place == side_ ? 0 : place;
+  };
   const auto with = [&](std::uint32_t cell, int place) {
     return (cell & ~(1023U << (10 * axis))) | (static_cast<std::uint32_t>(place) << (10 * axis));
   };
@@ -180,7 +184,9 @@ void PeerLoop::predict_pairs(int i, const Vector& position) {
       }
     return consider<false>(i, position, candidates_.data(), end);
   }
-  const auto wrapped = [&](int place) { return place < 0 ? side_ - 1 : place == side_ ? 0 : place; };
+  const auto wrapped = [&](int place) {
+    return place < 0 ? side_ - 1 : place == side_ ? 0 : place;
+  };
   for (int w = z - 1; w <= z + 1; ++w)
     for (int v = y - 1; v <= y + 1; ++v)
       for (int u = x - 1; u <= x + 1; ++u)
@@ -188,8 +194,8 @@ void PeerLoop::predict_pairs(int i, const Vector& position) {
   consider<true>(i, position, candidates_.data(), end);
 }
 
-/// Two passes: the first sorts out without a branch who comes near, the second times those. The ball itself
-/// is among the candidates: it does not approach itself.
+/// Two passes: the first sorts out without a branch who comes near, the second times those. The
+/// ball itself is among the candidates: it does not approach itself.
 template <bool at_edge>
 void PeerLoop::consider(int i, const Vector& position, const int* first, const int* last) {
   const Vector own = balls_[i].velocity;
@@ -257,7 +263,7 @@ double PeerLoop::next_time(int i) const {
 PeerLoop::Vector PeerLoop::position_now(const Ball& b) const {
   const double age = now_ - b.time;
   return {b.position[0] + b.velocity[0] * age, b.position[1] + b.velocity[1] * age,
-          b.position[2] + b.velocity[2] * age};
+      b.position[2] + b.velocity[2] * age};
 }
 
 void PeerLoop::enter(int cell, int ball) {
@@ -276,9 +282,8 @@ void PeerLoop::leave(int cell, int ball) {
       static_cast<int>(std::find(c.balls.begin(), c.balls.begin() + kept, ball) - c.balls.begin());
   if (c.count > Cell::capacity) {
     // A spilled ball takes the free place, or is the one that leaves.
-    const auto spilled = std::find_if(spill_.begin(), spill_.end(), [&](const Spilled& s) {
-      return s.cell == cell && (place < kept || s.ball == ball);
-    });
+    const auto spilled = std::find_if(spill_.begin(), spill_.end(),
+        [&](const Spilled& s) { return s.cell == cell && (place < kept || s.ball == ball); });
     if (place < kept) c.balls[place] = spilled->ball;
     *spilled = spill_.back();
     spill_.pop_back();

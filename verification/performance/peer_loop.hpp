@@ -1,5 +1,5 @@
-// The tuned reference implementation: minimal_loop.hpp with everything that makes such loops fast. Units as
-// in periodic_gas.hpp.
+// The tuned reference implementation: minimal_loop.hpp with everything that makes such loops fast.
+// Units as in periodic_gas.hpp.
 #pragma once
 
 #include <array>
@@ -8,7 +8,8 @@
 
 namespace edmill::performance {
 
-/// Which ball's event is next: a calendar of one year, cut into days that hold about one event each.
+/// Which ball's event is next: a calendar of one year, cut into days that hold about one event
+/// each.
 class Calendar {
  public:
   /// @param day  length of a day; events beyond the year wait in a list of their own
@@ -22,7 +23,6 @@ class Calendar {
     unlink(ball);
     add(ball, time);
   }
-
  private:
   struct Entry {
     double time;
@@ -52,7 +52,6 @@ class PeerLoop {
   double kinetic_energy() const;
   /// The places of all balls now; a ball may be a little outside of the box.
   std::vector<std::array<double, 3>> positions() const;
-
  private:
   using Vector = std::array<double, 3>;
 

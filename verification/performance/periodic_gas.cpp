@@ -21,7 +21,8 @@ double enskog_rate(double packing) {
 
 PeriodicGas::PeriodicGas(int balls, double packing, std::uint64_t seed, bool in_order)
     : box(std::cbrt(balls * std::numbers::pi / 6 / packing)) {
-  if (balls < 1 || box < 4 * thinnest) throw std::invalid_argument("a box of fewer than four cells a side");
+  if (balls < 1 || box < 4 * thinnest)
+    throw std::invalid_argument("a box of fewer than four cells a side");
   const int sites = static_cast<int>(std::ceil(std::cbrt(balls) - 1e-9));
   if (box / sites < 1) throw std::invalid_argument("balls that do not fit on a cubic lattice");
 
@@ -34,7 +35,8 @@ PeriodicGas::PeriodicGas(int balls, double packing, std::uint64_t seed, bool in_
   positions.resize(numbers.size());
   velocities.resize(numbers.size());
   for (int i = 0; i < balls; ++i) {
-    const std::array<int, 3> site{numbers[i] % sites, numbers[i] / sites % sites, numbers[i] / sites / sites};
+    const std::array<int, 3> site{
+        numbers[i] % sites, numbers[i] / sites % sites, numbers[i] / sites / sites};
     for (int k = 0; k < 3; ++k) {
       positions[i][k] = (site[k] + 0.5) * box / sites;
       velocities[i][k] = normal(random);

@@ -25,7 +25,7 @@ void settle_memory() {
 
 std::string spex_text(const SpexSubject& s) {
   return testing::spex_text("end_time = \"1 s\"", std::string("restitution = ") + s.restitution,
-                            testing::batch(s.balls, s.diameter, s.gaps));
+      testing::batch(s.balls, s.diameter, s.gaps));
 }
 
 namespace {
@@ -54,7 +54,8 @@ casefile::InitialCase<double> still_gas(int balls, double packing) {
   const double width = diameter * std::cbrt(4.0 * balls / (9 * packing)), height = 1.5 * width;
   const auto metres = [](double length) { return "\"" + to_text<double>(length) + " m\"\n"; };
   const auto spec = casefile::parse_case(
-      "[run]\nend_time = \"1 s\"\n[mill]\ntype = \"still\"\n[vessel]\ntype = \"cylinder\"\ndiameter = " +
+      "[run]\nend_time = \"1 s\"\n[mill]\ntype = \"still\"\n[vessel]\ntype = "
+      "\"cylinder\"\ndiameter = " +
           metres(width) + "height = " + metres(height) +
           "[contact]\nmodel = \"constant\"\nrestitution_normal = 1\nrestitution_tangential = 1\n"
           "least_separation = \"0 m/s\"\n[[balls]]\ndiameter = \"4.76 mm\"\n",
@@ -83,7 +84,8 @@ casefile::InitialCase<double> still_gas(int balls, double packing) {
     do velocity = {symmetric(random), symmetric(random), symmetric(random)};
     while (norm<double>(velocity) > 1);
     result.the_case.balls.push_back({radius, 8000 * volume, 0.4});
-    result.states.push_back({mill.motion.to_inertial(pose, sites[i]), velocity, Vec3<double>(0, 0, 0)});
+    result.states.push_back(
+        {mill.motion.to_inertial(pose, sites[i]), velocity, Vec3<double>(0, 0, 0)});
   }
   return result;
 }

@@ -35,8 +35,8 @@ inline constexpr SpexSubject spex_subjects[] = {
 /// Its text, without an end.
 std::string spex_text(const SpexSubject& subject);
 
-/// Elastic smooth balls of 4.76 mm without gravity in a still vessel of the SPEX vial's shape, from a
-/// close-packed lattice stretched over the vessel, at random velocities of up to 1 m/s.
+/// Elastic smooth balls of 4.76 mm without gravity in a still vessel of the SPEX vial's shape, from
+/// a close-packed lattice stretched over the vessel, at random velocities of up to 1 m/s.
 /// @throws std::invalid_argument when the lattice does not fit at this packing
 casefile::InitialCase<double> still_gas(int balls, double packing);
 
@@ -45,8 +45,7 @@ using WallPolicy = dynamics::AnyWallSearch<double>::Policy (*)(const model::Mill
 inline WallPolicy wall_policy = nullptr;
 
 /// A simulation after this number of collisions, advanced in short intervals of time.
-template <class Real>
-class Run {
+template <class Real> class Run {
  public:
   explicit Run(const casefile::InitialCase<Real>& built)
       : simulation_(built.the_case, built.states, built.start) {
@@ -65,7 +64,6 @@ class Run {
     const auto target = simulation_.counts().impacts + count;
     while (simulation_.counts().impacts < target) until(end_ + step);
   }
-
  private:
   engine::Simulation<Real> simulation_;
   Real end_{0};

@@ -1,5 +1,5 @@
-// Collisions per CPU second of one thread: edmill's cases, and the reference implementations at equal
-// numbers.
+// Collisions per CPU second of one thread: edmill's cases, and the reference implementations at
+// equal numbers.
 #include <cmath>
 
 #include "minimal_loop.hpp"
@@ -13,7 +13,7 @@ namespace {
 /// The throughput, and what the engine did for each collision.
 template <class Real>
 void count_work(benchmark::State& state, const engine::EngineCounts<Real>& before,
-                const engine::EngineCounts<Real>& after) {
+    const engine::EngineCounts<Real>& after) {
   const auto collisions = after.impacts - before.impacts;
   count_collisions(state, collisions);
   const auto each = [&](std::uint64_t from, std::uint64_t to) {
@@ -24,9 +24,9 @@ void count_work(benchmark::State& state, const engine::EngineCounts<Real>& befor
   state.counters["wall_searches"] = each(before.wall_searches, after.wall_searches);
 }
 
-/// The vial past its transient, run on by a hundredth of a second (wide scalars: a thousandth) at a time.
-template <class Real>
-void spex(benchmark::State& state, const SpexSubject& subject) {
+/// The vial past its transient, run on by a hundredth of a second (wide scalars: a thousandth) at a
+/// time.
+template <class Real> void spex(benchmark::State& state, const SpexSubject& subject) {
   constexpr bool wide = !std::is_same_v<Real, double>;
   Run<Real> run(casefile::build_case<Real>(casefile::parse_case(spex_text(subject), "bench.toml")));
   Real end = Real(1) / (wide ? 20 : 2);
@@ -46,7 +46,8 @@ void still(benchmark::State& state, int balls, double packing) {
   const double bytes = resident_bytes();
   Run<double> run(built);
   const double built_bytes = resident_bytes() - bytes;
-  // About one collision of each ball for a step: a free path is about d / (8.5 packing), the speed 0.75 m/s.
+  // About one collision of each ball for a step: a free path is about d / (8.5 packing), the speed
+  // 0.75 m/s.
   const double step = 0.00476 / (0.75 * 8.5 * packing) / std::max(1.0, balls / 1000.0);
   run.collisions(20 * static_cast<std::uint64_t>(balls) + 1000, step);
   const auto before = run.simulation().counts();
@@ -75,15 +76,18 @@ void periodic(benchmark::State& state, int balls, double packing, bool in_order 
   if (balls >= 10000) state.counters["bytes_per_ball"] = built_bytes / balls;
 }
 
-template <class Function>
-void add(const std::string& name, int iterations, Function function) {
-  benchmark::RegisterBenchmark(name.c_str(), function)->Iterations(iterations)->Unit(benchmark::kMillisecond);
+template <class Function> void add(const std::string& name, int iterations, Function function) {
+  benchmark::RegisterBenchmark(name.c_str(), function)
+      ->Iterations(iterations)
+      ->Unit(benchmark::kMillisecond);
 }
 
 /// Each iteration is 20 000 collisions.
 void add_reference_loops(const std::string& name, int balls, double packing, int iterations) {
-  add("minimal/" + name, iterations, [=](benchmark::State& s) { periodic<MinimalLoop>(s, balls, packing); });
-  add("peer/" + name, iterations, [=](benchmark::State& s) { periodic<PeerLoop>(s, balls, packing); });
+  add("minimal/" + name, iterations,
+      [=](benchmark::State& s) { periodic<MinimalLoop>(s, balls, packing); });
+  add("peer/" + name, iterations,
+      [=](benchmark::State& s) { periodic<PeerLoop>(s, balls, packing); });
 }
 
 std::string gas_name(double packing, int balls) {
@@ -116,7 +120,8 @@ void register_still_gas() {
     add("peer-any-order/" + gas_name(0.26, balls), 10,
         [=](benchmark::State& s) { periodic<PeerLoop>(s, balls, 0.26, false); });
   }
-  for (const int balls : {1, 3, 10, 30, 100, 300, 1000, 3000, 10000, 30000, 100000}) add_gas(0.10, balls);
+  for (const int balls : {1, 3, 10, 30, 100, 300, 1000, 3000, 10000, 30000, 100000})
+    add_gas(0.10, balls);
   for (const double packing : {0.05, 0.15, 0.20, 0.25, 0.30, 0.35}) add_gas(packing, 1000);
 }
 

@@ -29,15 +29,14 @@ class StateHarvest : public engine::Observer<double> {
   }
 
   std::vector<State> states;
-
  private:
   void take(int ball, const engine::Simulation<double>& s) {
     const auto own = pairs_.state(s.flight(ball), s.now());
     double until = s.clock().period();
     for (int other = 0; other < s.ball_count(); ++other) {
       if (other == ball) continue;
-      const auto answer =
-          pairs_(own, s.flight(other), s.now(), s.properties(ball).radius + s.properties(other).radius);
+      const auto answer = pairs_(
+          own, s.flight(other), s.now(), s.properties(ball).radius + s.properties(other).radius);
       if (answer.verdict == dynamics::Verdict::contact) until = std::min(until, answer.delay);
     }
     states.push_back({s.flight(ball), s.properties(ball).radius, s.now(), until});
@@ -49,8 +48,8 @@ class StateHarvest : public engine::Observer<double> {
 
 using Query = dynamics::WallQuery<double>;
 
-/// The wait for a state's first wall contact before its next pair contact, or for that one [s]: window after
-/// window as the engine asks.
+/// The wait for a state's first wall contact before its next pair contact, or for that one [s]:
+/// window after window as the engine asks.
 template <class Search>
 double first_contact(const State& state, const SpexSearch& walls, const Search& search) {
   const auto& clock = walls.mill().clock;
@@ -103,7 +102,8 @@ template <class Search>
 void wall_answers(benchmark::State& state, const Source& source, const Search& search) {
   std::vector<double> found;
   found.reserve(source.states.size());
-  for (auto _ : state) found.push_back(first_contact(source.states[found.size()], source.walls, search));
+  for (auto _ : state)
+    found.push_back(first_contact(source.states[found.size()], source.walls, search));
   int late = 0, early = 0;
   for (std::size_t k = 0; k < found.size(); ++k) {
     late += found[k] > source.answers[k] + 1e-9;
@@ -121,7 +121,8 @@ void uncertified(benchmark::State& state, Source& source, int samples) {
   const auto& walls = source.walls;
   wall_answers(state, source, [&](const Query& query) {
     const SpexFunctions functions(walls.mill(), query.flight, query.radius, query.begin.period);
-    return uncertified_search(walls, functions, functions.start(query.begin.offset), query, samples);
+    return uncertified_search(
+        walls, functions, functions.start(query.begin.offset), query, samples);
   });
 }
 

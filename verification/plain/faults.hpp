@@ -10,21 +10,22 @@
 
 using Options = std::map<std::string, std::string>;
 
-// Mistakes of a code: terms of equations that are larger, smaller, reversed or absent, everywhere or in some
-// impacts.
-template <class T>
-class Faults {
+// Mistakes of a code: terms of equations that are larger, smaller, reversed or absent, everywhere
+// or in some impacts.
+template <class T> class Faults {
  public:
   // Lists with commas: terms, their values, and where.
   explicit Faults(const Options& o) {
-    const auto terms = list(o.at("fault")), values = list(o.at("fault-value")), places = list(o.at("where"));
+    const auto terms = list(o.at("fault")), values = list(o.at("fault-value")),
+               places = list(o.at("where"));
     if (terms.size() != values.size() || terms.size() != places.size())
       throw std::runtime_error("a fault needs a value and a place");
-    for (std::size_t k = 0; k < terms.size(); ++k) faults_.push_back({terms[k], places[k], T(values[k])});
+    for (std::size_t k = 0; k < terms.size(); ++k)
+      faults_.push_back({terms[k], places[k], T(values[k])});
   }
 
-  // What holds of an impact: "wall", "ball", "wall0", "stick", "slide", "slow" (at the least separation
-  // speed) and so on.
+  // What holds of an impact: "wall", "ball", "wall0", "stick", "slide", "slow" (at the least
+  // separation speed) and so on.
   void meets(std::vector<std::string> facts) { facts_ = std::move(facts); }
   void also(const std::string& fact) { facts_.push_back(fact); }
   T of(const char* term, const T& right = T(1)) const {
@@ -34,7 +35,6 @@ class Faults {
         return f.value;
     return right;
   }
-
  private:
   struct Fault {
     std::string term, where;

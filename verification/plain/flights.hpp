@@ -1,4 +1,5 @@
-// Flights in the moving vessel, and their contacts with its walls: docs/theory.md, sections 1 and 2.
+// Flights in the moving vessel, and their contacts with its walls: docs/theory.md, sections 1
+// and 2.
 #pragma once
 
 #include <algorithm>
@@ -12,25 +13,21 @@
 
 #include "vectors.hpp"
 
-template <class S>
-struct Mill {
+template <class S> struct Mill {
   S turns_per_second, arm, theta_max, gamma_max, radius, half_height, gravity, ball_radius;
   // Of a faulty code: gaps at which bodies meet, and gamma's phase.
   std::array<S, 3> wall_gap{};
   S pair_gap{}, gamma_phase{};
 };
-template <class T>
-Mill<double> in_double(const Mill<T>& m) {
+template <class T> Mill<double> in_double(const Mill<T>& m) {
   auto d = [](const T& s) { return static_cast<double>(s); };
-  return {d(m.turns_per_second), d(m.arm),         d(m.theta_max),
-          d(m.gamma_max),        d(m.radius),      d(m.half_height),
-          d(m.gravity),          d(m.ball_radius), {d(m.wall_gap[0]), d(m.wall_gap[1]), d(m.wall_gap[2])},
-          d(m.pair_gap),         d(m.gamma_phase)};
+  return {d(m.turns_per_second), d(m.arm), d(m.theta_max), d(m.gamma_max), d(m.radius),
+      d(m.half_height), d(m.gravity), d(m.ball_radius),
+      {d(m.wall_gap[0]), d(m.wall_gap[1]), d(m.wall_gap[2])}, d(m.pair_gap), d(m.gamma_phase)};
 }
 
 // Section 1: P = R_z(theta) [ (l, 0, 0) + R_x(gamma) p ].
-template <class S>
-struct Pose {
+template <class S> struct Pose {
   S arm, ct, st, cg, sg, theta_rate, gamma_rate;
 
   Pose(const Mill<S>& m, S turns) : arm(m.arm) {
@@ -62,8 +59,7 @@ struct Pose {
 };
 
 // The parabola of a ball, by the time tau since its start.
-template <class S>
-struct Flight {
+template <class S> struct Flight {
   Vec<S> r, v;
   S turns;                     // of the drive at the start
   S in_place{1}, in_speed{1};  // gravity's share, other than 1 in a faulty code
@@ -78,25 +74,25 @@ struct Flight {
   Vec<S> rate(const Mill<S>& m, const S& tau) const {
     return v - Vec<S>{S(0), in_place * m.gravity * tau, S(0)};
   }
-  Pose<S> pose(const Mill<S>& m, const S& tau) const { return {m, turns + tau * m.turns_per_second}; }
+  Pose<S> pose(const Mill<S>& m, const S& tau) const {
+    return {m, turns + tau * m.turns_per_second};
+  }
 };
 
-template <class S>
-struct Gap {
-  S value, rate;
-};
+template <class S> struct Gap { S value, rate; };
 
-// Section 2. The rates: the ball's velocity less that of the vessel's point it is at, in the vessel's axes.
+// Section 2. The rates: the ball's velocity less that of the vessel's point it is at, in the
+// vessel's axes.
 template <class S>
 std::array<Gap<S>, 3> gaps(const Mill<S>& m, const Flight<S>& flight, const S& tau) {
   const Pose<S> pose = flight.pose(m, tau);
   const Vec<S> P = flight.position(m, tau);
   const Vec<S> p = pose.inward(P - pose.centre());
   const Vec<S> u = pose.inward(flight.rate(m, tau) - pose.velocity(P));
-  const S free_height = m.half_height - m.ball_radius, free_radius = m.radius - m.ball_radius - m.wall_gap[2];
-  return {{{free_height - m.wall_gap[0] + p.y, u.y},
-           {free_height - m.wall_gap[1] - p.y, -u.y},
-           {free_radius * free_radius - p.x * p.x - p.z * p.z, -2 * (p.x * u.x + p.z * u.z)}}};
+  const S free_height = m.half_height - m.ball_radius,
+          free_radius = m.radius - m.ball_radius - m.wall_gap[2];
+  return {{{free_height - m.wall_gap[0] + p.y, u.y}, {free_height - m.wall_gap[1] - p.y, -u.y},
+      {free_radius * free_radius - p.x * p.x - p.z * p.z, -2 * (p.x * u.x + p.z * u.z)}}};
 }
 
 // The contact in [a, b], at whose end the gap is negative: bisection to an open gap, then Newton.
@@ -120,7 +116,8 @@ T closing_time(const Mill<T>& m, const Flight<T>& flight, unsigned wall, T a, T 
   return x;
 }
 
-// The least gap in [a, b], where the rate changes sign; the place if the ball is at or behind the wall there.
+// The least gap in [a, b], where the rate changes sign; the place if the ball is at or behind the
+// wall there.
 template <class T>
 std::optional<T> graze(const Mill<T>& m, const Flight<T>& flight, unsigned wall, T a, T b) {
   for (int i = 0; i < 400 && b - a > std::numeric_limits<T>::epsilon() * b; ++i) {
@@ -134,19 +131,19 @@ std::optional<T> graze(const Mill<T>& m, const Flight<T>& flight, unsigned wall,
 }
 
 // The first contact with a wall: samples in double, roots in the wide scalar.
-template <class T>
-std::pair<T, unsigned> first_wall(const Mill<T>& m, const Flight<T>& flight) {
+template <class T> std::pair<T, unsigned> first_wall(const Mill<T>& m, const Flight<T>& flight) {
   const Mill<double> near_mill = in_double(m);
   auto d = [](const Vec<T>& v) {
-    return Vec<double>{static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+    return Vec<double>{
+        static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
   };
   const Flight<double> near_flight{d(flight.r), d(flight.v), static_cast<double>(flight.turns),
-                                   static_cast<double>(flight.in_place),
-                                   static_cast<double>(flight.in_speed)};
+      static_cast<double>(flight.in_place), static_cast<double>(flight.in_speed)};
   // A sign that double cannot decide is computed in the wide scalar.
   auto sample = [&](double tau, bool wide) {
     std::array<Gap<double>, 3> near = gaps(near_mill, near_flight, tau);
-    for (const Gap<double>& g : near) wide = wide || std::fabs(g.value) < 1e-12 || std::fabs(g.rate) < 1e-12;
+    for (const Gap<double>& g : near)
+      wide = wide || std::fabs(g.value) < 1e-12 || std::fabs(g.rate) < 1e-12;
     if (!wide) return near;
     const std::array<Gap<T>, 3> sharp = gaps(m, flight, T(tau));
     for (unsigned k = 0; k < 3; ++k)

@@ -1,6 +1,6 @@
-// A plain mill with bodies inside the vessel, from docs/theory.md alone: no code, data structure or search of
-// edmill. Vessel and bodies move on chains of joints; a wall is found by its distance from the ball and a
-// bound on the speed at which this can change.
+// A plain mill with bodies inside the vessel, from docs/theory.md alone: no code, data structure or
+// search of edmill. Vessel and bodies move on chains of joints; a wall is found by its distance
+// from the ball and a bound on the speed at which this can change.
 #include <algorithm>
 #include <array>
 #include <boost/math/constants/constants.hpp>
@@ -18,22 +18,18 @@
 
 namespace {
 
-template <class S>
-S length(const Vec<S>& v) {
+template <class S> S length(const Vec<S>& v) {
   using std::sqrt;
   return sqrt(dot(v, v));
 }
-template <class To, class From>
-Vec<To> cast(const Vec<From>& v) {
+template <class To, class From> Vec<To> cast(const Vec<From>& v) {
   return {static_cast<To>(v.x), static_cast<To>(v.y), static_cast<To>(v.z)};
 }
 
-template <class S>
-struct Swing {
+template <class S> struct Swing {
   S amplitude, rate, phase;  // [rad] or [m], [rad/s], [rad]
 };
-template <class S>
-struct Joint {
+template <class S> struct Joint {
   bool turns;
   Vec<S> axis, shift;  // a unit vector; constant
   S angle{}, speed{};  // constant part [rad] or [m], [rad/s] or [m/s]
@@ -41,19 +37,20 @@ struct Joint {
 };
 
 // The axes of a frame as columns, its origin, and how both move.
-template <class S>
-struct Pose {
-  std::array<Vec<S>, 3> axes{Vec<S>{S(1), S(0), S(0)}, Vec<S>{S(0), S(1), S(0)}, Vec<S>{S(0), S(0), S(1)}};
+template <class S> struct Pose {
+  std::array<Vec<S>, 3> axes{
+      Vec<S>{S(1), S(0), S(0)}, Vec<S>{S(0), S(1), S(0)}, Vec<S>{S(0), S(0), S(1)}};
   Vec<S> origin, origin_speed, turning;
 
   Vec<S> outward(const Vec<S>& p) const { return axes[0] * p.x + axes[1] * p.y + axes[2] * p.z; }
-  Vec<S> inward(const Vec<S>& d) const { return {dot(axes[0], d), dot(axes[1], d), dot(axes[2], d)}; }
+  Vec<S> inward(const Vec<S>& d) const {
+    return {dot(axes[0], d), dot(axes[1], d), dot(axes[2], d)};
+  }
   // Velocity of the frame's point that is at P.
   Vec<S> velocity(const Vec<S>& P) const { return origin_speed + cross(turning, P - origin); }
 };
 
-template <class S>
-struct Frame {
+template <class S> struct Frame {
   std::vector<Joint<S>> joints;
 
   Pose<S> pose(const S& time) const {
@@ -81,14 +78,14 @@ struct Frame {
   }
 };
 
-template <class S>
-struct Wall {
+template <class S> struct Wall {
   std::string kind;
   Vec<S> size;  // of a plane its outward normal; half edges or radius, half height of a solid
   S more{};     // of a plane its distance, of a cylinder its radius, of a solid its rounding
   unsigned frame = 0;
 
-  // From the nearest point of the wall, or of a solid's core, to a ball's centre at p; its length is signed.
+  // From the nearest point of the wall, or of a solid's core, to a ball's centre at p; its length
+  // is signed.
   std::pair<Vec<S>, S> apart(const Vec<S>& p) const {
     using std::sqrt;
     if (kind == "plane") return {size * S(-1), more - dot(size, p)};
@@ -107,18 +104,17 @@ struct Wall {
   }
 };
 
-template <class S>
-struct Flight {
+template <class S> struct Flight {
   Vec<S> r, v;
   S start{};
 };
 
 // Vessel, bodies and law, in a scalar; the balls are alike.
-template <class S>
-struct Mill {
+template <class S> struct Mill {
   std::vector<Frame<S>> frames;
   std::vector<Wall<S>> walls;
-  S gravity{}, radius{}, density{}, inertia{}, restitution{}, friction{}, least_separation{}, fastest{};
+  S gravity{}, radius{}, density{}, inertia{}, restitution{}, friction{}, least_separation{},
+      fastest{};
 
   Vec<S> place(const Flight<S>& f, const S& time) const {
     const S dt = time - f.start;
@@ -140,10 +136,9 @@ struct Mill {
   }
 };
 
-// What a file describes, one word and numbers a line: lengths in m, angles in degrees, speeds of rotation in
-// rpm.
-template <class T>
-Mill<T> read_mill(std::istream& in) {
+// What a file describes, one word and numbers a line: lengths in m, angles in degrees, speeds of
+// rotation in rpm.
+template <class T> Mill<T> read_mill(std::istream& in) {
   const T pi = boost::math::constants::pi<T>(), degree = pi / 180, rpm = pi / 30;
   Mill<T> mill;
   std::string line, word, text;
@@ -167,7 +162,8 @@ Mill<T> read_mill(std::istream& in) {
     } else if (word == "translate") {
       const Vec<T> shift = vector(), axis = vector();
       const T speed = number();
-      mill.frames.back().joints.push_back({false, axis * (1 / length(axis)), shift, T(0), speed, {}});
+      mill.frames.back().joints.push_back(
+          {false, axis * (1 / length(axis)), shift, T(0), speed, {}});
     } else if (word == "swing") {
       Joint<T>& joint = mill.frames.back().joints.back();
       const T amplitude = number() * (joint.turns ? degree : T(1)), rate = number() * rpm,
@@ -179,13 +175,12 @@ Mill<T> read_mill(std::istream& in) {
       wall.more = number();
       mill.walls.push_back(wall);
     } else {
-      const std::pair<const char*, T*> values[] = {
-          {"gravity", &mill.gravity},         {"radius", &mill.radius},
-          {"density", &mill.density},         {"inertia", &mill.inertia},
+      const std::pair<const char*, T*> values[] = {{"gravity", &mill.gravity},
+          {"radius", &mill.radius}, {"density", &mill.density}, {"inertia", &mill.inertia},
           {"restitution", &mill.restitution}, {"friction", &mill.friction},
-          {"fastest", &mill.fastest},         {"least_separation", &mill.least_separation}};
-      const auto* value =
-          std::find_if(std::begin(values), std::end(values), [&](const auto& v) { return v.first == word; });
+          {"fastest", &mill.fastest}, {"least_separation", &mill.least_separation}};
+      const auto* value = std::find_if(
+          std::begin(values), std::end(values), [&](const auto& v) { return v.first == word; });
       if (value == std::end(values)) throw std::runtime_error("what is " + word);
       *value->second = number();
     }
@@ -193,8 +188,7 @@ Mill<T> read_mill(std::istream& in) {
   return mill;
 }
 
-template <class T>
-Mill<double> in_double(const Mill<T>& m) {
+template <class T> Mill<double> in_double(const Mill<T>& m) {
   const auto d = [](const T& x) { return static_cast<double>(x); };
   Mill<double> near;
   for (const Frame<T>& frame : m.frames) {
@@ -206,15 +200,16 @@ Mill<double> in_double(const Mill<T>& m) {
         own.joints.back().swings.push_back({d(s.amplitude), d(s.rate), d(s.phase)});
     }
   }
-  for (const Wall<T>& w : m.walls) near.walls.push_back({w.kind, cast<double>(w.size), d(w.more), w.frame});
+  for (const Wall<T>& w : m.walls)
+    near.walls.push_back({w.kind, cast<double>(w.size), d(w.more), w.frame});
   near.gravity = d(m.gravity), near.radius = d(m.radius), near.fastest = d(m.fastest);
   return near;
 }
 
-template <class T>
-class PlainBodies {
+template <class T> class PlainBodies {
  public:
-  PlainBodies(std::istream& mill, std::istream& states) : mill_(read_mill<T>(mill)), near_(in_double(mill_)) {
+  PlainBodies(std::istream& mill, std::istream& states)
+      : mill_(read_mill<T>(mill)), near_(in_double(mill_)) {
     const T R = mill_.radius;
     mass_ = mill_.density * 4 / 3 * boost::math::constants::pi<T>() * R * R * R;
     for (const State<T>& s : read_states<T>(states)) {
@@ -247,7 +242,6 @@ class PlainBodies {
       out << '\n';
     }
   }
-
  private:
   struct Ball {
     Flight<T> flight;
@@ -277,13 +271,13 @@ class PlainBodies {
     return first;
   }
 
-  // The first contact with a wall before `end`. No gap can fall faster than the ball and the fastest wall
-  // move: the time that this takes is passed at once, in double where that decides. Close to a wall a bound
-  // on the acceleration of the gap passes more, and shows that a gap that falls has one root. Steps are at
-  // least 1e-14 s.
+  // The first contact with a wall before `end`. No gap can fall faster than the ball and the
+  // fastest wall move: the time that this takes is passed at once, in double where that decides.
+  // Close to a wall a bound on the acceleration of the gap passes more, and shows that a gap that
+  // falls has one root. Steps are at least 1e-14 s.
   T contact(const Flight<T>& flight, unsigned wall, const T& end) const {
-    const Flight<double> near{cast<double>(flight.r), cast<double>(flight.v),
-                              static_cast<double>(flight.start)};
+    const Flight<double> near{
+        cast<double>(flight.r), cast<double>(flight.v), static_cast<double>(flight.start)};
     const double fastest = near_.fastest + length(near.v) + 2 * near_.gravity;
     const double bend = 4 * fastest * fastest / near_.radius + 1000;
     T time = flight.start, step(0);
@@ -308,7 +302,8 @@ class PlainBodies {
     return std::numeric_limits<T>::max();
   }
 
-  // Where the gap falls to zero, between a time where it is positive or grows and one where it is not.
+  // Where the gap falls to zero, between a time where it is positive or grows and one where it is
+  // not.
   T root(const Flight<T>& flight, unsigned wall, T a, T b) const {
     const T least = 8 * std::numeric_limits<T>::epsilon() * b;
     T x = (a + b) / 2;
@@ -342,15 +337,16 @@ class PlainBodies {
     const Vec<T> spins = b ? a.spin + b->spin : a.spin;
     const Vec<T> g = va - other - cross(spins * R, n), gt = g - n * dot(g, n);
     const T approach = -dot(g, n), slip = length(gt);
-    const T leave =
-        std::max(approach > 0 ? T(mill_.restitution * approach) : T(-approach), mill_.least_separation);
+    const T leave = std::max(
+        approach > 0 ? T(mill_.restitution * approach) : T(-approach), mill_.least_separation);
     const T jump = approach + leave;
     T et = -1;
     if (slip > 0) et = std::max(et, T(1 - mill_.friction * c * jump / slip));
     bool stalled = false;
     for (Ball* ball : {&a, b}) {
       if (!ball) continue;
-      ball->unmoved = (now_ - ball->flight.start) * 30000 < mill_.least_separation ? ball->unmoved + 1 : 0;
+      ball->unmoved =
+          (now_ - ball->flight.start) * 30000 < mill_.least_separation ? ball->unmoved + 1 : 0;
       stalled = stalled || ball->unmoved > 32;
     }
     if (stalled) et = 1;
@@ -365,7 +361,7 @@ class PlainBodies {
     }
     a.wall = first_wall(a);
     const T dose = share * mass_ / 2 *
-                   (std::max(T(0), T(approach * approach - leave * leave)) + (1 - et * et) / c * slip * slip);
+        (std::max(T(0), T(approach * approach - leave * leave)) + (1 - et * et) / c * slip * slip);
     return {approach, slip, dose, b ? T(0) : T(mass_ * dot(other, change))};
   }
 

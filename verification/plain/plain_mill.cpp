@@ -1,4 +1,5 @@
-// A second ball mill, from docs/theory.md alone: no code, data structure or search of edmill. Slow and plain.
+// A second ball mill, from docs/theory.md alone: no code, data structure or search of edmill. Slow
+// and plain.
 #include <algorithm>
 #include <array>
 #include <boost/math/constants/constants.hpp>
@@ -17,13 +18,14 @@
 
 namespace {
 
-template <class T>
-class PlainMill {
+template <class T> class PlainMill {
  public:
-  PlainMill(std::istream& states, const Options& o) : fault_(o), with_states_(o.at("states") == "1") {
+  PlainMill(std::istream& states, const Options& o)
+      : fault_(o), with_states_(o.at("states") == "1") {
     auto number = [&](const char* name) { return T(o.at(name)); };
     const T degree = boost::math::constants::pi<T>() / 180;
-    mill_.turns_per_second = number("rpm") / 60, mill_.arm = number("arm"), mill_.gravity = number("gravity");
+    mill_.turns_per_second = number("rpm") / 60, mill_.arm = number("arm"),
+    mill_.gravity = number("gravity");
     mill_.theta_max = number("theta-max") * degree, mill_.gamma_max = number("gamma-max") * degree;
     mill_.radius = number("diameter") / 2, mill_.half_height = number("height") / 2;
     const T R = mill_.ball_radius = number("ball-diameter") / 2;
@@ -36,7 +38,8 @@ class PlainMill {
       mill_.wall_gap[wall] = fault_.of("contact_gap", T(0));
     }
     fault_.meets({"ball"});
-    mill_.pair_gap = fault_.of("contact_gap", T(0)), mill_.gamma_phase = fault_.of("gamma_phase", T(0));
+    mill_.pair_gap = fault_.of("contact_gap", T(0)),
+    mill_.gamma_phase = fault_.of("gamma_phase", T(0));
     for (const State<T>& s : read_states<T>(states)) {
       now_ = s.time;
       const Flight<T> flight{s.position, s.velocity, now_ * mill_.turns_per_second};
@@ -66,7 +69,8 @@ class PlainMill {
       const bool pair = next.kind == ball;
       const unsigned a = pair ? std::min(i, next.partner) : i,
                      b = pair ? std::max(i, next.partner) : next.partner;
-      out << index << ',' << std::scientific << now_ << ',' << a << (pair ? ",ball," : ",wall,") << b;
+      out << index << ',' << std::scientific << now_ << ',' << a << (pair ? ",ball," : ",wall,")
+          << b;
       const unsigned bodies[] = {a, b};
       std::vector<Vec<T>> states;
       const auto note = [&](unsigned k, bool place) {
@@ -83,7 +87,6 @@ class PlainMill {
       if (pair) predict(b);
     }
   }
-
  private:
   enum Kind { wall, ball };
   struct Next {
@@ -150,7 +153,8 @@ class PlainMill {
       if (time < b.next.time) b.next = {time, ball, j, balls_[j].impacts};
     }
   }
-  // The contact of two balls that fall differently, before one of them meets a wall: samples and bisection.
+  // The contact of two balls that fall differently, before one of them meets a wall: samples and
+  // bisection.
   std::optional<T> touch(const Ball& a, const Ball& b) const {
     const auto gap = [&](const T& time) {
       const Vec<T> apart =
@@ -202,18 +206,21 @@ class PlainMill {
     return pose.outward({-p.x / distance, T(0), -p.z / distance});
   }
 
-  // Section 5 for balls of one kind, where c is 1 + 1/J with a wall as with a ball, and M is m or m/2.
+  // Section 5 for balls of one kind, where c is 1 + 1/J with a wall as with a ball, and M is m or
+  // m/2.
   std::array<T, 4> collide(unsigned i, Kind kind, unsigned partner) {
     Ball& a = balls_[i];
     Ball* b = kind == ball ? &balls_[partner] : nullptr;
     const T R = mill_.ball_radius, J = inertia_, c = 1 + 1 / J, share = b ? T(0.5) : T(1);
     const Vec<T> ra = position(a), va = velocity(a), rb = b ? position(*b) : Vec<T>{};
     const Pose<T> pose(mill_, now_ * mill_.turns_per_second);
-    const Vec<T> n = b ? (ra - rb) * (1 / sqrt(dot(ra - rb, ra - rb))) : wall_normal(pose, ra, partner);
-    fault_.meets(
-        {b ? "ball" : "wall", (b ? "ball" : "wall") + std::to_string(partner), "ball" + std::to_string(i)});
+    const Vec<T> n =
+        b ? (ra - rb) * (1 / sqrt(dot(ra - rb, ra - rb))) : wall_normal(pose, ra, partner);
+    fault_.meets({b ? "ball" : "wall", (b ? "ball" : "wall") + std::to_string(partner),
+        "ball" + std::to_string(i)});
     const Pose<T> late(mill_, (now_ - fault_.of("wall_delay", T(0))) * mill_.turns_per_second);
-    const Vec<T> partner_velocity = b ? velocity(*b) : late.velocity(ra - n * R) * fault_.of("wall_velocity");
+    const Vec<T> partner_velocity =
+        b ? velocity(*b) : late.velocity(ra - n * R) * fault_.of("wall_velocity");
     const Vec<T> spins = (b ? a.spin + b->spin : a.spin) * fault_.of("arm");
     const Vec<T> g = va - partner_velocity - cross(spins * R, n), gt = g - n * dot(g, n);
     const T approach = -dot(g, n), slip = sqrt(dot(gt, gt));
@@ -223,7 +230,8 @@ class PlainMill {
     const T leave = std::max(approach > 0 ? T(e * approach) : T(-approach), slow);
     if (leave == slow) fault_.also("slow");
     const T jump = approach + leave;  // the normal impulse over share * mass
-    const T mu = fault_.of("friction", friction_), least_et = fault_.of("min_tangential", min_tangential_);
+    const T mu = fault_.of("friction", friction_),
+            least_et = fault_.of("min_tangential", min_tangential_);
     T et = least_et;
     const T c_limit = 1 + (c - 1) * fault_.of("c_in_limit"),
             c_impulse = 1 + (c - 1) * fault_.of("c_in_impulse");
@@ -240,20 +248,21 @@ class PlainMill {
     const Vec<T> old_spin = a.spin, old_spin_b = b ? b->spin : Vec<T>{};
     restart(i, ra, va + change, a.spin + turn * (b ? torque_of_a : T(1)));
     if (b) restart(partner, rb, partner_velocity - change, b->spin + turn * torque_of_b);
-    fault_.meets(
-        {b ? "ball" : "wall", (b ? "ball" : "wall") + std::to_string(partner), "ball" + std::to_string(i)});
+    fault_.meets({b ? "ball" : "wall", (b ? "ball" : "wall") + std::to_string(partner),
+        "ball" + std::to_string(i)});
     const T work = b ? T(0) : T(mass_ * dot(partner_velocity, change));
     const auto spin_energy = [&](const Vec<T>& before, const Vec<T>& after) {
       return T(mass_ * J * R * R / 2 * (dot(after, after) - dot(before, before)));
     };
     const T of_spin = spin_energy(old_spin, a.spin) + (b ? spin_energy(old_spin_b, b->spin) : T(0));
-    const T normal_loss = std::max(T(0), T(approach * approach - leave * leave));  // below 0: supplied
+    const T normal_loss =
+        std::max(T(0), T(approach * approach - leave * leave));  // below 0: supplied
     const T supplied = std::max(T(0), T(share * mass_ / 2 * (leave * leave - approach * approach)));
     const T dose = share * mass_ / 2 * (normal_loss + (1 - et * et) / c * slip * slip) +
-                   work * (fault_.of("work_in_dose") - 1) - of_spin * (fault_.of("spin_in_dose") - 1) +
-                   supplied * (fault_.of("supply_in_dose") - 1);
-    return {approach * fault_.of("approach_speed"), slip * fault_.of("slip_speed"), dose * fault_.of("dose"),
-            work * fault_.of("wall_work")};
+        work * (fault_.of("work_in_dose") - 1) - of_spin * (fault_.of("spin_in_dose") - 1) +
+        supplied * (fault_.of("supply_in_dose") - 1);
+    return {approach * fault_.of("approach_speed"), slip * fault_.of("slip_speed"),
+        dose * fault_.of("dose"), work * fault_.of("wall_work")};
   }
 
   Faults<T> fault_;
@@ -268,8 +277,10 @@ class PlainMill {
 int main(int argc, char** argv) try {
   // SI, angles in degrees.
   std::istringstream defaults(
-      "scalar mpfr100 rpm 1098 arm 0.1 theta-max 15 gamma-max 15 diameter 0.038 height 0.057 gravity 9.8 "
-      "ball-diameter 0.00476 density 8000 reduced-inertia 0.4 restitution 0.5 friction 0.4 min-tangential -1 "
+      "scalar mpfr100 rpm 1098 arm 0.1 theta-max 15 gamma-max 15 diameter 0.038 height 0.057 "
+      "gravity 9.8 "
+      "ball-diameter 0.00476 density 8000 reduced-inertia 0.4 restitution 0.5 friction 0.4 "
+      "min-tangential -1 "
       "least-separation 0.01 fault none fault-value 1 where all states 0");
   Options options;
   for (std::string key, value; defaults >> key >> value;) options[key] = value;

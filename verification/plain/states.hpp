@@ -9,15 +9,13 @@
 
 #include "vectors.hpp"
 
-template <class T>
-struct State {
+template <class T> struct State {
   Vec<T> position, velocity, spin;
   T time;
 };
 
 // Throws std::runtime_error where a line has fewer than eleven cells.
-template <class T>
-std::vector<State<T>> read_states(std::istream& in) {
+template <class T> std::vector<State<T>> read_states(std::istream& in) {
   std::vector<State<T>> states;
   std::string line, cell;
   std::getline(in, line);

@@ -24,7 +24,7 @@ class Claim {
   /// A figure that must not exceed its bound; one that is no number fails.
   template <class Real>
   void at_most(const std::string& figure, const Real& value, double bound,
-               const std::string& unit = "") const {
+      const std::string& unit = "") const {
     const double v = static_cast<double>(value);
     say(figure + " " + text(v) + unit + " (bound " + text(bound) + unit + ")");
     EXPECT_TRUE(v <= bound) << figure;
@@ -32,12 +32,14 @@ class Claim {
   /// A figure that must be at least its bound.
   template <class Real>
   void at_least(const std::string& figure, const Real& value, double bound,
-                const std::string& unit = "") const {
+      const std::string& unit = "") const {
     const double v = static_cast<double>(value);
     say(figure + " " + text(v) + unit + " (at least " + text(bound) + unit + ")");
     EXPECT_TRUE(v >= bound) << figure;
   }
-  void say(const std::string& line) const { std::cout << "claim " << name_ << ": " << line << "\n"; }
+  void say(const std::string& line) const {
+    std::cout << "claim " << name_ << ": " << line << "\n";
+  }
 
   static std::string text(double v, int digits = 3) {
     std::ostringstream out;
@@ -45,14 +47,12 @@ class Claim {
     out << v;
     return out.str();
   }
-
  private:
   std::string name_;
 };
 
 /// Keeps the largest; what is no number stays.
-template <class Real>
-void raise(Real& largest, const Real& value) {
+template <class Real> void raise(Real& largest, const Real& value) {
   if (!(value <= largest) && largest == largest) largest = value;
 }
 

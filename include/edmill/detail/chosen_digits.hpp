@@ -16,15 +16,14 @@
 
 namespace edmill {
 
-/// Conversions of a number type of another library: `exact` converts to `mpfr` without rounding, `rounded`
-/// converts back and rounds.
-template <class Number>
-struct MpfrConversion {};
+/// Conversions of a number type of another library: `exact` converts to `mpfr` without rounding,
+/// `rounded` converts back and rounds.
+template <class Number> struct MpfrConversion {};
 
-/// An MPFR floating-point number. Every operation rounds to nearest, to the precision that the current thread
-/// has set with `mpfr::Digits` (default: 50 decimal digits). Stored and copied numbers, and those converted
-/// from a narrower type, keep all their bits. Significands of up to 384 bits are part of the object, longer
-/// ones are allocated.
+/// An MPFR floating-point number. Every operation rounds to nearest, to the precision that the
+/// current thread has set with `mpfr::Digits` (default: 50 decimal digits). Stored and copied
+/// numbers, and those converted from a narrower type, keep all their bits. Significands of up to
+/// 384 bits are part of the object, longer ones are allocated.
 class mpfr {
  public:
   /// Sets the precision of the current thread until the end of the scope.
@@ -38,7 +37,6 @@ class mpfr {
     ~Digits() { chosen() = before_; }
     Digits(const Digits&) = delete;
     Digits& operator=(const Digits&) = delete;
-
    private:
     friend class mpfr;
     struct Chosen {
@@ -134,10 +132,11 @@ class mpfr {
   }
   /// A copy rounded to the precision of the current thread.
   mpfr rounded() const { return of(mpfr_set, data()); }
-  /// Decimal text with `digits` significant digits, in the format of printf's %g (default: enough to read the
-  /// same number back).
+  /// Decimal text with `digits` significant digits, in the format of printf's %g (default: enough
+  /// to read the same number back).
   std::string str(int digits = 0, bool scientific = false) const {
-    if (digits == 0) digits = static_cast<int>(static_cast<double>(mpfr_get_prec(n_)) * 0.30103) + 2;
+    if (digits == 0)
+      digits = static_cast<int>(static_cast<double>(mpfr_get_prec(n_)) * 0.30103) + 2;
     const char* format = scientific ? "%.*Re" : "%.*Rg";
     const int places = scientific ? digits - 1 : digits;
     std::string text(static_cast<std::size_t>(mpfr_snprintf(nullptr, 0, format, places, n_)), '\0');
@@ -190,14 +189,12 @@ class mpfr {
     return out << x.str(static_cast<int>(out.precision()) + (scientific ? 1 : 0), scientific);
   }
   friend bool operator==(const mpfr& a, const mpfr& b) { return mpfr_equal_p(a.n_, b.n_) != 0; }
-
  private:
   static constexpr mpfr_prec_t most_inside = 384;  ///< bits
 
   struct Unset {};
   explicit mpfr(Unset) { make(bits()); }
-  template <class Function>
-  mpfr& into(const Function& function, const mpfr& b) {
+  template <class Function> mpfr& into(const Function& function, const mpfr& b) {
     if (mpfr_get_prec(n_) == bits())
       function(n_, n_, b.n_, MPFR_RNDN);
     else
@@ -228,7 +225,8 @@ class mpfr {
   }
 
   mpfr_t n_;
-  mp_limb_t inside_[most_inside / GMP_NUMB_BITS];  ///< left uninitialised, like a variable of arithmetic type
+  mp_limb_t inside_[most_inside /
+      GMP_NUMB_BITS];  ///< left uninitialised, like a variable of arithmetic type
 };
 
 inline mpfr abs(const mpfr& x) { return mpfr::of(mpfr_abs, x.data()); }
@@ -244,7 +242,9 @@ inline mpfr atan2(const mpfr& y, const mpfr& x) { return mpfr::of(mpfr_atan2, y.
 inline mpfr pow(const mpfr& x, const mpfr& y) { return mpfr::of(mpfr_pow, x.data(), y.data()); }
 inline mpfr floor(const mpfr& x) { return mpfr::of(mpfr_rint_floor, x.data()); }
 inline mpfr round(const mpfr& x) { return mpfr::of(mpfr_rint_round, x.data()); }
-inline mpfr ldexp(const mpfr& x, int exponent) { return mpfr::of(mpfr_mul_2si, x.data(), long{exponent}); }
+inline mpfr ldexp(const mpfr& x, int exponent) {
+  return mpfr::of(mpfr_mul_2si, x.data(), long{exponent});
+}
 inline mpfr frexp(const mpfr& x, int* exponent) {
   mpfr_exp_t e = 0;
   mpfr result;

@@ -1,5 +1,5 @@
-// Correctly rounded square root of a float128. libquadmath rounds it incorrectly for a quarter of its
-// arguments.
+// Correctly rounded square root of a float128. libquadmath rounds it incorrectly for a quarter of
+// its arguments.
 #pragma once
 
 #include <quadmath.h>
@@ -11,8 +11,8 @@
 
 namespace edmill::detail {
 
-/// x - r^2, exact if r is within one unit in the last place of the root: each partial product of the square
-/// has at most 112 bits.
+/// x - r^2, exact if r is within one unit in the last place of the root: each partial product of
+/// the square has at most 112 bits.
 inline __float128 rest_of_square(__float128 x, __float128 r) {
   const __float128 shifted = r * (__float128(0x1p57) + 1);
   const __float128 high = shifted - (shifted - r), low = r - high;
@@ -37,10 +37,12 @@ inline __float128 square_root_of(__float128 x) {
   const double bend = static_cast<double>(step);
   const __float128 more = step - __float128(bend * bend / (2 * near));
   __float128 r = start + more;
-  // `more` is accurate to 150 bits of the root, so the sum is the nearest number unless it is close to
-  // halfway between two numbers.
-  const __float128 lost = more - (r - start), first = leading_bit(r), above = first * __float128(0x1p-112);
-  if (lost < above * __float128(0x1.ffffffp-2) && lost > above * __float128(-0x1.ffffffp-3)) return r;
+  // `more` is accurate to 150 bits of the root, so the sum is the nearest number unless it is close
+  // to halfway between two numbers.
+  const __float128 lost = more - (r - start), first = leading_bit(r),
+                   above = first * __float128(0x1p-112);
+  if (lost < above * __float128(0x1.ffffffp-2) && lost > above * __float128(-0x1.ffffffp-3))
+    return r;
   const __float128 rest = rest_of_square(x, r), below = r == first ? above / 2 : above;
   if (rest > r * above)
     r += above;
@@ -62,5 +64,7 @@ inline __float128 square_root(__float128 x) {
 
 namespace boost::multiprecision {
 /// Overload resolution prefers this to the template, which calls libquadmath.
-inline float128 sqrt(const float128& x) { return float128(edmill::detail::square_root(x.backend().value())); }
+inline float128 sqrt(const float128& x) {
+  return float128(edmill::detail::square_root(x.backend().value()));
+}
 }  // namespace boost::multiprecision

@@ -1,8 +1,8 @@
-// Compares statistics that any code found with a case of the suite: `c++ -std=c++17 compare_statistics.cpp`.
-// CC0 1.0. usage: compare_statistics STATISTICS.csv FOUND.csv [FACTOR] FOUND has the header
-// name,value[,uncertainty]; uncertainties are standard ones, of the mean. A value agrees if it differs by no
-// more than the case's tolerance and FACTOR (3 unless given) combined standard uncertainties. Exit code: 0
-// all agree, 1 one differs, 2 a file cannot be read.
+// Compares statistics that any code found with a case of the suite: `c++ -std=c++17
+// compare_statistics.cpp`. CC0 1.0. usage: compare_statistics STATISTICS.csv FOUND.csv [FACTOR]
+// FOUND has the header name,value[,uncertainty]; uncertainties are standard ones, of the mean. A
+// value agrees if it differs by no more than the case's tolerance and FACTOR (3 unless given)
+// combined standard uncertainties. Exit code: 0 all agree, 1 one differs, 2 a file cannot be read.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -33,7 +33,8 @@ std::vector<Row> read(const char* file) {
       continue;
     }
     rows.emplace_back();
-    for (std::size_t k = 0; k < std::min(row.size(), header.size()); ++k) rows.back()[header[k]] = row[k];
+    for (std::size_t k = 0; k < std::min(row.size(), header.size()); ++k)
+      rows.back()[header[k]] = row[k];
   }
   return rows;
 }
@@ -48,15 +49,17 @@ int main(int argc, char** argv) {
   if (found.empty()) return std::cerr << argv[2] << " has no values\n", 2;
   std::size_t differ = 0;
   for (auto& row : found) {
-    const auto want =
-        std::find_if(expected.begin(), expected.end(), [&](Row& r) { return r["name"] == row["name"]; });
+    const auto want = std::find_if(
+        expected.begin(), expected.end(), [&](Row& r) { return r["name"] == row["name"]; });
     if (want == expected.end()) return std::cerr << argv[1] << " has no " << row["name"] << "\n", 2;
     const double off = number(row, "value") - number(*want, "value");
-    const double combined = std::hypot(number(row, "uncertainty"), number(*want, "standard_uncertainty"));
+    const double combined =
+        std::hypot(number(row, "uncertainty"), number(*want, "standard_uncertainty"));
     const bool agrees = std::fabs(off) <= number(*want, "tolerance") + factor * combined;
     differ += !agrees;
-    std::cout << (agrees ? "agrees  " : "DIFFERS ") << row["name"] << ": " << row["value"] << ", expected "
-              << (*want)["value"] << ", off by " << off << ", combined uncertainty " << combined << "\n";
+    std::cout << (agrees ? "agrees  " : "DIFFERS ") << row["name"] << ": " << row["value"]
+              << ", expected " << (*want)["value"] << ", off by " << off
+              << ", combined uncertainty " << combined << "\n";
   }
   std::cout << found.size() - differ << " of " << found.size() << " agree\n";
   return differ > 0;

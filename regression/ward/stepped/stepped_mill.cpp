@@ -1,6 +1,6 @@
-// A mill in double whose wall search is the thesis's (3.2.2.3): steps of 1e-2 s that are halved when the ball
-// is found outside, and contact within 1e-5 m. Written from docs/theory.md; it includes nothing of edmill.
-// README.md.
+// A mill in double whose wall search is the thesis's (3.2.2.3): steps of 1e-2 s that are halved
+// when the ball is found outside, and contact within 1e-5 m. Written from docs/theory.md; it
+// includes nothing of edmill. README.md.
 #include <array>
 #include <cmath>
 #include <iostream>
@@ -28,14 +28,16 @@ const double pi = std::acos(-1.0);
 
 // SI; the values of the thesis's table 5.4, and what the command line says.
 struct Mill {
-  double rpm = 1054, arm = 0.1, swing = pi / 12, radius = 0.019, half_height = 0.0285, gravity = 9.8;
+  double rpm = 1054, arm = 0.1, swing = pi / 12, radius = 0.019, half_height = 0.0285,
+         gravity = 9.8;
   double ball_radius = 0, density = 8000, inertia = 0.4, restitution = 0, friction = 0.4;
-  double collapse_time = 1e-4;   // an impact within this time of the last one of either body has e = 1
+  double collapse_time =
+      1e-4;  // an impact within this time of the last one of either body has e = 1
   double least_separation = 0;   // least speed at which bodies separate [m/s]
   std::string search = "exact";  // or "stepped"
   double step = 1e-2, tolerance = 1e-5, factor = 2, refinements = 12;  // of the stepped search
-  double put_back = 0;     // stepped search: 1 to put a ball back on the wall's surface at an impact
-  double ignore = 0;       // exact search: walls are ignored for this time after a ball's last impact
+  double put_back = 0;  // stepped search: 1 to put a ball back on the wall's surface at an impact
+  double ignore = 0;    // exact search: walls are ignored for this time after a ball's last impact
   double smooth_time = 0;  // an impact within this time of the last one is elastic and frictionless
 
   double omega() const { return 2 * pi * rpm / 60; }
@@ -71,7 +73,9 @@ struct Pose {
 struct Flight {
   Vec r, v;
   double start = 0;
-  Vec position(const Mill& m, double tau) const { return r + v * tau - Vec{0, m.gravity * tau * tau / 2, 0}; }
+  Vec position(const Mill& m, double tau) const {
+    return r + v * tau - Vec{0, m.gravity * tau * tau / 2, 0};
+  }
   Vec velocity(const Mill& m, double tau) const { return v - Vec{0, m.gravity * tau, 0}; }
 };
 
@@ -127,7 +131,8 @@ Contact exact_search(const Mill& m, const Flight& flight) {
     for (unsigned k = 0; k < 3; ++k) {
       double low = a, high = b;
       bool found = closes(now[k]);
-      if (!found && old[k].rate < 0 && now[k].rate >= 0 && std::min(old[k].value, now[k].value) < 1e-6) {
+      if (!found && old[k].rate < 0 && now[k].rate >= 0 &&
+          std::min(old[k].value, now[k].value) < 1e-6) {
         for (int i = 0; i < 60 && !found; ++i) {  // to the least gap
           const double middle = (low + high) / 2;
           const Gap g = gaps(m, flight, middle)[k];
@@ -158,7 +163,9 @@ struct Totals {
 
 class SteppedMill {
  public:
-  SteppedMill(const Mill& mill, unsigned count, unsigned long seed) : m_(mill) { place(count, seed); }
+  SteppedMill(const Mill& mill, unsigned count, unsigned long seed) : m_(mill) {
+    place(count, seed);
+  }
 
   void run_until(double end) {
     for (unsigned i = earliest(); balls_[i].next.time <= end; i = earliest()) {
@@ -174,7 +181,6 @@ class SteppedMill {
     totals_ = {};
     return t;
   }
-
  private:
   struct Next {
     double time;
@@ -198,7 +204,8 @@ class SteppedMill {
       return limit * (2 * static_cast<double>(bits() >> 11) / 9007199254740992.0 - 1);
     };
     const Pose pose(m_, 0);
-    const double gap = 2e-4, R = m_.ball_radius, r = m_.radius - R - gap, h = m_.half_height - R - gap;
+    const double gap = 2e-4, R = m_.ball_radius, r = m_.radius - R - gap,
+                 h = m_.half_height - R - gap;
     for (long tries = 0; balls_.size() < count; ++tries) {
       if (tries > 10'000'000) throw std::runtime_error("the balls find no place");
       const Vec p{uniform(r), uniform(h), uniform(r)};
@@ -267,8 +274,8 @@ class SteppedMill {
     const double R = m_.ball_radius, J = m_.inertia, c = 1 + 1 / J, share = b ? 0.5 : 1;
     const Vec ra = position(a), va = velocity(a), rb = b ? position(*b) : Vec{};
     const Pose pose(m_, now_);
-    const Vec n =
-        b ? (ra - rb) * (1 / std::sqrt(dot(ra - rb, ra - rb))) : wall_normal(pose, ra, next.partner);
+    const Vec n = b ? (ra - rb) * (1 / std::sqrt(dot(ra - rb, ra - rb)))
+                    : wall_normal(pose, ra, next.partner);
     const Vec vb = b ? velocity(*b) : pose.velocity(ra - n * R);
     const Vec g = va - vb - cross((b ? a.spin + b->spin : a.spin) * R, n), gt = g - n * dot(g, n);
     const double approach = -dot(g, n), slip = std::sqrt(dot(gt, gt));
@@ -281,10 +288,13 @@ class SteppedMill {
     const bool smooth = within(m_.smooth_time, a, b);
     const double e = smooth || within(m_.collapse_time, a, b) ? 1 : m_.restitution;
     const double leave = std::max(e * approach, m_.least_separation), impulse = approach + leave;
-    const double et = smooth ? 1 : slip > 0 ? std::max(-1.0, 1 - m_.friction * impulse * c / slip) : -1;
+    const double et = smooth ? 1
+        : slip > 0           ? std::max(-1.0, 1 - m_.friction * impulse * c / slip)
+                             : -1;
     const Vec change = (n * impulse - gt * ((1 - et) / c)) * share;
     const Vec turn = cross(n, gt) * (share * (1 - et) / (c * R * J));
-    const double depth = b || m_.put_back == 0 ? 0 : gaps(m_, {ra, va, now_}, 0)[next.partner].value;
+    const double depth =
+        b || m_.put_back == 0 ? 0 : gaps(m_, {ra, va, now_}, 0)[next.partner].value;
     restart(a, ra - n * depth, va + change, a.spin + turn, true);
     if (b) restart(*b, rb, vb - change, b->spin + turn, true);
     const double normal = std::max(0.0, approach * approach - leave * leave);
@@ -304,21 +314,12 @@ int main(int argc, char** argv) try {
   Mill mill;
   double count = 0, diameter_mm = 0, seed = 1, start = 1, end = 11, batch = 1;
   const std::map<std::string, double*> numbers = {{"--balls", &count},
-                                                  {"--diameter-mm", &diameter_mm},
-                                                  {"--restitution", &mill.restitution},
-                                                  {"--seed", &seed},
-                                                  {"--start", &start},
-                                                  {"--end", &end},
-                                                  {"--batch", &batch},
-                                                  {"--collapse-time", &mill.collapse_time},
-                                                  {"--least-separation", &mill.least_separation},
-                                                  {"--ignore", &mill.ignore},
-                                                  {"--step", &mill.step},
-                                                  {"--tolerance", &mill.tolerance},
-                                                  {"--factor", &mill.factor},
-                                                  {"--refinements", &mill.refinements},
-                                                  {"--put-back", &mill.put_back},
-                                                  {"--smooth-time", &mill.smooth_time}};
+      {"--diameter-mm", &diameter_mm}, {"--restitution", &mill.restitution}, {"--seed", &seed},
+      {"--start", &start}, {"--end", &end}, {"--batch", &batch},
+      {"--collapse-time", &mill.collapse_time}, {"--least-separation", &mill.least_separation},
+      {"--ignore", &mill.ignore}, {"--step", &mill.step}, {"--tolerance", &mill.tolerance},
+      {"--factor", &mill.factor}, {"--refinements", &mill.refinements},
+      {"--put-back", &mill.put_back}, {"--smooth-time", &mill.smooth_time}};
   for (int k = 1; k < argc; k += 2) {
     const std::string key = argv[k];
     if (k + 1 == argc || (key != "--search" && !numbers.count(key)))

@@ -56,7 +56,8 @@ casefile::CaseSpec the_case() {
 }
 
 /// The text of a case with another value of a key, or another section.
-std::string with_setting(const std::string& text, const std::string& key, const std::string& value) {
+std::string with_setting(
+    const std::string& text, const std::string& key, const std::string& value) {
   const auto root = toml::parse(text);
   auto lines = lines_of(text);
   const auto dot = key.rfind('.');
@@ -66,8 +67,8 @@ std::string with_setting(const std::string& text, const std::string& key, const 
   if (dot == key.npos) {
     std::erase_if(lines, [&, inside = false](const std::string& line) mutable {
       if (const auto name = line.find_first_not_of(" ["); trimmed(line).starts_with('['))
-        inside =
-            line.compare(name, key.size(), key) == 0 && line.find_first_of(".] ", name) == name + key.size();
+        inside = line.compare(name, key.size(), key) == 0 &&
+            line.find_first_of(".] ", name) == name + key.size();
       return inside;
     });
     lines.insert(lines.begin(), assigned);
@@ -86,8 +87,8 @@ std::string with_setting(const std::string& text, const std::string& key, const 
   return fmt::format("{}\n", fmt::join(lines, "\n"));
 }
 
-/// The text of a case with its settings as values, so that it is the same case without them. Where the text
-/// does not allow that, they follow as comments.
+/// The text of a case with its settings as values, so that it is the same case without them. Where
+/// the text does not allow that, they follow as comments.
 /// @param log  whether an output "collisions" is added unless the case has one
 std::string text_with_values(const casefile::CaseSpec& spec, bool log) try {
   auto text = spec.text;
@@ -109,9 +110,7 @@ class Session : private Observer<double> {
  public:
   /// @param log  whether collisions.csv is written. @throws InputError with the case's problems
   explicit Session(bool log)
-      : spec_(read(log)),
-        mill_(casefile::build_mill<double>(spec_)),
-        run_(CaseAccess::make(spec_)),
+      : spec_(read(log)), mill_(casefile::build_mill<double>(spec_)), run_(CaseAccess::make(spec_)),
         log_(log) {
     run_.write_to(folder);
     run_.attach(*this);
@@ -120,7 +119,7 @@ class Session : private Observer<double> {
   /// Writes what is constant as JSON: radii, walls as meshes, names of partners, the period.
   void scene(JsonText& json) const {
     json.add("version", version(), "period", mill_.motion.period(), "start",
-             spec_.statistics_start.to<double>());
+        spec_.statistics_start.to<double>());
     std::vector<double> radii;
     for (const auto& batch : spec_.batches)
       radii.insert(radii.end(), batch.count, batch.diameter.to<double>() / 2);
@@ -131,8 +130,8 @@ class Session : private Observer<double> {
     for (int k = 0; k < partners.count(); ++k) names.push_back(partners[k].label);
     json.add("partners", names, "middle", mill_.motion.middle());
     json.begin("values");
-    for (const auto* key : {"balls.0.count", "balls.0.diameter", "contact.restitution", "contact.friction",
-                            "mill.speed", "run.max_collisions"})
+    for (const auto* key : {"balls.0.count", "balls.0.diameter", "contact.restitution",
+             "contact.friction", "mill.speed", "run.max_collisions"})
       if (const auto value = casefile::text_of_key(spec_, key)) json.add(key, *value);
     json.end();
     json.begin("walls");
@@ -144,8 +143,8 @@ class Session : private Observer<double> {
     json.end();
     json.begin("bodies");
     for (std::size_t k = 0; k < mill_.bodies.size(); ++k)
-      json.add_group(std::to_string(k), "points", model::mesh_of(mill_.bodies[k].shape).points, "colour",
-                     spec_.bodies[k].colour);
+      json.add_group(std::to_string(k), "points", model::mesh_of(mill_.bodies[k].shape).points,
+          "colour", spec_.bodies[k].colour);
     json.end();
   }
 
@@ -167,7 +166,8 @@ class Session : private Observer<double> {
   void frame(JsonText& json) {
     const double now = run_.time();
     const auto summary = run_.summary();
-    json.add("time", now, "impacts", impacts_, "ended", !going_on_, "end_reason", summary.end_reason);
+    json.add(
+        "time", now, "impacts", impacts_, "ended", !going_on_, "end_reason", summary.end_reason);
     std::vector<Vector<double>> places;
     for (int k = 0; k < run_.ball_count(); ++k) places.push_back(run_.ball(k).position);
     const auto frame_of = [now](const auto& motion) {
@@ -178,9 +178,9 @@ class Session : private Observer<double> {
     for (const auto& body : mill_.bodies) bodies.push_back(frame_of(body.motion));
     json.add("places", places, "vessel", frame_of(mill_.motion), "bodies", bodies);
     if (impacts_ > 0)
-      json.add_group("last", "ball", last_.ball, "partner", last_.partner, "with_wall", last_.with_wall,
-                     "approach_speed", last_.approach_speed, "separation_speed", last_.separation_speed,
-                     "milling_dose", last_.milling_dose);
+      json.add_group("last", "ball", last_.ball, "partner", last_.partner, "with_wall",
+          last_.with_wall, "approach_speed", last_.approach_speed, "separation_speed",
+          last_.separation_speed, "milling_dose", last_.milling_dose);
     if (now > summary.start_time) {
       json.add("dose", summary.milling_dose);
       json.begin("results");
@@ -201,14 +201,14 @@ class Session : private Observer<double> {
     const auto log = content_of(std::string(folder) + "/collisions.csv");
     if (!log.empty()) json.add("digest", sha256(log));
   }
-
  private:
   static constexpr const char* folder = "/run";
 
   /// Adds the results in summary.json that the page shows, milling time first.
   static void results(JsonText& json, const io::Facts& summary) {
     if (const auto time = summary.find("target/milling_time"))
-      json.add("milling time", time_with_interval(*time, summary.find("target/milling_time_half_width")));
+      json.add("milling time",
+          time_with_interval(*time, summary.find("target/milling_time_half_width")));
     const auto add_rate = [&](const char* name, const std::string& key, const char* unit) {
       if (const auto rate = summary.find(key))
         json.add(name, with_interval(*rate, summary.find("intervals/" + key)) + unit);
@@ -217,8 +217,9 @@ class Session : private Observer<double> {
     add_rate("impacts above 1 m/s", "fast_impact_rate", " per second");
     const std::string energy = "impact_energy_by_dose/";
     if (const auto half = summary.find(energy + "median"))
-      json.add("impact energy", "half of the impacts' dose below " + energy_text(*half) + ", 90 % below " +
-                                    energy_text(summary.number(energy + "90_percent")));
+      json.add("impact energy",
+          "half of the impacts' dose below " + energy_text(*half) + ", 90 % below " +
+              energy_text(summary.number(energy + "90_percent")));
     if (const auto speed = summary.find("mean_impact_speed"))
       json.add("mean impact speed", fmt::format("{:.3g} m/s", *speed));
   }
@@ -228,14 +229,15 @@ class Session : private Observer<double> {
     auto spec = the_case();
     if (spec.precision != "double" || spec.digits)
       throw InputError("case.toml: found " +
-                       (spec.digits ? "run.digits" : "run.precision = \"" + spec.precision + "\"") +
-                       ", expected a run in double: this page has no other precision, the command line has");
+          (spec.digits ? "run.digits" : "run.precision = \"" + spec.precision + "\"") +
+          ", expected a run in double: this page has no other precision, the command line has");
     if (spec.ball_count() > most_balls)
       throw InputError(std::to_string(spec.ball_count()) +
-                       " balls are too many to be drawn: this page takes up to " +
-                       std::to_string(most_balls) + "; the command line takes any number.");
+          " balls are too many to be drawn: this page takes up to " + std::to_string(most_balls) +
+          "; the command line takes any number.");
     spec.outputs.clear();
-    if (log) casefile::add_outputs("[[output]]\ntype = \"collisions\"\n", "the page's output", spec);
+    if (log)
+      casefile::add_outputs("[[output]]\ntype = \"collisions\"\n", "the page's output", spec);
     return spec;
   }
   void on_impact(const Impact<double>& impact, Run<double>&) override {
@@ -338,7 +340,7 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_new() {
     std::string balls;
     std::istringstream in(content_of("/wanted"));
     for (auto* text : {&wanted.machine, &wanted.jar, &balls, &wanted.fill, &wanted.powder,
-                       &wanted.target_dose, &wanted.speed})
+             &wanted.target_dose, &wanted.speed})
       std::getline(in, *text);
     if (!balls.empty()) wanted.balls = {balls};
     json.add("case", machines::new_case(wanted));
@@ -376,8 +378,8 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_audit(int identify) {
     json.add("verdict", audit::name_of(audited.verdict));
     std::string table = audit::table(audited);
     if (audited.verdict == audit::Verdict::differ)
-      table += identify::table(identify::identify(
-          spec, options, identify != 0 ? identify::Search::all : identify::Search::single, tell_stage));
+      table += identify::table(identify::identify(spec, options,
+          identify != 0 ? identify::Search::all : identify::Search::single, tell_stage));
     json.add("table", table);
   });
 }
@@ -391,7 +393,8 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_check() {
     } catch (const checker::Rejected& why) {
       json.add("verdict", std::string("rejected: ") + why.what());
     } catch (const nlohmann::json::exception&) {
-      throw InputError("found a line that is not JSON, expected a file of `edmill prove --certificate`");
+      throw InputError(
+          "found a line that is not JSON, expected a file of `edmill prove --certificate`");
     }
   });
 }
@@ -413,8 +416,8 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_compare() {
 namespace edmill::run {
 
 /// Runs that judges make, in double, which is the only scalar of the page.
-std::unique_ptr<EventSource> make_source(const std::string&, const casefile::CaseSpec& spec, bool to_end,
-                                         const std::atomic<bool>* interrupt) {
+std::unique_ptr<EventSource> make_source(const std::string&, const casefile::CaseSpec& spec,
+    bool to_end, const std::atomic<bool>* interrupt) {
   return make_source_in<double>(spec, to_end, interrupt);
 }
 

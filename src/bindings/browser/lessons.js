@@ -10,7 +10,8 @@ function show_flight() {
     path([[12, 10], [12, 160], [390, 160]], 'axis') + '<text x="18" y="18">height</text><text x="388" y="154" text-anchor="end">distance</text>';
 }
 
-// A ball that falls on a table: gap(t), its rate, and a bound on its bend, which is gravity and the table's acceleration.
+// A ball that falls on a table: gap(t), its rate, and a bound on its bend, which is gravity and the
+// table's acceleration.
 const table = {size: 0.12, pulse: 2 * Math.PI * 1.4, height: 0.55, fall: 9.81 / 9};
 const gap = t => table.height - table.fall * t * t / 2 - table.size * Math.sin(table.pulse * t);
 const rate = t => -table.fall * t - table.size * table.pulse * Math.cos(table.pulse * t);

@@ -84,7 +84,8 @@ function give_up(what, list = []) {
   problems(list);
 }
 
-/// Asks the engine for a task; no answer where another has begun, or after problems, which are shown.
+/// Asks the engine for a task; no answer where another has begun, or after problems, which are
+/// shown.
 async function ask_for(own, message, sorry = 'The run has stopped.') {
   const got = await ask(message);
   if (own === run_number && got.answer.problems) give_up(sorry, got.answer.problems);
@@ -120,7 +121,8 @@ async function begin() {
   play(own);
 }
 
-/// The next state at a time, or after one impact; whether the run has gone on. A chunk that it was sets the size of the next one.
+/// The next state at a time, or after one impact; whether the run has gone on. A chunk that it was
+/// sets the size of the next one.
 async function advance(time, own, of_chunk = false) {
   const {answer, milliseconds} = await ask_for(own, {what: 'advance', time});
   if (!answer) return false;

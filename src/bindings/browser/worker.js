@@ -1,5 +1,6 @@
 
-// The engine in a worker: the page never waits for it. Each message is answered by one of the same `what`; a `stage` may come before.
+// The engine in a worker: the page never waits for it. Each message is answered by one of the same
+// `what`; a `stage` may come before.
 let engine;
 
 /// Texts of any length are files of the engine's own memory: its stack is short.

@@ -1,5 +1,5 @@
-// Substitutes for functions that need libraries which the core-only build lacks: HDF5, pugixml, zlib and
-// zstd. A case that needs one of them is refused with a message that names it.
+// Substitutes for functions that need libraries which the core-only build lacks: HDF5, pugixml,
+// zlib and zstd. A case that needs one of them is refused with a message that names it.
 #include "core_alone/missing_part.hpp"
 #include "io/input_file.hpp"
 #include "io/table_hdf5.hpp"
@@ -12,7 +12,7 @@ namespace edmill {
 namespace io {
 Table<double>::Cells stored(const std::vector<std::string>&) { refuse("a table as .h5", "HDF5"); }
 std::string hdf5_columns(const std::vector<StoredColumn>&, const std::vector<std::string>&,
-                         const std::vector<FileNote>&) {
+    const std::vector<FileNote>&) {
   refuse("a table as .h5", "HDF5");
 }
 std::unique_ptr<Decoder> decoder_for(std::string_view beginning) {
@@ -24,8 +24,8 @@ std::unique_ptr<Decoder> decoder_for(std::string_view beginning) {
 
 namespace output {
 struct EventFile::Data {};
-EventFile::EventFile(const std::filesystem::path&, std::vector<EventColumn>,
-                     const std::vector<io::FileNote>&) {
+EventFile::EventFile(
+    const std::filesystem::path&, std::vector<EventColumn>, const std::vector<io::FileNote>&) {
   refuse("an event log as .h5", "HDF5");
 }
 EventFile::~EventFile() = default;
@@ -34,7 +34,7 @@ void EventFile::add(std::size_t, std::int64_t) {}
 void EventFile::add(std::size_t, double) {}
 void EventFile::end_row() {}
 void EventFile::add_table(const std::string&, const std::string&, const std::string&,
-                          const std::vector<double>&, std::size_t) {}
+    const std::vector<double>&, std::size_t) {}
 void EventFile::complete() {}
 void EventFile::commit() {}
 std::filesystem::path EventFile::place() const { return {}; }

@@ -30,7 +30,9 @@ std::optional<StudyResult> sweep(const StudyOptions&) { refuse("sweep", threads)
 std::optional<StudyResult> optimize(const StudyOptions&) { refuse("optimize", threads); }
 std::optional<StudyResult> seeds(const SeedsOptions&) { refuse("--seeds", threads); }
 std::string limit_drawing(const dem::Limit&) { refuse("limit --draw", pages); }
-Bifurcation bifurcation(const CaseSpec&, const BifurcationOptions&) { refuse("bifurcation", pages); }
+Bifurcation bifurcation(const CaseSpec&, const BifurcationOptions&) {
+  refuse("bifurcation", pages);
+}
 std::string what_decides(const CaseSpec&, Text, const io::Facts&, double, Flag) {
   refuse("run --check", threads);
 }

@@ -1,5 +1,6 @@
 #!/usr/bin/env node
-// The command: edmill compiled to WebAssembly, with the files, standard input and exit codes of the program.
+// The command: edmill compiled to WebAssembly, with the files, standard input and exit codes of the
+// program.
 'use strict';
 
 const [major] = process.versions.node.split('.').map(Number);

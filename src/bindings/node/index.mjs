@@ -1,4 +1,5 @@
-// edmill for scripts. Each call runs the command in a process of its own, so that several run at once.
+// edmill for scripts. Each call runs the command in a process of its own, so that several run at
+// once.
 import {spawn} from 'node:child_process';
 import {mkdtemp, readFile, rm} from 'node:fs/promises';
 import {createRequire} from 'node:module';

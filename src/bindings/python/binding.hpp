@@ -1,5 +1,5 @@
-// How a source adds functions and classes to the module, how its functions release and take Python's lock,
-// and how Ctrl-C ends long work.
+// How a source adds functions and classes to the module, how its functions release and take
+// Python's lock, and how Ctrl-C ends long work.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -20,15 +20,14 @@ class Module : public pybind11::module_ {
  public:
   explicit Module(const pybind11::module_& m) : module_(m) {}
   /// @tparam Guard  objects that exist during the call: `Unlocked` for long work without Python
-  template <class... Guard>
-  void def(const char* name, auto&& function) {
+  template <class... Guard> void def(const char* name, auto&& function) {
     module_::def(name, std::forward<decltype(function)>(function),
-                 pybind11::call_guard<StandardArithmetic, Guard...>());
+        pybind11::call_guard<StandardArithmetic, Guard...>());
   }
 };
 
-/// Each source has one at namespace scope, `const Binding functions([](Module& m) { ... });`, and no
-/// list names it. The class Case and the exceptions are in the module before.
+/// Each source has one at namespace scope, `const Binding functions([](Module& m) { ... });`, and
+/// no list names it. The class Case and the exceptions are in the module before.
 class Binding {
  public:
   explicit Binding(void (*add)(Module&)) { all().push_back(add); }
@@ -37,7 +36,6 @@ class Binding {
     Module m(module);
     for (const auto add : all()) add(m);
   }
-
  private:
   static std::vector<void (*)(Module&)>& all() {
     static std::vector<void (*)(Module&)> bindings;
@@ -45,11 +43,10 @@ class Binding {
   }
 };
 
-/// Calls Python from where no lock or object of Python is left to destroy. When the interpreter ends, Python
-/// ends a daemon thread that waits for its lock by unwinding the stack (pthread_exit), which destructors of
-/// C++ do not permit: the thread sleeps instead to the end, as in Python 3.14.
-template <class Call>
-auto call_python(const Call& call) {
+/// Calls Python from where no lock or object of Python is left to destroy. When the interpreter
+/// ends, Python ends a daemon thread that waits for its lock by unwinding the stack (pthread_exit),
+/// which destructors of C++ do not permit: the thread sleeps instead to the end, as in Python 3.14.
+template <class Call> auto call_python(const Call& call) {
   try {
     return call();
   } catch (...) {  // never an exception of C++: `call` calls functions of C
@@ -64,7 +61,6 @@ class Unlocked {
   ~Unlocked() {
     call_python([this] { PyEval_RestoreThread(state_); });
   }
-
  private:
   PyThreadState* state_;
 };
@@ -74,7 +70,6 @@ class Locked {
  public:
   Locked() : state_(call_python(PyGILState_Ensure)) {}
   ~Locked() { PyGILState_Release(state_); }
-
  private:
   PyGILState_STATE state_;
 };
@@ -87,8 +82,7 @@ inline bool control_c_came() {
 }
 
 /// The new object that a function of C returns. @throws py::error_already_set
-template <class Make>
-pybind11::object made_by(const Make& make) {
+template <class Make> pybind11::object made_by(const Make& make) {
   PyObject* made = call_python(make);
   if (!made) throw pybind11::error_already_set();
   return pybind11::reinterpret_steal<pybind11::object>(made);
@@ -101,8 +95,8 @@ pybind11::object call(const pybind11::object& callable, Argument&&... argument) 
   return made_by([&] { return PyObject_CallObject(callable.ptr(), arguments.ptr()); });
 }
 
-/// Calls work(flag) on a thread of its own, while this one lets Python's signal handlers run: Ctrl-C sets the
-/// flag, which the work obeys, and is raised when that has ended.
+/// Calls work(flag) on a thread of its own, while this one lets Python's signal handlers run:
+/// Ctrl-C sets the flag, which the work obeys, and is raised when that has ended.
 auto with_interrupt(const auto& work) {
   std::atomic<bool> interrupt{false};
   auto done = std::async(std::launch::async, [&] { return work(&interrupt); });

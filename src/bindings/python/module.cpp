@@ -1,5 +1,5 @@
-// The extension module edmill._edmill: cases, runs, studies and judges of the library as plain Python values.
-// The package edmill beside it is what users import. Here are cases and runs.
+// The extension module edmill._edmill: cases, runs, studies and judges of the library as plain
+// Python values. The package edmill beside it is what users import. Here are cases and runs.
 #include <pybind11/functional.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -40,7 +40,9 @@ struct Numbers {
     const StandardArithmetic scope;  // Python may ask when the run is over
     return py::float_(std::stod(text));
   }
-  py::tuple of(const Vector<std::string>& v) const { return py::make_tuple(of(v[0]), of(v[1]), of(v[2])); }
+  py::tuple of(const Vector<std::string>& v) const {
+    return py::make_tuple(of(v[0]), of(v[1]), of(v[2]));
+  }
   py::tuple of(const BallState<std::string>& s) const {
     return py::make_tuple(of(s.position), of(s.velocity), of(s.spin));
   }
@@ -54,8 +56,8 @@ struct Numbers {
       PyErr_Clear();
     }
     throw InputError(std::string("contact law of the program: ") + what + ": found " +
-                     std::string(py::str(made_by([&] { return PyObject_Repr(x.ptr()); }))) +
-                     ", expected a number");
+        std::string(py::str(made_by([&] { return PyObject_Repr(x.ptr()); }))) +
+        ", expected a number");
   }
 };
 
@@ -69,22 +71,21 @@ bool is_done(const auto& work) try {
 }
 
 /// Calls f(name, member) for everything that is known of an impact.
-template <class Number, class F>
-void for_each_member(F&& f) {
+template <class Number, class F> void for_each_member(F&& f) {
   using I = Impact<Number>;
   const auto visit = [&](const auto& self, const char* name, auto member, auto... more) {
     f(name, member);
     if constexpr (sizeof...(more) > 0) self(self, more...);
   };
-  visit(visit, "index", &I::index, "time", &I::time, "ball", &I::ball, "with_wall", &I::with_wall, "partner",
-        &I::partner, "normal", &I::normal, "approach_speed", &I::approach_speed, "slip_speed", &I::slip_speed,
-        "separation_speed", &I::separation_speed, "restitution_tangential", &I::restitution_tangential,
-        "normal_impulse", &I::normal_impulse, "tangential_impulse", &I::tangential_impulse, "milling_dose",
-        &I::milling_dose, "supplied_energy", &I::supplied_energy, "wall_work", &I::wall_work);
+  visit(visit, "index", &I::index, "time", &I::time, "ball", &I::ball, "with_wall", &I::with_wall,
+      "partner", &I::partner, "normal", &I::normal, "approach_speed", &I::approach_speed,
+      "slip_speed", &I::slip_speed, "separation_speed", &I::separation_speed,
+      "restitution_tangential", &I::restitution_tangential, "normal_impulse", &I::normal_impulse,
+      "tangential_impulse", &I::tangential_impulse, "milling_dose", &I::milling_dose,
+      "supplied_energy", &I::supplied_energy, "wall_work", &I::wall_work);
 }
 /// A member of an impact as Python has it.
-template <class Value>
-py::object to_python(const Value& value) {
+template <class Value> py::object to_python(const Value& value) {
   if constexpr (std::is_same_v<Value, std::string> || std::is_same_v<Value, Vector<std::string>>)
     return Numbers{true}.of(value);
   else if constexpr (std::is_same_v<Value, Vector<double>>)
@@ -93,11 +94,11 @@ py::object to_python(const Value& value) {
     return py::cast(value);
 }
 
-template <class Number>
-void bind_impact(Module& m, const char* name) {
+template <class Number> void bind_impact(Module& m, const char* name) {
   py::class_<Impact<Number>> impact(m, name);
   for_each_member<Number>([&](const char* member, auto which) {
-    impact.def_property_readonly(member, [which](const Impact<Number>& i) { return to_python(i.*which); });
+    impact.def_property_readonly(
+        member, [which](const Impact<Number>& i) { return to_python(i.*which); });
   });
 }
 
@@ -118,18 +119,20 @@ class Collector : public run::Watcher {
   py::object events() {
     if (!numbers_.wide) {
       auto* owner = new std::vector(std::move(doubles_));
-      const py::capsule keeper(owner, [](void* p) { delete static_cast<std::vector<Impact<double>>*>(p); });
-      return py::array_t<Impact<double>>(static_cast<py::ssize_t>(owner->size()), owner->data(), keeper);
+      const py::capsule keeper(
+          owner, [](void* p) { delete static_cast<std::vector<Impact<double>>*>(p); });
+      return py::array_t<Impact<double>>(
+          static_cast<py::ssize_t>(owner->size()), owner->data(), keeper);
     }
     py::list rows;
     for (const auto& event : texts_) {
       py::list row;
-      for_each_member<std::string>([&](const char*, auto which) { row.append(to_python(event.*which)); });
+      for_each_member<std::string>(
+          [&](const char*, auto which) { row.append(to_python(event.*which)); });
       rows.append(py::tuple(row));
     }
     return rows;
   }
-
  private:
   Numbers numbers_;
   std::vector<Impact<double>> doubles_;
@@ -148,25 +151,25 @@ struct RunOfPython {
   Numbers numbers;
 };
 
-/// Calls the observers after each impact, and ten times a second Python's signal handlers and `progress`;
-/// ends the run after Ctrl-C.
+/// Calls the observers after each impact, and ten times a second Python's signal handlers and
+/// `progress`; ends the run after Ctrl-C.
 class Caller : public run::Watcher {
  public:
   /// @param interrupted  set here, and by laws during which Ctrl-C came
-  Caller(const std::vector<py::object>& observers, const py::object& progress, const Numbers& numbers,
-         bool& interrupted)
+  Caller(const std::vector<py::object>& observers, const py::object& progress,
+      const Numbers& numbers, bool& interrupted)
       : observers_(observers), progress_(progress), numbers_(numbers), interrupted_(interrupted) {}
 
   void on_impact(const SeenImpact& impact, AnyRun& run) override {
     for (const auto& observer : observers_) {
       const Locked python;
-      const py::object seen = numbers_.wide ? py::cast(impact.in_texts()) : py::cast(impact.in_double());
+      const py::object seen =
+          numbers_.wide ? py::cast(impact.in_texts()) : py::cast(impact.in_double());
       if (!is_done([&] { call(observer, seen, RunOfPython{run, numbers_}); })) interrupted_ = true;
     }
     if (!interrupted_) look(impact);
     if (interrupted_) run.stop(model::EndReason::interrupted);
   }
-
  private:
   using Clock = std::chrono::steady_clock;
 
@@ -195,10 +198,8 @@ class Caller : public run::Watcher {
 class CallingLaw : public run::LawInTexts {
  public:
   CallingLaw(const py::object& law, const Numbers& numbers, bool& interrupted)
-      : restitution_(law.attr("restitution")),
-        of_slip_(law.attr("restitution_of_slip")),
-        numbers_(numbers),
-        interrupted_(interrupted) {}
+      : restitution_(law.attr("restitution")), of_slip_(law.attr("restitution_of_slip")),
+        numbers_(numbers), interrupted_(interrupted) {}
   /// Takes Python's lock, which a run does not hold when it destroys the law.
   ~CallingLaw() override {
     const Locked python;
@@ -210,17 +211,16 @@ class CallingLaw : public run::LawInTexts {
     return ask("restitution", [&] { return call(restitution_, numbers_.of(approach_speed)); });
   }
   std::string restitution_of_slip(const std::string& normal_change, const std::string& slip_speed,
-                                  const std::string& compliance) const override {
+      const std::string& compliance) const override {
     const Locked python;
     return ask("restitution_of_slip", [&] {
-      return call(of_slip_, numbers_.of(normal_change), numbers_.of(slip_speed), numbers_.of(compliance));
+      return call(
+          of_slip_, numbers_.of(normal_change), numbers_.of(slip_speed), numbers_.of(compliance));
     });
   }
-
  private:
   /// An impact needs an answer: after Ctrl-C the law is asked again, and the run ends after it.
-  template <class Ask>
-  std::string ask(const char* what, const Ask& of_law) const {
+  template <class Ask> std::string ask(const char* what, const Ask& of_law) const {
     std::string answer;
     const auto answers = [&] { answer = numbers_.text_of(of_law(), what); };
     if (is_done(answers)) return answer;
@@ -235,9 +235,9 @@ class CallingLaw : public run::LawInTexts {
 };
 
 /// @param folder  of the outputs; none when empty
-py::dict run_case(const Case& the_case, const std::string& precision, const std::string& folder, bool events,
-                  bool report, const std::vector<py::object>& observers, const py::object& ball_ball,
-                  const py::object& ball_wall, const py::object& progress) {
+py::dict run_case(const Case& the_case, const std::string& precision, const std::string& folder,
+    bool events, bool report, const std::vector<py::object>& observers, const py::object& ball_ball,
+    const py::object& ball_wall, const py::object& progress) {
   return casefile::with_memory_for(CaseAccess::spec(the_case), [&] {
     auto spec = CaseAccess::spec(the_case);
     if (report) report::add_report_outputs(spec);
@@ -268,26 +268,27 @@ py::dict run_case(const Case& the_case, const std::string& precision, const std:
     }
     if (control_c_came()) interrupted = true;  // when the run was already over
     return py::dict("summary"_a = run->summary_json(), "events"_a = collector.events(),
-                    "states"_a = states_of(*run, numbers), "time"_a = numbers.of(run->time()),
-                    "interrupted"_a = interrupted);
+        "states"_a = states_of(*run, numbers), "time"_a = numbers.of(run->time()),
+        "interrupted"_a = interrupted);
   });
 }
 
 const Binding runs([](Module& m) {
-  PYBIND11_NUMPY_DTYPE(Impact<double>, index, time, ball, with_wall, partner, normal, approach_speed,
-                       slip_speed, separation_speed, restitution_tangential, normal_impulse,
-                       tangential_impulse, milling_dose, supplied_energy, wall_work);
+  PYBIND11_NUMPY_DTYPE(Impact<double>, index, time, ball, with_wall, partner, normal,
+      approach_speed, slip_speed, separation_speed, restitution_tangential, normal_impulse,
+      tangential_impulse, milling_dose, supplied_energy, wall_work);
   PYBIND11_NUMPY_DTYPE(BallState<double>, position, velocity, spin);
   bind_impact<double>(m, "Impact");
   bind_impact<std::string>(m, "WideImpact");
   py::class_<RunOfPython>(m, "Running")
-      .def_property_readonly("time", [](const RunOfPython& r) { return r.numbers.of(r.run.time()); })
+      .def_property_readonly(
+          "time", [](const RunOfPython& r) { return r.numbers.of(r.run.time()); })
       .def_property_readonly("ball_count", [](const RunOfPython& r) { return r.run.ball_count(); })
       .def("ball",
-           [](const RunOfPython& r, int k) {
-             if (k < 0 || k >= r.run.ball_count()) throw py::index_error("no such ball");
-             return r.numbers.of(r.run.ball(k));
-           })
+          [](const RunOfPython& r, int k) {
+            if (k < 0 || k >= r.run.ball_count()) throw py::index_error("no such ball");
+            return r.numbers.of(r.run.ball(k));
+          })
       .def("stop", [](const RunOfPython& r) { r.run.stop(model::EndReason::stopped); });
   m.attr("event_dtype") = py::dtype::of<Impact<double>>();
   m.attr("state_dtype") = py::dtype::of<BallState<double>>();
@@ -313,13 +314,15 @@ PYBIND11_MODULE(_edmill, m) {
       .def_property_readonly("precision", &Case::precision)
       .def_property_readonly("digits", [](const Case& c) { return CaseAccess::spec(c).digits; })
       .def_property_readonly("ball_count", &Case::ball_count)
-      .def("text_of", [](const Case& c,
-                         const std::string& key) { return casefile::text_of_key(CaseAccess::spec(c), key); })
-      .def_property_readonly(
-          "balls",
+      .def("text_of",
+          [](const Case& c, const std::string& key) {
+            return casefile::text_of_key(CaseAccess::spec(c), key);
+          })
+      .def_property_readonly("balls",
           [](const Case& c) {
             std::vector<std::pair<double, double>> balls;
-            for (const auto& ball : casefile::build_case<double>(CaseAccess::spec(c)).the_case.balls)
+            for (const auto& ball :
+                casefile::build_case<double>(CaseAccess::spec(c)).the_case.balls)
               balls.emplace_back(ball.radius, ball.mass);
             return balls;
           })

@@ -52,15 +52,15 @@ std::size_t study(Text file, Text folder, int jobs, const py::object& progress) 
 
 /// This one and the next return the result in JSON.
 std::string compare(Text a, Text b, MaybeNumber tolerance, std::optional<std::uint64_t> events,
-                    MaybeNumber from, MaybeNumber until, MaybeNumber batch, MaybeNumber within) {
+    MaybeNumber from, MaybeNumber until, MaybeNumber batch, MaybeNumber within) {
   return app::compare({a, b, {from, until}, batch, tolerance, events, within}).json;
 }
 
 std::string audit(const Case& the_case, Text log, Texts columns, MaybeNumber tolerance,
-                  MaybeNumber gap_tolerance, std::optional<int> first_ball, Text walls, bool from_start,
-                  bool identify) {
-  const app::AuditOptions options{log,        columns, tolerance,  gap_tolerance,
-                                  first_ball, walls,   from_start, identify};
+    MaybeNumber gap_tolerance, std::optional<int> first_ball, Text walls, bool from_start,
+    bool identify) {
+  const app::AuditOptions options{
+      log, columns, tolerance, gap_tolerance, first_ball, walls, from_start, identify};
   return with_interrupt(options, app::audit, CaseAccess::spec(the_case)).json;
 }
 
@@ -109,12 +109,12 @@ py::dict shadow(const Case& the_case, Text precision, Text wider) {
   py::object diverged = py::none();
   if (found.diverged) diverged = bodies_of({found.diverged->first, found.diverged->second});
   return py::dict("events"_a = found.agreement.events(), "digits"_a = digits_of(found.agreement),
-                  "digits_lost_per_event"_a = found.agreement.digits_lost_per_event(),
-                  "diverged"_a = diverged, "text"_a = found.text());
+      "digits_lost_per_event"_a = found.agreement.digits_lost_per_event(), "diverged"_a = diverged,
+      "text"_a = found.text());
 }
 
-/// @return the precision, the units, the events, and for each parameter of `by`, event after event and as
-/// texts, the derivatives of the event's quantities and of the states of its bodies
+/// @return the precision, the units, the events, and for each parameter of `by`, event after event
+/// and as texts, the derivatives of the event's quantities and of the states of its bodies
 py::tuple sensitivity(const Case& the_case, Texts by, std::size_t events, unsigned digits) {
   const run::SensitivityOptions options{.by = by, .events = events, .digits = digits, .file = ""};
   const auto found = with_interrupt(options, run::sensitivity, CaseAccess::spec(the_case));
@@ -138,7 +138,8 @@ py::tuple sensitivity(const Case& the_case, Texts by, std::size_t events, unsign
 
 /// @return the precision that gives the digits required, and the case with those that it gives
 py::tuple find_digits(const Case& the_case) {
-  const auto found = with_interrupt(app::DigitsOptions(), app::find_digits, CaseAccess::spec(the_case));
+  const auto found =
+      with_interrupt(app::DigitsOptions(), app::find_digits, CaseAccess::spec(the_case));
   if (!found.undecided.empty()) throw UndecidedError(found.undecided);
   auto spec = CaseAccess::spec(the_case);
   spec.right_digits = found.right();
@@ -146,13 +147,14 @@ py::tuple find_digits(const Case& the_case) {
 }
 
 py::dict estimate(const Case& the_case, Text precision) {
-  const auto found =
-      with_interrupt(app::DigitsOptions(), app::estimate_run, CaseAccess::spec(the_case), precision);
-  const double verifying = found.verifying > 0 ? found.trials + found.verifying * found.cpu_seconds() : 0;
+  const auto found = with_interrupt(
+      app::DigitsOptions(), app::estimate_run, CaseAccess::spec(the_case), precision);
+  const double verifying =
+      found.verifying > 0 ? found.trials + found.verifying * found.cpu_seconds() : 0;
   return py::dict("precision"_a = found.precision, "events"_a = found.events,
-                  "digits_lost_per_event"_a = found.lost_per_event, "right_events"_a = found.right_events,
-                  "cpu_seconds"_a = found.cpu_seconds(), "verifying_cpu_seconds"_a = verifying,
-                  "bytes"_a = found.bytes);
+      "digits_lost_per_event"_a = found.lost_per_event, "right_events"_a = found.right_events,
+      "cpu_seconds"_a = found.cpu_seconds(), "verifying_cpu_seconds"_a = verifying,
+      "bytes"_a = found.bytes);
 }
 
 /// @return the events as CSV, the bits of the proof, and the bits that remain at its end
@@ -172,7 +174,8 @@ void in_folder(const app::RunOptions& options, const auto& work, const auto&... 
   if (result.end_reason == model::EndReason::undecided) throw UndecidedError(result.error);
 }
 
-void run_with_checkpoints(const Case& the_case, Text precision, Text folder, bool report, Text interval) {
+void run_with_checkpoints(
+    const Case& the_case, Text precision, Text folder, bool report, Text interval) {
   const auto& spec = CaseAccess::spec(the_case);
   run::parse_checkpoint_interval(interval);
   app::RunOptions options;
@@ -191,9 +194,8 @@ void resume(Text folder, Text interval) {
 
 /// @return names and texts of the files, the command that runs the first, and notes
 py::tuple deck_of(const Case& the_case, Text code, Text name, double contact_time, double speed,
-                  MaybeNumber duration, MaybeNumber frames, int steps, int facets) {
-  const auto deck = decks::make_deck(
-      CaseAccess::spec(the_case),
+    MaybeNumber duration, MaybeNumber frames, int steps, int facets) {
+  const auto deck = decks::make_deck(CaseAccess::spec(the_case),
       {code, name, contact_time, speed, duration.value_or(0), frames.value_or(0), steps, facets});
   py::list files;
   for (const auto& file : deck.files) files.append(py::make_tuple(file.name, file.text));
@@ -201,8 +203,9 @@ py::tuple deck_of(const Case& the_case, Text code, Text name, double contact_tim
 }
 
 py::dict import_dump(const Case& the_case, Text dump, Text out, Text deck, MaybeNumber time_step,
-                     std::optional<std::string> units, bool in_vessel) {
-  dem::ImportOptions options{.dump = dump, .log = out, .deck = deck, .time_step = time_step, .units = units};
+    std::optional<std::string> units, bool in_vessel) {
+  dem::ImportOptions options{
+      .dump = dump, .log = out, .deck = deck, .time_step = time_step, .units = units};
   options.in_vessel = in_vessel;
   const auto imported = with_interrupt(options, dem::import_dump, CaseAccess::spec(the_case));
   py::dict classes;
@@ -210,7 +213,7 @@ py::dict import_dump(const Case& the_case, Text dump, Text out, Text deck, Maybe
   for (std::size_t k = 0; k < dem::contact_class_names.size(); ++k)
     classes[dem::contact_class_names[k]] = py::make_tuple(imported.counts[k], facts.doses[k]);
   return py::dict("frames"_a = facts.frames, "contacts"_a = facts.contacts, "first"_a = facts.first,
-                  "last"_a = facts.last, "milling_dose"_a = facts.dose(), "classes"_a = classes);
+      "last"_a = facts.last, "milling_dose"_a = facts.dose(), "classes"_a = classes);
 }
 
 py::list machines_in_python() {
@@ -223,22 +226,22 @@ py::list machines_in_python() {
   return all;
 }
 
-std::string new_case(Text machine, Texts balls, Text powder, Text speed, Text restitution, Text friction,
-                     Text target_dose, Text time, Text jar, Text fill, Text ratio) {
+std::string new_case(Text machine, Texts balls, Text powder, Text speed, Text restitution,
+    Text friction, Text target_dose, Text time, Text jar, Text fill, Text ratio) {
   return machines::new_case(
       {machine, balls, powder, speed, restitution, friction, target_dose, time, jar, fill, ratio});
 }
 
 /// @return whether a run failed, and the common result of the seeds
-std::pair<bool, std::string> seeds(Text file, Texts settings, Text precision, std::uint64_t count,
-                                   Text folder, int jobs) {
+std::pair<bool, std::string> seeds(
+    Text file, Texts settings, Text precision, std::uint64_t count, Text folder, int jobs) {
   const app::SeedsOptions options{{file, folder, jobs, true}, settings, precision, count};
   const auto result = with_interrupt(options, app::seeds);
   return {result && result->counts.failed > 0, result ? result->optimum : ""};
 }
 
-/// @return for the case as it is and for each variation: its description, its dose rate with half-width, and
-/// whether it differs; and the table
+/// @return for the case as it is and for each variation: its description, its dose rate with
+/// half-width, and whether it differs; and the table
 py::tuple vary(const Case& the_case, double uncertainty) {
   const auto& spec = CaseAccess::spec(the_case);
   const auto found = with_interrupt([&](const std::atomic<bool>* flag) {
@@ -249,7 +252,7 @@ py::tuple vary(const Case& the_case, double uncertainty) {
   py::list rows;
   for (const auto& v : found.runs)
     rows.append(py::make_tuple(v.what, v.record.facts.find("milling_dose_rate"),
-                               v.record.facts.find("intervals/milling_dose_rate"), v.differs));
+        v.record.facts.find("intervals/milling_dose_rate"), v.differs));
   return py::make_tuple(rows, found.text());
 }
 
@@ -268,7 +271,8 @@ const Binding tools([](Module& m) {
   });
   m.def("certify", &certify);
   m.def("shadow", &shadow);
-  m.def<Unlocked>("check", [](const Case& the_case) { return app::check(CaseAccess::spec(the_case)).facts; });
+  m.def<Unlocked>(
+      "check", [](const Case& the_case) { return app::check(CaseAccess::spec(the_case)).facts; });
   m.def("sensitivity", &sensitivity);
   py::tuple quantities(std::size_t{model::logged_count});
   for (std::size_t k = 0; k < model::logged_count; ++k) quantities[k] = name_of(k);
@@ -276,8 +280,8 @@ const Binding tools([](Module& m) {
   m.def("find_digits", &find_digits);
   m.def("estimate", &estimate);
   m.def<Unlocked>("report", [](Text folder) { return report::write_report(folder).string(); });
-  m.def<Unlocked>("report_of_runs",
-                  [](Texts folders, Text file) { report::write_comparison(folders, file); });
+  m.def<Unlocked>(
+      "report_of_runs", [](Texts folders, Text file) { report::write_comparison(folders, file); });
   m.def("run_with_checkpoints", &run_with_checkpoints);
   m.def("resume", &resume);
   m.def("deck", &deck_of);

@@ -9,25 +9,23 @@
 
 namespace edmill::casefile {
 
-template <class Real>
-struct InitialCase {
+template <class Real> struct InitialCase {
   model::Case<Real> the_case;
   std::vector<model::BallState<Real>> states;  ///< at `start`
   Instant<Real> start;
 };
 
 /// Values of the case in one scalar, without balls.
-template <class Real>
-model::Mill<Real> build_mill(const CaseSpec& spec);
+template <class Real> model::Mill<Real> build_mill(const CaseSpec& spec);
 
 /// Builds the case and its initial state in a mill, which need not be that of the file: explicit
 /// balls first, then the batches, placed at random by the case's seed.
 /// @param resolved  check that this scalar can resolve the case
 /// @throws InputError when balls do not fit, or the scalar cannot resolve the case
 template <class Real>
-InitialCase<Real> build_case_in(const model::Mill<Real>& mill, const CaseSpec& spec, bool resolved = true);
-template <class Real>
-InitialCase<Real> build_case(const CaseSpec& spec, bool resolved = true) {
+InitialCase<Real> build_case_in(
+    const model::Mill<Real>& mill, const CaseSpec& spec, bool resolved = true);
+template <class Real> InitialCase<Real> build_case(const CaseSpec& spec, bool resolved = true) {
   return build_case_in(build_mill<Real>(spec), spec, resolved);
 }
 

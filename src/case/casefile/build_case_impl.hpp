@@ -27,47 +27,44 @@ namespace edmill::casefile {
 namespace detail {
 
 /// The nearest value of a scalar type, ties to even.
-template <class Real>
-Real nearest(const Rational& value) {
+template <class Real> Real nearest(const Rational& value) {
   using boost::multiprecision::cpp_int;
   const cpp_int above = abs(numerator(value)), below = denominator(value);
   if (above == 0) return Real(0);
   const auto digits = static_cast<unsigned>(binary_digits<Real>());
   // The quotient has one or two spare bits; a last bit says whether there is a remainder.
-  int exponent = static_cast<int>(msb(above)) - static_cast<int>(msb(below)) - static_cast<int>(digits) - 1;
+  int exponent =
+      static_cast<int>(msb(above)) - static_cast<int>(msb(below)) - static_cast<int>(digits) - 1;
   cpp_int quotient, remainder;
   divide_qr(exponent < 0 ? cpp_int(above << -exponent) : above,
-            exponent > 0 ? cpp_int(below << exponent) : below, quotient, remainder);
+      exponent > 0 ? cpp_int(below << exponent) : below, quotient, remainder);
   quotient = (quotient << 1) | (remainder != 0 ? 1 : 0);
   const unsigned spare = static_cast<unsigned>(msb(quotient)) + 1 - digits;
   const cpp_int half = cpp_int(1) << (spare - 1), rest = quotient & (2 * half - 1);
   quotient >>= spare;
   if (rest > half || (rest == half && bit_test(quotient, 0))) ++quotient;
-  return Dyadic(value < 0 ? cpp_int(-quotient) : quotient, exponent - 1 + static_cast<int>(spare)).to<Real>();
+  return Dyadic(value < 0 ? cpp_int(-quotient) : quotient, exponent - 1 + static_cast<int>(spare))
+      .to<Real>();
 }
 
 /// Bits to which pi is computed, so that only the last rounding matters.
-template <class Real>
-int bits_for() {
-  return 2 * binary_digits<Real>() + 64;
-}
+template <class Real> int bits_for() { return 2 * binary_digits<Real>() + 64; }
 
 }  // namespace detail
 
-template <class Real>
-Real Quantity::to() const {
+template <class Real> Real Quantity::to() const {
   return detail::nearest<Real>(value_of(*this, detail::bits_for<Real>()));
 }
 
 /// The instant at `time`, reduced exactly: the offset is as sharp at 1e6 s as at the start.
 /// @param time  not negative @param period  of the drive
-template <class Real>
-Instant<Real> instant_at(const Quantity& time, const Quantity& period) {
+template <class Real> Instant<Real> instant_at(const Quantity& time, const Quantity& period) {
   if (time.zero()) return {};
   const int bits = detail::bits_for<Real>() + 64;  // enough for the largest number of periods
-  const Rational seconds = value_of(time, bits), length = value_of(period, bits), count = seconds / length;
-  const auto periods =
-      static_cast<std::int64_t>(boost::multiprecision::cpp_int(numerator(count) / denominator(count)));
+  const Rational seconds = value_of(time, bits), length = value_of(period, bits),
+                 count = seconds / length;
+  const auto periods = static_cast<std::int64_t>(
+      boost::multiprecision::cpp_int(numerator(count) / denominator(count)));
   const auto offset = detail::nearest<Real>(seconds - periods * length);
   if (offset < period.to<Real>()) return {periods, offset};
   return {periods + 1, Real(0)};  // it is rounded to a whole period
@@ -75,8 +72,7 @@ Instant<Real> instant_at(const Quantity& time, const Quantity& period) {
 
 namespace detail {
 
-template <class Real>
-Vec3<Real> to_vector(const QuantityVector& q) {
+template <class Real> Vec3<Real> to_vector(const QuantityVector& q) {
   return {q[0].to<Real>(), q[1].to<Real>(), q[2].to<Real>()};
 }
 
@@ -88,8 +84,7 @@ model::BallProperties<Real> to_ball(const BallSpec& spec, const Real& diameter) 
 }
 
 /// Placed balls in the vessel frame, in cells as wide as the largest distance to be tested.
-template <class Real>
-class PlacedBalls {
+template <class Real> class PlacedBalls {
  public:
   explicit PlacedBalls(double cell) : cell_(cell) {}
 
@@ -110,7 +105,6 @@ class PlacedBalls {
         }
     return -1;
   }
-
  private:
   using Key = std::array<double, 3>;  // whole numbers of any size
   Key key(const Vec3<Real>& p, int dx, int dy, int dz) const {
@@ -140,11 +134,10 @@ struct CrowdBody {
 /// its centres, each ball beyond a wall goes back along the normal.
 class Crowd {
   using Place = Vec3<double>;
-
  public:
   /// @param moved  inward displacement of each wall, for pistons; empty if there are none [m]
   Crowd(const model::AnyVessel<double>& vessel, const std::vector<double>& moved,
-        const std::vector<CrowdBody>& bodies, std::vector<CrowdBall>& balls, double share)
+      const std::vector<CrowdBody>& bodies, std::vector<CrowdBall>& balls, double share)
       : vessel_(vessel), moved_(moved), bodies_(bodies), balls_(balls), share_(share) {
     for (const auto& ball : balls_) {
       const double distance = distance_from_walls(ball);
@@ -163,7 +156,6 @@ class Crowd {
       if (sweep()) return true;
     return false;
   }
-
  private:
   /// Parts all pairs and brings all balls inside, once. @return true if nothing had to be moved
   bool sweep() {
@@ -181,7 +173,7 @@ class Crowd {
   }
   double least_distance(std::size_t one, std::size_t other) const {
     return (balls_[one].radius + balls_[other].radius) * (1 + tolerated) +
-           share_ * balls_[std::max(one, other)].gap_ball;
+        share_ * balls_[std::max(one, other)].gap_ball;
   }
 
   /// @return whether they were apart
@@ -222,7 +214,8 @@ class Crowd {
   }
   bool is_clear_of_pistons(const Place& p, double distance) const {
     for (int wall = 0; const double moved : moved_)
-      if (const int own = wall++; moved != 0 && vessel_.gap(own, p) < distance + moved) return false;
+      if (const int own = wall++; moved != 0 && vessel_.gap(own, p) < distance + moved)
+        return false;
     return true;
   }
 
@@ -259,7 +252,8 @@ class Crowd {
           for (const int w : {z - 1, z, z + 1})
             for (const auto other : cells[{u, v, w}]) {
               const double reach = least_distance(other, k) + skin();
-              if (squared_norm<double>(begin_[other] - p) < reach * reach) pairs_.emplace_back(other, k);
+              if (squared_norm<double>(begin_[other] - p) < reach * reach)
+                pairs_.emplace_back(other, k);
             }
       cells[{x, y, z}].push_back(k);
     }
@@ -279,23 +273,19 @@ class Crowd {
   std::vector<Place> begin_;  ///< places when the pairs were found
 };
 
-template <class Real>
-class Filling {
+template <class Real> class Filling {
  public:
   Filling(const CaseSpec& spec, InitialCase<Real>& result)
-      : spec_(spec),
-        result_(result),
-        mill_(result.the_case.mill),
-        pose_(mill_.motion.pose(result.start)),
-        random_(spec.seed),
-        placed_(widest_distance(spec)) {
+      : spec_(spec), result_(result), mill_(result.the_case.mill),
+        pose_(mill_.motion.pose(result.start)), random_(spec.seed), placed_(widest_distance(spec)) {
     for (const auto& body : mill_.bodies) body_poses_.push_back(body.motion.pose(result.start));
   }
 
   void fill() {
     for (const auto& ball : spec_.balls)
-      add_checked(
-          ball, {to_vector<Real>(ball.position), to_vector<Real>(ball.velocity), to_vector<Real>(ball.spin)});
+      add_checked(ball,
+          {to_vector<Real>(ball.position), to_vector<Real>(ball.velocity),
+              to_vector<Real>(ball.spin)});
     add_batches();
     require_good();
   }
@@ -305,7 +295,8 @@ class Filling {
     const auto ball = to_ball<Real>(spec, spec.diameter.to<Real>());
     const auto local = mill_.motion.to_vessel_frame(pose_, state.position, state.velocity).position;
     const auto report = [&](const std::string& what) {
-      problems_.push_back(fmt::format("{}: found ball {} {}", spec.where, result_.states.size(), what));
+      problems_.push_back(
+          fmt::format("{}: found ball {} {}", spec.where, result_.states.size(), what));
     };
     const Real tolerance = ball.radius / 1000000000, radius = ball.radius - tolerance;
     if (mill_.vessel.inset(ball.radius).is_empty())
@@ -316,7 +307,8 @@ class Filling {
       report("overlapping " + body->name.label + ", expected it outside of bodies");
     const int other = placed_.conflict(
         local, [&](int k) { return ball.radius + result_.the_case.balls[k].radius - tolerance; });
-    if (other >= 0) report(fmt::format("overlapping ball {}, expected balls that do not overlap", other));
+    if (other >= 0)
+      report(fmt::format("overlapping ball {}, expected balls that do not overlap", other));
     add(ball, local, state);
   }
 
@@ -324,7 +316,6 @@ class Filling {
   void require_good() const {
     if (!problems_.empty()) throw InputError(problems_);
   }
-
  private:
   /// Places the balls of the batches one by one at random; all together if one finds no room.
   void add_batches() {
@@ -370,17 +361,18 @@ class Filling {
 
   model::BallProperties<Real> draw_ball(const BallBatch& batch) {
     const Real diameter = batch.diameter.to<Real>(), spread = batch.diameter_spread.to<Real>();
-    return to_ball<Real>(batch, spread > 0 ? Real(diameter + spread * random_.symmetric<Real>()) : diameter);
+    return to_ball<Real>(
+        batch, spread > 0 ? Real(diameter + spread * random_.symmetric<Real>()) : diameter);
   }
   model::BallState<Real> draw_state(const BallBatch& batch, const Vec3<Real>& local) {
-    model::BallState<Real> state{mill_.motion.to_inertial(pose_, local), to_vector<Real>(batch.velocity),
-                                 Vec3<Real>(Real(0), Real(0), Real(0))};
+    model::BallState<Real> state{mill_.motion.to_inertial(pose_, local),
+        to_vector<Real>(batch.velocity), Vec3<Real>(Real(0), Real(0), Real(0))};
     if (batch.random_speed) state.velocity = random_velocity(batch.random_speed->to<Real>());
     return state;
   }
 
   void add(const model::BallProperties<Real>& ball, const Vec3<Real>& local,
-           const model::BallState<Real>& state) {
+      const model::BallState<Real>& state) {
     placed_.add(static_cast<int>(result_.states.size()), local);
     result_.the_case.balls.push_back(ball);
     result_.states.push_back(state);
@@ -391,12 +383,14 @@ class Filling {
     const Real gap_ball = batch.gap_ball.to<Real>(), gap_wall = batch.gap_wall.to<Real>();
     const auto room = mill_.vessel.inset(radius).inset(gap_wall);
     if (room.is_empty()) return std::nullopt;
-    const auto least = [&](int other) { return radius + result_.the_case.balls[other].radius + gap_ball; };
+    const auto least = [&](int other) {
+      return radius + result_.the_case.balls[other].radius + gap_ball;
+    };
     for (std::uint64_t tries = 0; tries <= batch.max_relocations; ++tries) {
       const Real x = random_.symmetric<Real>(), z = random_.symmetric<Real>();
       const auto local = room.place({x, random_.symmetric<Real>(), z});
-      if (local && clears_pistons(*local, radius + gap_wall) && !body_at(*local, radius + gap_wall) &&
-          placed_.conflict(*local, least) < 0)
+      if (local && clears_pistons(*local, radius + gap_wall) &&
+          !body_at(*local, radius + gap_wall) && placed_.conflict(*local, least) < 0)
         return local;
     }
     return std::nullopt;
@@ -405,9 +399,9 @@ class Filling {
   bool fit_alone() {
     const std::size_t before = problems_.size();
     for (const auto& batch : spec_.batches)
-      if (mill_.vessel.inset((batch.diameter.to<Real>() + batch.diameter_spread.to<Real>()) / 2).is_empty())
-        problems_.push_back(
-            batch.where +
+      if (mill_.vessel.inset((batch.diameter.to<Real>() + batch.diameter_spread.to<Real>()) / 2)
+              .is_empty())
+        problems_.push_back(batch.where +
             ": found balls too large for the vessel, expected a diameter that leaves them room");
     return problems_.size() == before;
   }
@@ -425,7 +419,7 @@ class Filling {
   double room() const {
     if (mill_.bodies.empty()) return static_cast<double>(mill_.vessel.volume());
     return free_volume(model::mill_cast<double>(mill_),
-                       {result_.start.period, static_cast<double>(result_.start.offset)});
+        {result_.start.period, static_cast<double>(result_.start.offset)});
   }
 
   /// Reports a volume that no packing reaches: for a dozen balls or more, pi/sqrt(18) of the room.
@@ -434,17 +428,18 @@ class Filling {
     constexpr double densest = 0.7405, few = 12;
     const double vessel = room(), balls = volume_of_balls();
     const double most = static_cast<double>(spec_.ball_count()) < few ? 1 : densest;
-    if (balls <= most * vessel || !(vessel > 0)) return true;  // without any room no ball can be placed
+    if (balls <= most * vessel || !(vessel > 0))
+      return true;  // without any room no ball can be placed
     const auto& batch = spec_.batches.back();
     const double d = batch.diameter.to<double>(), one = numerics::pi<double>() / 6 * d * d * d;
     const double fitting = std::floor(batch.count - (balls - most * vessel) / one);
-    problems_.push_back(fmt::format(
-        "{}: found balls that fill {:.3g} of the vessel's {}volume, expected at most "
-        "{:.3g} of it{}",
-        batch.where, balls / vessel, mill_.bodies.empty() ? "" : "free ", most,
-        fitting > 0
-            ? fmt::format(", with at most {:.0f} balls in this batch in place of {}", fitting, batch.count)
-            : ""));
+    problems_.push_back(
+        fmt::format("{}: found balls that fill {:.3g} of the vessel's {}volume, expected at most "
+                    "{:.3g} of it{}",
+            batch.where, balls / vessel, mill_.bodies.empty() ? "" : "free ", most,
+            fitting > 0 ? fmt::format(", with at most {:.0f} balls in this batch in place of {}",
+                              fitting, batch.count)
+                        : ""));
     return false;
   }
 
@@ -471,8 +466,7 @@ class Filling {
       (part_crowd(drawn, middle, 0, crowd) ? fitting : failing) = middle;
     }
     if (fitting == 0 && !mill_.bodies.empty())
-      return problems_.push_back(
-          spec_.batches.front().where +
+      return problems_.push_back(spec_.batches.front().where +
           ": no room for a ball between the bodies in the vessel: use smaller balls, or fewer "
           "bodies");
     problems_.push_back(fmt::format(
@@ -482,20 +476,20 @@ class Filling {
 
   /// Pushes the first `count` drawn balls apart from new random places. @return true on success
   bool part_crowd(const std::vector<Drawn>& drawn, std::size_t count, double share,
-                  std::vector<CrowdBall>& crowd) {
+      std::vector<CrowdBall>& crowd) {
     const auto vessel = mill_.vessel.template cast<double>();
     crowd.clear();
     for (std::size_t k = 0; k < result_.states.size(); ++k) {
       const auto& s = result_.states[k];
       const auto local = mill_.motion.to_vessel_frame(pose_, s.position, s.velocity).position;
-      crowd.push_back(
-          {static_cast<double>(result_.the_case.balls[k].radius), 0, 0, vector_cast<double>(local), true});
+      crowd.push_back({static_cast<double>(result_.the_case.balls[k].radius), 0, 0,
+          vector_cast<double>(local), true});
     }
     for (std::size_t k = 0; k < count; ++k) {
       const auto& batch = *drawn[k].batch;
       const double radius = static_cast<double>(drawn[k].ball.radius);
-      crowd.push_back({radius, batch.gap_ball.template to<double>(), batch.gap_wall.template to<double>(),
-                       random_place(vessel.inset(radius)), false});
+      crowd.push_back({radius, batch.gap_ball.template to<double>(),
+          batch.gap_wall.template to<double>(), random_place(vessel.inset(radius)), false});
     }
     std::vector<double> moved;
     const auto* pistons = mill_.vessel.pistons();
@@ -508,8 +502,8 @@ class Filling {
         return vector_cast<double>(mill_.motion.in_axes(pose_, v));
       };
       bodies.push_back({{vector_cast<double>(mill_.motion.position_in_vessel(pose_, pose.centre)),
-                         axis(pose.x), axis(pose.y), axis(pose.z)},
-                        mill_.bodies[k].shape.template cast<double>()});
+                            axis(pose.x), axis(pose.y), axis(pose.z)},
+          mill_.bodies[k].shape.template cast<double>()});
     }
     return Crowd(vessel, moved, bodies, crowd, share).push_apart();
   }
@@ -531,7 +525,8 @@ class Filling {
   /// Uniform direction, and a size uniform up to `largest`.
   Vec3<Real> random_velocity(const Real& largest) {
     for (;;) {
-      const Vec3<Real> v{random_.symmetric<Real>(), random_.symmetric<Real>(), random_.symmetric<Real>()};
+      const Vec3<Real> v{
+          random_.symmetric<Real>(), random_.symmetric<Real>(), random_.symmetric<Real>()};
       const Real size = norm<Real>(v);
       if (size > 0 && !(size > 1)) return v * (largest * random_.uniform<Real>() / size);
     }
@@ -550,8 +545,7 @@ class Filling {
 template <class Real>
 inline constexpr auto to_scalar = [](const Quantity& q) { return q.to<Real>(); };
 
-template <class Real, template <class> class Part>
-Part<Real> to_part(const Part<Quantity>& part) {
+template <class Real, template <class> class Part> Part<Real> to_part(const Part<Quantity>& part) {
   return model::converted<Part, Real>(part, to_scalar<Real>);
 }
 
@@ -564,8 +558,7 @@ model::ChainMotion<Real> to_chain(const model::Joints<Quantity>& given, const Ca
   return model::ChainMotion<Real>(joints);
 }
 
-template <class Real>
-model::AnyMotion<Real> to_motion(const auto& part, const CaseSpec& spec) {
+template <class Real> model::AnyMotion<Real> to_motion(const auto& part, const CaseSpec& spec) {
   if constexpr (requires { part.joints(); })
     return to_chain<Real>(part.joints(), spec);
   else
@@ -576,28 +569,26 @@ model::AnyMotion<Real> to_motion(const auto& part, const CaseSpec& spec) {
 template <class Real>
 model::Body<Real> to_body(const Solid& body, const model::Mill<Real>& mill, const CaseSpec& spec) {
   const auto motion = to_chain<Real>({joints_from_ground(body, spec), period_of(spec.mill)}, spec);
-  const Real domain = motion.reach(mill.motion.reach(mill.vessel.reach())) * (1 + rounding_margin<Real>());
-  const model::RoundedBody<Real> shape(body.is_round, to_vector<Real>(body.core()), body.rounding.to<Real>());
-  return {motion,
-          shape.among(Real(spec.largest_diameter() / 2 * (1 + 1e-9)), domain),
-          {body.name, body.name},
-          body.on_vessel};
+  const Real domain =
+      motion.reach(mill.motion.reach(mill.vessel.reach())) * (1 + rounding_margin<Real>());
+  const model::RoundedBody<Real> shape(
+      body.is_round, to_vector<Real>(body.core()), body.rounding.to<Real>());
+  return {motion, shape.among(Real(spec.largest_diameter() / 2 * (1 + 1e-9)), domain),
+      {body.name, body.name}, body.on_vessel};
 }
 
-template <class Real>
-model::Pistons<Real> to_pistons(const CaseSpec& spec) {
+template <class Real> model::Pistons<Real> to_pistons(const CaseSpec& spec) {
   const auto& to = to_scalar<Real>;
   const auto& period = period_of(spec.mill);
   std::vector<model::Piston<Real>> pistons;
   for (const auto& p : spec.pistons)
     pistons.push_back({p.wall, to(p.distance), to(p.speed),
-                       model::converted_swings<Real>(with_phases(p.swings, period), to)});
+        model::converted_swings<Real>(with_phases(p.swings, period), to)});
   return {std::move(pistons), to(period)};
 }
 
 /// The laws of pairs, with a table of which applies where.
-template <class Real>
-model::PairLaws<Real> to_pairs(const CaseSpec& spec, int walls) {
+template <class Real> model::PairLaws<Real> to_pairs(const CaseSpec& spec, int walls) {
   model::PairLaws<Real> pairs;
   if (spec.pairs.empty()) return pairs;
   pairs.materials = spec.materials.size() + 1;
@@ -618,29 +609,29 @@ model::PairLaws<Real> to_pairs(const CaseSpec& spec, int walls) {
 }
 
 /// Fills the case with its balls in the states of a final_state.csv.
-template <class Real>
-void fill_from_file(const CaseSpec& spec, InitialCase<Real>& result) {
+template <class Real> void fill_from_file(const CaseSpec& spec, InitialCase<Real>& result) {
   const auto& file = spec.initial_state;
   const auto saved = io::read_final_state<Real>(file);
   if (saved.states.size() != spec.ball_count())
-    throw InputError(fmt::format("{}: found {} balls, expected the case's {}", file, saved.states.size(),
-                                 spec.ball_count()));
+    throw InputError(fmt::format("{}: found {} balls, expected the case's {}", file,
+        saved.states.size(), spec.ball_count()));
   const DriveClock<Real> clock(result.the_case.mill.motion.period());
   if (saved.time.offset >= clock.period())
     throw InputError(
         fmt::format("{}:2: found a drive_offset of a whole drive period or more, expected one "
                     "below the case's period of {} s",
-                    file, to_text<Real>(clock.period())));
+            file, to_text<Real>(clock.period())));
   if (spec.end_time && saved.time >= *result.the_case.stop.end_time)
-    throw InputError(fmt::format("{}:2: found a state at {} s, expected one before the case's end_time", file,
-                                 to_text<Real>(clock.seconds(saved.time))));
+    throw InputError(
+        fmt::format("{}:2: found a state at {} s, expected one before the case's end_time", file,
+            to_text<Real>(clock.seconds(saved.time))));
   result.start = saved.time;
   Filling<Real> filling(spec, result);
   std::size_t k = 0;
   spec.for_each_ball([&](const BallSpec& b) {
     if (b.diameter_spread.positive())
       throw InputError(b.where +
-                       ": found diameter_spread with an initial state, expected balls of one diameter");
+          ": found diameter_spread with an initial state, expected balls of one diameter");
     for (int n = 0; n < b.count; ++n) filling.add_checked(b, saved.states[k++]);
   });
   filling.require_good();
@@ -656,8 +647,8 @@ void require_resolution(const CaseSpec& spec, const InitialCase<Real>& built) {
   Real acceleration = mill.motion.acceleration_within(reach);
   for (const auto& body : mill.bodies) {
     const Real size = body.motion.reach(body.shape.size());
-    fastest =
-        std::max<Real>(fastest, 2 * body.motion.wall_speed(body.shape.size()) + 4 * sqrt(gravity * reach));
+    fastest = std::max<Real>(
+        fastest, 2 * body.motion.wall_speed(body.shape.size()) + 4 * sqrt(gravity * reach));
     acceleration = std::max<Real>(acceleration, body.motion.acceleration_within(size));
   }
   for (const auto& state : built.states) fastest = std::max(fastest, norm<Real>(state.velocity));
@@ -666,7 +657,8 @@ void require_resolution(const CaseSpec& spec, const InitialCase<Real>& built) {
   const auto number = [](const Real& x) { return fmt::format("{:.3g}", static_cast<double>(x)); };
   std::vector<std::string> problems;
   spec.for_each_ball([&](const BallSpec& ball) {
-    const Real radius = (ball.diameter.template to<Real>() - ball.diameter_spread.template to<Real>()) / 2;
+    const Real radius =
+        (ball.diameter.template to<Real>() - ball.diameter_spread.template to<Real>()) / 2;
     if (radius < least_radius)
       problems.push_back(fmt::format(
           "{}: found a ball of radius {} m, expected at least {} m: in this mill {} resolves a "
@@ -679,7 +671,7 @@ void require_resolution(const CaseSpec& spec, const InitialCase<Real>& built) {
       problems.push_back(
           fmt::format("{}: key '{}.least_separation': found {} m/s, expected 0 or at least {} m/s: "
                       "hops of a slower ball are lost in the rounding of {}",
-                      spec.file, section, number(speed), number(least_hop), scalar_name<Real>()));
+              spec.file, section, number(speed), number(least_hop), scalar_name<Real>()));
   };
   check_least(mill.ball_ball.least_separation, "contact.ball_ball");
   check_least(mill.ball_wall.least_separation, "contact.ball_wall");
@@ -690,25 +682,26 @@ void require_resolution(const CaseSpec& spec, const InitialCase<Real>& built) {
 
 }  // namespace detail
 
-template <class Real>
-model::Mill<Real> build_mill(const CaseSpec& spec) {
+template <class Real> model::Mill<Real> build_mill(const CaseSpec& spec) {
   auto vessel = std::visit(
-      [](const auto& v) { return model::AnyVessel<Real>(detail::to_part<Real>(v).vessel()); }, spec.vessel);
+      [](const auto& v) { return model::AnyVessel<Real>(detail::to_part<Real>(v).vessel()); },
+      spec.vessel);
   if (!spec.pistons.empty()) vessel.set(detail::to_pistons<Real>(spec));
   const int walls = vessel.wall_count() + static_cast<int>(spec.bodies.size());
   model::Mill<Real> mill{
       std::visit([&](const auto& m) { return detail::to_motion<Real>(m, spec); }, spec.mill),
-      std::move(vessel),
-      detail::to_vector<Real>(spec.gravity),
+      std::move(vessel), detail::to_vector<Real>(spec.gravity),
       model::convert_law<Real>(spec.ball_ball, detail::to_scalar<Real>),
       model::convert_law<Real>(spec.ball_wall, detail::to_scalar<Real>),
       detail::to_pairs<Real>(spec, walls)};
-  for (const auto& body : spec.bodies) mill.bodies.push_back(detail::to_body<Real>(body, mill, spec));
+  for (const auto& body : spec.bodies)
+    mill.bodies.push_back(detail::to_body<Real>(body, mill, spec));
   return mill;
 }
 
 template <class Real>
-InitialCase<Real> build_case_in(const model::Mill<Real>& mill, const CaseSpec& spec, bool resolved) {
+InitialCase<Real> build_case_in(
+    const model::Mill<Real>& mill, const CaseSpec& spec, bool resolved) {
   InitialCase<Real> result;
   auto& c = result.the_case;
   c.mill = mill;
@@ -719,7 +712,8 @@ InitialCase<Real> build_case_in(const model::Mill<Real>& mill, const CaseSpec& s
     c.counted_dose = {counted.normal_only, counted.least.template to<Real>()};
   if (spec.end_time) c.stop.end_time = instant_at<Real>(*spec.end_time, period);
   for (std::size_t place = 0; place < model::stop_rule_count; ++place)
-    if (const auto& limit = spec.stop_limits[place]) c.stop.limits[place] = limit->template to<Real>();
+    if (const auto& limit = spec.stop_limits[place])
+      c.stop.limits[place] = limit->template to<Real>();
   result.start = c.initial_time;
   if (spec.initial_state.empty())
     detail::Filling<Real>(spec, result).fill();

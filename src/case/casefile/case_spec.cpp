@@ -30,7 +30,8 @@ void read_run(Section& run, CaseSpec& spec) {
   check_precision(run, spec.precision);
   run.require(!spec.digits || !run.has("precision"), "digits", "digits or a precision, not both");
   if (!run.has("start_time")) spec.statistics_start = spec.initial_time;
-  run.require(spec.statistics_start >= spec.initial_time, "start_time", "a time not before the initial time");
+  run.require(spec.statistics_start >= spec.initial_time, "start_time",
+      "a time not before the initial time");
   if (spec.end_time)
     run.require(*spec.end_time > spec.statistics_start, "end_time", "a time after the start time");
   bool stops = run.has("end_time");
@@ -50,12 +51,12 @@ void read_density(Section& s, BallSpec& ball, const CaseSpec& spec) {
   const auto& material = spec.materials[static_cast<std::size_t>(ball.material) - 1];
   if (!material.density && !s.has("density"))
     s.problem("density", "nothing",
-              describe(Dimension::density) + ": material \"" + material.name + "\" has none");
+        describe(Dimension::density) + ": material \"" + material.name + "\" has none");
   if (!material.density) return;
   ball.density = *material.density;
   if (s.has("density"))
     s.problem("density", "a density in addition to that of material \"" + material.name + "\"",
-              "one of them");
+        "one of them");
 }
 
 /// The number of balls whose mass is nearest to that of the batch.
@@ -65,14 +66,15 @@ void count_by_mass(Section& s, BallBatch& batch) {
   const double d = batch.diameter.to<double>();
   const double one = batch.density.to<double>() * std::numbers::pi / 6 * d * d * d;
   const double count = std::round(batch.mass->to<double>() / one);
-  s.require(count <= largest_count, "mass", "that of at most " + std::to_string(largest_count) + " balls");
+  s.require(count <= largest_count, "mass",
+      "that of at most " + std::to_string(largest_count) + " balls");
   batch.count = count <= largest_count ? static_cast<int>(count) : 0;
 }
 
 void read_materials(Entries<MaterialSpec>& entries, CaseSpec& spec) {
   read_entries(entries, [&](Section& entry, MaterialSpec& material) {
     entry.require(material.name.empty() || spec.material_named(material.name) == 0, "name",
-                  "a name that no other material has");
+        "a name that no other material has");
     // An invalid density is reported here, but not again at each ball of the material.
     if (entry.has("density") && !(material.density && material.density->positive()))
       material.density = BallSpec{}.density;
@@ -101,7 +103,8 @@ void read_wall_materials(Section& vessel, VesselTable& table, CaseSpec& spec) {
       continue;
     }
     if (!named.insert(wall).second)
-      walls.problem(key, "two materials for a wall, one by its key and one by its label", "one of them");
+      walls.problem(
+          key, "two materials for a wall, one by its key and one by its label", "one of them");
     spec.wall_materials[static_cast<std::size_t>(wall)] =
         material_of(walls, key, walls.text(key).value_or(""), spec);
   }
@@ -141,9 +144,8 @@ void check_times(Section run, const CaseSpec& spec) {
 
 /// Lines of [run]: first the keys of version 1.0, even without a value, then later ones if given.
 std::string text_of_run(const CaseSpec& c) {
-  constexpr std::array<std::string_view, 8> of_1_0{"precision",      "seed",          "initial_time",
-                                                   "start_time",     "end_time",      "max_milling_dose",
-                                                   "max_ball_speed", "max_collisions"};
+  constexpr std::array<std::string_view, 8> of_1_0{"precision", "seed", "initial_time",
+      "start_time", "end_time", "max_milling_dose", "max_ball_speed", "max_collisions"};
   std::string first[of_1_0.size()], others;
   for (const auto& [key, value, named] : digest_values(c)) {
     const auto found = std::find(of_1_0.begin(), of_1_0.end(), key);
@@ -158,15 +160,16 @@ std::string text_of_run(const CaseSpec& c) {
 /// " 1 0 4/5": the values of an entry.
 std::string values_of(const auto& entry) {
   std::string text;
-  for (const auto& [key, value, named] : digest_values(entry)) text += " " + (named ? key + " " : "") + value;
+  for (const auto& [key, value, named] : digest_values(entry))
+    text += " " + (named ? key + " " : "") + value;
   return text;
 }
 
 /// Everything that a run depends on, in one order and exact.
 std::string canonical_text(const CaseSpec& c) {
   std::ostringstream out;
-  out << "edmill case 2" << text_of_run(c) << "\nmill " << text_of(c.mill) << "\nvessel " << text_of(c.vessel)
-      << "\n";
+  out << "edmill case 2" << text_of_run(c) << "\nmill " << text_of(c.mill) << "\nvessel "
+      << text_of(c.vessel) << "\n";
   const auto put = [&](const auto&... numbers) { (out << ... << (" " + numbers.text())); };
   const auto put_swings = [&](const auto& swings) {
     for (const auto& swing : swings) put(swing.amplitude, swing.frequency, swing.phase);
@@ -209,7 +212,8 @@ std::string canonical_text(const CaseSpec& c) {
   for (const auto& b : c.balls) out << "ball" << values_of(b) << "\n";
   for (const auto& b : c.batches) out << "balls" << values_of(b) << "\n";
   if (c.target.dose && (c.target.counted.normal_only || c.target.counted.least.positive()))
-    out << "counts " << c.target.counted.normal_only << " " << c.target.counted.least.text() << "\n";
+    out << "counts " << c.target.counted.normal_only << " " << c.target.counted.least.text()
+        << "\n";
   if (!c.initial_state.empty())
     out << "initial_state " << sha256(io::read_whole(c.initial_state, "a final_state.csv")) << "\n";
   return out.str();
@@ -218,14 +222,14 @@ std::string canonical_text(const CaseSpec& c) {
 }  // namespace
 
 CaseSpec parse_case(const std::string& text, const std::string& name,
-                    const std::vector<std::string>& overrides, bool finished, SizeLimit sizes) {
+    const std::vector<std::string>& overrides, bool finished, SizeLimit sizes) {
   Document document(name);
   document.sizes = sizes;
   toml::table root = parse_toml(text, "a case file", document, overrides);
   for (const std::string study : {"sweep", "optimize"})
     if (root.contains(study))
-      throw InputError(
-          fmt::format("{}: found a section [{}], expected a case file: use edmill {}", name, study, study));
+      throw InputError(fmt::format(
+          "{}: found a section [{}], expected a case file: use edmill {}", name, study, study));
 
   CaseSpec spec;
   spec.file = name;
@@ -273,19 +277,21 @@ CaseSpec parse_case(const std::string& text, const std::string& name,
     // It is read more than once.
     if (!io::is_readable(spec.initial_state) || (stream && !io::Spool::is_active()))
       run.problem("initial_state", "\"" + spec.initial_state + "\", which cannot be read",
-                  "a final_state.csv");
+          "a final_state.csv");
   }
   if (!document.problems.empty()) throw InputError(document.problems_by_line());
   if (spec.initial_state.empty() || !finished) spec.digest = sha256(canonical_text(spec));
   return spec;
 }
 
-int material_of(Section& section, const std::string& key, const std::string& name, const CaseSpec& spec) {
+int material_of(
+    Section& section, const std::string& key, const std::string& name, const CaseSpec& spec) {
   if (name.empty()) return 0;
   const int material = spec.material_named(name);
   std::vector<std::string> names;
   for (const auto& m : spec.materials) names.push_back(m.name);
-  section.require(material > 0, key, names.empty() ? "the name of a [[material]] entry" : one_of(names));
+  section.require(
+      material > 0, key, names.empty() ? "the name of a [[material]] entry" : one_of(names));
   return material;
 }
 
@@ -302,8 +308,8 @@ int wall_named(const std::string& name, const model::Partners& partners) {
 }
 
 int CaseSpec::material_named(const std::string& name) const {
-  const auto found =
-      std::find_if(materials.begin(), materials.end(), [&](const auto& m) { return m.name == name; });
+  const auto found = std::find_if(
+      materials.begin(), materials.end(), [&](const auto& m) { return m.name == name; });
   return found == materials.end() ? 0 : static_cast<int>(found - materials.begin()) + 1;
 }
 
@@ -322,9 +328,9 @@ std::optional<ColumnName> ColumnName::read(Section& columns, const std::string& 
 std::string TargetSpec::counts() const {
   std::string text = counted.normal_only ? "the dose along the normal" : "all of the dose";
   if (counted.least.positive())
-    text +=
-        fmt::format("{} {:g} J or more", counted.normal_only ? " of impacts where it is" : " of impacts of",
-                    counted.least.to<double>());
+    text += fmt::format("{} {:g} J or more",
+        counted.normal_only ? " of impacts where it is" : " of impacts of",
+        counted.least.to<double>());
   return text;
 }
 
@@ -341,7 +347,7 @@ std::vector<std::string> problems_of(const CaseSpec& spec) {
   for (const auto& body : spec.bodies)
     for (const auto& half : body.core())
       top.require(!half.negative() && !body.rounding.negative(), "body",
-                  "sizes of at least twice the rounding");
+          "sizes of at least twice the rounding");
   check_times(top.section("run"), spec);
   std::vector<Section> pistons(spec.pistons.size(), vessel);
   if (document.problems.empty()) require_travel(pistons, spec);
@@ -363,14 +369,15 @@ WrittenNumber value_of_key(const CaseSpec& spec, const std::string& key) {
   Document document(spec.file);
   const auto table = parse_toml(spec.text, "a case file", document, spec.settings);
   const auto* node = node_at(table, key);
-  const std::string text = node && (node->is_string() || node->is_number()) ? document.raw(*node, key) : "";
+  const std::string text =
+      node && (node->is_string() || node->is_number()) ? document.raw(*node, key) : "";
   const auto end = std::min(text.find_first_not_of("0123456789+-.eE"), text.size());
   WrittenNumber found{text.substr(0, end), ""};
   const auto unit = text.find_first_not_of(' ', end);
   if (unit != std::string::npos) found.unit = text.substr(unit);
   if (!parse_decimal(found.number))
     throw InputError(fmt::format("{}: key '{}': {}, expected a number in the case file or in --set",
-                                 spec.file, key, text.empty() ? "missing" : "found \"" + text + "\""));
+        spec.file, key, text.empty() ? "missing" : "found \"" + text + "\""));
   return found;
 }
 
@@ -381,7 +388,8 @@ std::optional<std::string> text_of_key(const CaseSpec& spec, const std::string& 
   return std::nullopt;
 }
 
-CaseSpec with_value(const CaseSpec& spec, const std::string& key, const std::string& value, SizeLimit sizes) {
+CaseSpec with_value(
+    const CaseSpec& spec, const std::string& key, const std::string& value, SizeLimit sizes) {
   auto settings = spec.settings;
   const bool plain = value.find(' ') == std::string::npos;  // a number without a unit
   settings.push_back(key + "=" + (plain ? value : "\"" + value + "\""));
@@ -397,12 +405,12 @@ std::string text_with_settings(const CaseSpec& spec) {
   return text;
 }
 
-CaseSpec read_case_of_run(const std::string& path, const std::vector<std::string>& settings,
-                          const std::string& digest) {
+CaseSpec read_case_of_run(
+    const std::string& path, const std::vector<std::string>& settings, const std::string& digest) {
   auto spec = parse_case(io::read_whole(path, "the case of the run (TOML)"), path, settings, true);
   if (!spec.digest.empty() && spec.digest != digest)
-    throw InputError(path + ": found a case with digest " + spec.digest + ", expected that of the run, " +
-                     digest);
+    throw InputError(path + ": found a case with digest " + spec.digest +
+        ", expected that of the run, " + digest);
   return spec;
 }
 
@@ -415,7 +423,9 @@ void add_outputs(const std::string& text, const std::string& name, CaseSpec& spe
   if (!document.problems.empty()) throw InputError(document.problems_by_line());
 }
 
-model::Partners partners_of(const CaseSpec& spec) { return model::partners_of(build_mill<double>(spec)); }
+model::Partners partners_of(const CaseSpec& spec) {
+  return model::partners_of(build_mill<double>(spec));
+}
 
 CaseSpec read_case(const std::string& path, const std::vector<std::string>& overrides) {
   return parse_case(io::read_whole(path, "a case file (TOML)"), path, overrides);
@@ -433,8 +443,8 @@ const std::vector<std::string>& precisions() {
 }
 
 std::string choices_of_precision() {
-  return fmt::format("one of \"{}\", \"mpfr:DIGITS\" with {} to {} digits", fmt::join(precisions(), "\", \""),
-                     fewest_digits, most_digits);
+  return fmt::format("one of \"{}\", \"mpfr:DIGITS\" with {} to {} digits",
+      fmt::join(precisions(), "\", \""), fewest_digits, most_digits);
 }
 
 bool is_precision(const std::string& name) {

@@ -30,23 +30,20 @@ using MotionSpec = model::NamedMotions<Quantity>;
 using VesselSpec = model::NamedVessels<Quantity>;
 
 /// Calls visit(kind) with a value of each type that a variant can hold, in their order.
-template <class Variant, class Visit>
-void for_each_kind(const Visit& visit) {
+template <class Variant, class Visit> void for_each_kind(const Visit& visit) {
   const auto visit_all = [&]<class... Kind>(const std::variant<Kind...>*) { (visit(Kind{}), ...); };
   visit_all(static_cast<const Variant*>(nullptr));
 }
 
 /// The names of these types.
-template <class Variant>
-std::vector<std::string> names_of_kinds() {
+template <class Variant> std::vector<std::string> names_of_kinds() {
   std::vector<std::string> names;
   for_each_kind<Variant>([&](const auto& kind) { names.emplace_back(kind.name); });
   return names;
 }
 
 /// The name of a part's type, "spex8000".
-template <class... Part>
-std::string name_of(const std::variant<Part...>& part) {
+template <class... Part> std::string name_of(const std::variant<Part...>& part) {
   return std::visit([](const auto& p) { return std::string(p.name); }, part);
 }
 
@@ -62,8 +59,7 @@ inline const Quantity& period_of(const MotionSpec& motion) {
 }
 
 /// Type and parameters, exact: "cylinder 19/500 57/1000".
-template <class... Part>
-std::string text_of(const std::variant<Part...>& part) {
+template <class... Part> std::string text_of(const std::variant<Part...>& part) {
   std::string text = name_of(part);
   const auto add = [&](const Quantity& number) { text += " " + number.text(); };
   const auto add_all = [&](const model::Parameter&, const auto& value) {
@@ -80,8 +76,8 @@ std::vector<model::Joint<Quantity>> joints_of(const MotionSpec& motion);
 model::Joints<Quantity> with_phases(model::Joints<Quantity> joints);
 
 /// The swings, each with the exact number of its turns in a drive period.
-std::vector<model::Swing<Quantity>> with_phases(std::vector<model::Swing<Quantity>> swings,
-                                                const Quantity& period);
+std::vector<model::Swing<Quantity>> with_phases(
+    std::vector<model::Swing<Quantity>> swings, const Quantity& period);
 
 /// "turn about y at 300 rpm, shift by (0.15, 0, 0) m, turn about y at -600 rpm".
 std::string equation_of(const model::Joints<Quantity>& joints);
@@ -107,7 +103,8 @@ struct MaterialSpec {
   static void keys(auto& m, auto&& row) {
     row({"name", "name by which balls, walls and pairs refer to the material"}, m.name);
     row({"density", Dimension::density,
-         "density of balls of this material; required if they give none themselves", Range::positive},
+            "density of balls of this material; required if they give none themselves",
+            Range::positive},
         m.density);
   }
 };
@@ -124,16 +121,14 @@ struct BallSpec {
   Colour colour{0, 0, 1};
   std::string where;  ///< "case.toml:12: [[balls]] 1", for messages
 
-  static constexpr Parameter diameter_key{"diameter", Dimension::length, "diameter of each ball",
-                                          Range::positive};
+  static constexpr Parameter diameter_key{
+      "diameter", Dimension::length, "diameter of each ball", Range::positive};
   static constexpr Parameter density_key{"density", Dimension::density,
-                                         "density of the balls; omit it if their material has one",
-                                         Range::positive, "8 g/cm3"};
+      "density of the balls; omit it if their material has one", Range::positive, "8 g/cm3"};
   static constexpr Parameter inertia_key{"reduced_inertia", Dimension::none,
-                                         "moment of inertia divided by m R^2; 0.4 for a solid sphere",
-                                         Range::share, "0.4"};
-  static constexpr Parameter colour_key{"colour", Dimension::none, "colour in pictures",   Range::any,
-                                        nullptr,  "blue",          Parameter::Digest::none};
+      "moment of inertia divided by m R^2; 0.4 for a solid sphere", Range::share, "0.4"};
+  static constexpr Parameter colour_key{"colour", Dimension::none, "colour in pictures", Range::any,
+      nullptr, "blue", Parameter::Digest::none};
   static constexpr Parameter material_key =
       Parameter{"material", "name of a `[[material]]`"}.as("name").usually("none").undigested();
   static constexpr Parameter velocity_of(const char* meaning) {
@@ -155,25 +150,27 @@ struct BallBatch : BallSpec {
   static void keys(auto& b, auto&& row) {
     row({"count", "number of balls, placed at random", {0, largest_count}, "1"}, b.count);
     row({"mass", Dimension::mass,
-         "mass of the whole batch, in place of `count`; gives the nearest number of balls",
-         Range::not_negative, nullptr, "none", Parameter::Digest::none},
+            "mass of the whole batch, in place of `count`; gives the nearest number of balls",
+            Range::not_negative, nullptr, "none", Parameter::Digest::none},
         b.mass);
     row(diameter_key, b.diameter);
     row({"diameter_spread", Dimension::length,
-         "half-width of the uniform distribution of diameters about `diameter`", Range::not_negative, "0 m"},
+            "half-width of the uniform distribution of diameters about `diameter`",
+            Range::not_negative, "0 m"},
         b.diameter_spread);
     row(density_key, b.density);
     row(inertia_key, b.reduced_inertia);
     row(velocity_of("initial velocity of each ball of the batch"), b.velocity);
     row({"random_speed", Dimension::speed,
-         "each ball gets a random direction and a random speed up to this one, in place of "
-         "`velocity`",
-         Range::not_negative},
+            "each ball gets a random direction and a random speed up to this one, in place of "
+            "`velocity`",
+            Range::not_negative},
         b.random_speed);
-    row({"gap_ball", Dimension::length, "smallest initial distance to other balls", Range::not_negative,
-         "1 mm"},
+    row({"gap_ball", Dimension::length, "smallest initial distance to other balls",
+            Range::not_negative, "1 mm"},
         b.gap_ball);
-    row({"gap_wall", Dimension::length, "smallest initial distance to walls", Range::not_negative, "1 mm"},
+    row({"gap_wall", Dimension::length, "smallest initial distance to walls", Range::not_negative,
+            "1 mm"},
         b.gap_wall);
     row({"max_relocations", "largest number of attempts to place a ball", Range::any, "100000"},
         b.max_relocations);
@@ -192,12 +189,12 @@ struct ExplicitBall : BallSpec {
     row(diameter_key, b.diameter);
     row(density_key, b.density);
     row(inertia_key, b.reduced_inertia);
-    row({"position", Dimension::length, "initial position of the centre, in the inertial frame", Range::any,
-         nullptr, "required without `run.initial_state`"},
+    row({"position", Dimension::length, "initial position of the centre, in the inertial frame",
+            Range::any, nullptr, "required without `run.initial_state`"},
         b.position);
     row(velocity_of("initial velocity, in the inertial frame"), b.velocity);
-    row({"spin", Dimension::angular_speed, "initial angular velocity, in the inertial frame", Range::any,
-         nullptr, "none"},
+    row({"spin", Dimension::angular_speed, "initial angular velocity, in the inertial frame",
+            Range::any, nullptr, "none"},
         b.spin);
     row(colour_key, b.colour);
     row(material_key, b.material_name);
@@ -235,8 +232,7 @@ struct Solid {
 struct ColumnName : std::pair<std::string, std::string> {
   using pair::pair;
   static constexpr const char* what = "Names of columns.";
-  static constexpr Parameter entry = described_key(
-      "*", "text", "the same name",
+  static constexpr Parameter entry = described_key("*", "text", "the same name",
       "edmill's name = the log's name, with a unit in brackets: `approach_speed = \"vn [mm/s]\"`");
   static std::optional<ColumnName> read(Section& section, const std::string& ours);
 };
@@ -252,15 +248,16 @@ struct AuditSpec {
   static constexpr const char* what = "How `edmill audit` reads another code's log.";
   static void keys(auto& a, auto&& row) {
     row({"tolerance", "relative tolerance", Range::share, nullptr, "1e-9"}, a.tolerance);
-    row({"gap_tolerance", Dimension::length, "largest gap or overlap of bodies in contact", Range::positive,
-         nullptr, "by rounding"},
+    row({"gap_tolerance", Dimension::length, "largest gap or overlap of bodies in contact",
+            Range::positive, nullptr, "by rounding"},
         a.gap_tolerance);
     row({"first_ball", "number of the log's first ball", Range(0, largest_count), nullptr, "0"},
         a.first_ball);
-    row({"walls", "the log's numbers of the walls, in the order of edmill's ids: `\"1, 2, 3\"`", Range::any,
-         nullptr, "those of edmill"},
+    row({"walls", "the log's numbers of the walls, in the order of edmill's ids: `\"1, 2, 3\"`",
+            Range::any, nullptr, "those of edmill"},
         a.walls);
-    row({"from_start", "the log begins at the initial state of the case", Range::any, "false"}, a.from_start);
+    row({"from_start", "the log begins at the initial state of the case", Range::any, "false"},
+        a.from_start);
     row({"columns", "names of columns in the other code's log, `[audit.columns]`"}, a.columns);
   }
 };
@@ -272,13 +269,13 @@ struct TargetSpec {
 
   static void keys(auto& t, auto&& row) {
     row({"target_dose", Dimension::specific_energy,
-         "target milling dose per mass of powder, \"10 kJ/g\", from which the milling time "
-         "follows",
-         Range::positive, nullptr, "none"},
+            "target milling dose per mass of powder, \"10 kJ/g\", from which the milling time "
+            "follows",
+            Range::positive, nullptr, "none"},
         t.dose);
     row({"counts_above", Dimension::energy,
-         "smallest dose of an impact, of the kind `counts`, that counts toward the target",
-         Range::not_negative, "0 J"},
+            "smallest dose of an impact, of the kind `counts`, that counts toward the target",
+            Range::not_negative, "0 J"},
         t.counted.least);
   }
   /// "the dose along the normal, of impacts with 0.001 J of it or more", for readers.
@@ -326,33 +323,33 @@ struct CaseSpec {
   static void keys(auto& c, auto&& row) {
     row({"seed", "seed of the random placement of balls", Range::any, "1"}, c.seed);
     row({"digits",
-         "number of correct digits in every number of the logs, with all events in their true "
-         "order; edmill chooses the precision",
-         {1, 100000},
-         nullptr,
-         nullptr,
-         Parameter::Digest::none},
+            "number of correct digits in every number of the logs, with all events in their true "
+            "order; edmill chooses the precision",
+            {1, 100000}, nullptr, nullptr, Parameter::Digest::none},
         c.digits);
     row({"initial_time", Dimension::time, "time of the initial state", Range::not_negative, "0 s"},
         c.initial_time);
-    row({"start_time", Dimension::time, "start of the statistics", Range::any, nullptr, "`initial_time`"},
+    row({"start_time", Dimension::time, "start of the statistics", Range::any, nullptr,
+            "`initial_time`"},
         c.statistics_start);
     row({"end_time", Dimension::time,
-         "end of the run; this or another stop rule, such as `max_collisions`, is required, and "
-         "the first one met ends the run"},
+            "end of the run; this or another stop rule, such as `max_collisions`, is required, and "
+            "the first one met ends the run"},
         c.end_time);
     row({"initial_state",
-         "`final_state.csv` to start from, relative to the case file; the properties of the "
-         "balls are those of the case",
-         Range::any, nullptr, "none", Parameter::Digest::none},
+            "`final_state.csv` to start from, relative to the case file; the properties of the "
+            "balls are those of the case",
+            Range::any, nullptr, "none", Parameter::Digest::none},
         c.initial_state);
-    model::for_each_stop_rule([&](auto rule, std::size_t place) { row(rule.key, c.stop_limits[place]); });
+    model::for_each_stop_rule(
+        [&](auto rule, std::size_t place) { row(rule.key, c.stop_limits[place]); });
     row(Parameter{"precision",
-                  "scalar of the run; `edmill --version` lists all, and `\"mpfr:3000\"` has 3000 digits",
-                  Range::any, "double", "`\"double\"`"}
+            "scalar of the run; `edmill --version` lists all, and `\"mpfr:3000\"` has 3000 digits",
+            Range::any, "double", "`\"double\"`"}
             .as("name of a scalar"),
         c.precision);
-    row(Parameter{"gravity", Dimension::acceleration, "acceleration of gravity; one number acts along -Y"}
+    row(Parameter{"gravity", Dimension::acceleration,
+            "acceleration of gravity; one number acts along -Y"}
             .as("acceleration, or a vector")
             .usually("none"),
         c.gravity);
@@ -363,7 +360,7 @@ struct CaseSpec {
   /// "steel, rubber", for readers.
   std::string names_of(const PairSpec& pair) const {
     return materials[static_cast<std::size_t>(pair.materials[0]) - 1].name + ", " +
-           materials[static_cast<std::size_t>(pair.materials[1]) - 1].name;
+        materials[static_cast<std::size_t>(pair.materials[1]) - 1].name;
   }
   /// Calls visit(spec) with each single ball, then with each batch.
   void for_each_ball(const auto& visit) const {
@@ -414,8 +411,8 @@ CaseSpec read_case(const std::string& path, const std::vector<std::string>& over
 /// Reads and checks the text of a case; `name` is the name of the file in messages.
 /// @param finished  the run is over: the file of its initial state need not exist
 CaseSpec parse_case(const std::string& text, const std::string& name,
-                    const std::vector<std::string>& overrides = {}, bool finished = false,
-                    SizeLimit sizes = SizeLimit::physical);
+    const std::vector<std::string>& overrides = {}, bool finished = false,
+    SizeLimit sizes = SizeLimit::physical);
 
 /// "12.7 mm": digits and unit as they are written.
 struct WrittenNumber {
@@ -433,7 +430,7 @@ std::optional<std::string> text_of_key(const CaseSpec& spec, const std::string& 
 
 /// The case with another value of a key, read anew; without SizeLimit even 1e-380, for differences.
 CaseSpec with_value(const CaseSpec& spec, const std::string& key, const std::string& value,
-                    SizeLimit sizes = SizeLimit::physical);
+    SizeLimit sizes = SizeLimit::physical);
 
 /// Problems for which a file with the numbers of this case, changed since it was read, is refused.
 std::vector<std::string> problems_of(const CaseSpec& spec);
@@ -445,8 +442,8 @@ std::string text_with_settings(const CaseSpec& spec);
 /// a final state, that file is not read, and the digest, which depends on it, is empty.
 /// @param settings  of the run, which override the file
 /// @throws InputError also when the case has another digest
-CaseSpec read_case_of_run(const std::string& path, const std::vector<std::string>& settings,
-                          const std::string& digest);
+CaseSpec read_case_of_run(
+    const std::string& path, const std::vector<std::string>& settings, const std::string& digest);
 
 /// Adds the entries [[output]] of a text. @throws InputError for a wrong one or a taken file's name
 void add_outputs(const std::string& text, const std::string& name, CaseSpec& spec);
@@ -471,9 +468,8 @@ class OutOfMemory : public std::bad_alloc {
  public:
   explicit OutOfMemory(const CaseSpec& spec)
       : text_(spec.file + ": not enough memory for " + std::to_string(spec.ball_count()) +
-              " balls: use fewer balls, or a computer with more memory") {}
+            " balls: use fewer balls, or a computer with more memory") {}
   const char* what() const noexcept override { return text_.c_str(); }
-
  private:
   std::string text_;
 };

@@ -16,7 +16,7 @@ void read_law(Section& s, LawTable& given) {
     s.problem("restitution_normal", "both 'restitution' and 'restitution_normal'", "one of them");
   if (s.has("collapse_time"))
     s.problem("collapse_time", "a key that no longer exists",
-              "'least_separation', the lowest speed at which bodies separate after an impact");
+        "'least_separation', the lowest speed at which bodies separate after an impact");
 }
 
 /// Mass of the balls over that of the powder, where the case has powder.
@@ -38,27 +38,31 @@ void require_diameters(Section& s, const CaseSpec& spec) {
   spec.for_each_ball([&](const BallSpec& ball) {
     const auto &diameter = rational(ball.diameter), &spread = rational(ball.diameter_spread);
     if (diameter - spread < least || diameter + spread > largest)
-      s.problem("model", fmt::format("\"{}\" with balls of {:g} m", Law::name, ball.diameter.to<double>()),
-                "balls of 2.36 mm to 9.52 mm, the range of its table");
+      s.problem("model",
+          fmt::format("\"{}\" with balls of {:g} m", Law::name, ball.diameter.to<double>()),
+          "balls of 2.36 mm to 9.52 mm, the range of its table");
   });
 }
 
 /// @param missing  called for each missing parameter, with its key and the expected value
-ContactSpec to_spec(Section& contact, const LawTable& given, const CaseSpec& spec, const auto& missing) {
+ContactSpec to_spec(
+    Section& contact, const LawTable& given, const CaseSpec& spec, const auto& missing) {
   ContactSpec result;
   result.least_separation = given.least_separation;
   for_each_kind<Laws>([&](auto law) {
     if (given.name.text != law.name) return;
     law.parameters(law, [&](const Parameter& p, Quantity& value) {
-      if (const auto found = given.parameters.find(p.key); found != given.parameters.end() && found->second) {
+      if (const auto found = given.parameters.find(p.key);
+          found != given.parameters.end() && found->second) {
         value = *found->second;
       } else if (p.fallback) {
         value = fallback_of(p);
-      } else if (const auto ratio = charge_ratio(spec); ratio && p.key == std::string("charge_ratio")) {
+      } else if (const auto ratio = charge_ratio(spec);
+                 ratio && p.key == std::string("charge_ratio")) {
         value = *ratio;
         if (!in_range(value, p.range))
-          contact.problem(p.key, fmt::format("{:.4g} from [[balls]] and [powder]", value.to<double>()),
-                          expected(p));
+          contact.problem(p.key,
+              fmt::format("{:.4g} from [[balls]] and [powder]", value.to<double>()), expected(p));
       } else {
         missing(p.key, expected(p));
       }
@@ -97,16 +101,17 @@ void read_pairs(ContactTable& contact, CaseSpec& spec) {
     read_keys(entry, table);
     const auto& names = table.materials.names;
     PairSpec pair;
-    if (names.size() == 2) pair.materials = {spec.material_named(names[0]), spec.material_named(names[1])};
+    if (names.size() == 2)
+      pair.materials = {spec.material_named(names[0]), spec.material_named(names[1])};
     const bool known = pair.materials[0] > 0 && pair.materials[1] > 0;
     if (!known)
       entry.problem("materials",
-                    names.empty() ? "nothing" : fmt::format("\"{}\"", fmt::join(names, "\", \"")),
-                    "the names of two [[material]] entries");
+          names.empty() ? "nothing" : fmt::format("\"{}\"", fmt::join(names, "\", \"")),
+          "the names of two [[material]] entries");
     for (const auto& other : spec.pairs)
       if (known && other.is_of(pair.materials[0], pair.materials[1]))
         entry.problem("materials", fmt::format("\"{}\" and \"{}\" again", names[0], names[1]),
-                      "one entry for each pair");
+            "one entry for each pair");
     LawTable given = contact.shared;
     read_law(entry, given);
     entry.reject_unknown_keys();
@@ -120,14 +125,15 @@ void require_all_pairs(Section& contact, const CaseSpec& spec) {
   std::vector<int> of_balls;
   spec.for_each_ball([&](const BallSpec& ball) { of_balls.push_back(ball.material); });
   const auto name = [&](int material) {
-    return material == 0 ? "bodies without a material" : "\"" + spec.materials[material - 1].name + "\"";
+    return material == 0 ? "bodies without a material"
+                         : "\"" + spec.materials[material - 1].name + "\"";
   };
   const auto require = [&](int one, int other) {
     for (const auto& pair : spec.pairs)
       if (pair.is_of(one, other)) return;
     const auto partners = name(one) + " and " + name(other);
-    contact.problem("pair", "nothing",
-                    "an entry [[contact.pair]] for " + partners + ", or a law in [contact]");
+    contact.problem(
+        "pair", "nothing", "an entry [[contact.pair]] for " + partners + ", or a law in [contact]");
   };
   for (const int ball : of_balls) {
     for (const int other : of_balls) require(ball, other);
@@ -143,22 +149,22 @@ void LawTable::Name::read_from(Section& section, const char* key) {
   if (chosen || text.empty()) text = name;
 }
 
-template <class Law>
-void LawTable::PointsOf<Law>::read_from(Section& s, const char* key) {
+template <class Law> void LawTable::PointsOf<Law>::read_from(Section& s, const char* key) {
   constexpr const auto& rows = Law::table_rows;
   auto found = s.pairs(key, rows[0].dimension, rows[1].dimension);
   if (!s.has(key)) return;
   bool good = !found.empty();
   for (std::size_t k = 0; k < found.size(); ++k)
     good = good && in_range(found[k][0], rows[0].range) && in_range(found[k][1], rows[1].range) &&
-           (k == 0 || found[k - 1][0] < found[k][0]);
+        (k == 0 || found[k - 1][0] < found[k][0]);
   if (!good) s.problem(key, fmt::format("a table of {} points", found.size()), Law::table_form);
   points[key] = std::move(found);
 }
 
 void check(Section contact, const ContactSpec& law, const CaseSpec& spec) {
   law.parameters(KeyChecker{contact});
-  if (std::holds_alternative<model::PowderLoad<Quantity>>(law.law)) require_diameters(contact, spec);
+  if (std::holds_alternative<model::PowderLoad<Quantity>>(law.law))
+    require_diameters(contact, spec);
   contact.require(!law.least_separation.negative(), "least_separation", "a speed of 0 or more");
 }
 

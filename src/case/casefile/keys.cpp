@@ -66,9 +66,11 @@ std::string expected(const Parameter& p) {
   if (p.range == Range::quarter_turn) return "an angle from 0 to 90 deg";
   if (p.range == Range::count) return "at least 1";
   if (p.range == Range::share) return "a number above 0, up to 1";
-  if (p.range == Range::interval) return fmt::format("a number from {} to {}", p.range.low, p.range.high);
+  if (p.range == Range::interval)
+    return fmt::format("a number from {} to {}", p.range.low, p.range.high);
   const auto what = noun(p.dimension);
-  const std::string one = (std::string("aeiou").find(what[0]) == std::string::npos ? "a " : "an ") + what;
+  const std::string one =
+      (std::string("aeiou").find(what[0]) == std::string::npos ? "a " : "an ") + what;
   if (p.range == Range::any) return one;
   return p.range == Range::not_negative ? one + " of 0 or more" : "a positive " + what;
 }
@@ -142,7 +144,8 @@ void KeyReader::operator()(const Parameter& p, std::uint64_t& value) {
 void KeyReader::operator()(const Parameter& p, int& value) {
   std::uint64_t count = 0;
   (*this)(p, count);
-  value = static_cast<int>(std::min<std::uint64_t>(count, static_cast<std::uint64_t>(p.range.high)));
+  value =
+      static_cast<int>(std::min<std::uint64_t>(count, static_cast<std::uint64_t>(p.range.high)));
 }
 
 void KeyReader::operator()(const Parameter& p, bool& value) {
@@ -170,10 +173,11 @@ std::string digest_of(const std::array<Quantity, 3>& v) {
 }
 std::string digest_of(const Colour& v) { return fmt::format("{},{},{}", v[0], v[1], v[2]); }
 
-void KeyLister::add(const Parameter& p, const std::string& kind, const std::string& fallback) const {
+void KeyLister::add(
+    const Parameter& p, const std::string& kind, const std::string& fallback) const {
   auto& keys = std::find_if(sections_.begin(), sections_.end(), [&](const auto& s) {
-                 return s.name == section_;
-               })->keys;
+    return s.name == section_;
+  })->keys;
   const Key key{section_, p.of ? p.of : of_, p.key, kind, fallback, p.meaning};
   for (auto& row : keys) {
     if (row.name != key.name || row.kind != key.kind || row.fallback != key.fallback ||
@@ -189,7 +193,7 @@ KeyLister KeyLister::inside(const std::string& key, bool list, const char* what)
   KeyLister lister(sections_);
   lister.section_ = section_ + (section_.empty() ? "" : ".") + key;
   const std::string heading = !list_.empty() ? key + " of " + list_
-                              : list         ? "[[" + lister.section_ + "]]"
+      : list                                 ? "[[" + lister.section_ + "]]"
                                              : "[" + lister.section_ + "]";
   if (list || !list_.empty()) lister.list_ = heading;
   const auto is_it = [&](const auto& s) { return s.name == lister.section_; };
@@ -197,7 +201,7 @@ KeyLister KeyLister::inside(const std::string& key, bool list, const char* what)
   // Insert it after the sections that are inside of the same section.
   auto place = sections_.end();
   while (!section_.empty() && std::prev(place)->name != section_ &&
-         !std::prev(place)->name.starts_with(section_ + "."))
+      !std::prev(place)->name.starts_with(section_ + "."))
     --place;
   sections_.insert(place, {lister.section_, heading, what, {}});
   return lister;

@@ -46,35 +46,19 @@ template <class T>
 concept Choice = std::is_enum_v<T>;
 
 /// A table with the keys of a T whose reader needs other parts of the file first.
-template <Keyed T>
-struct Inner {
-  std::optional<Section> section;
-};
+template <Keyed T> struct Inner { std::optional<Section> section; };
 /// Entries [[key]] of such tables.
-template <Keyed T>
-struct Entries : std::vector<Section> {
+template <Keyed T> struct Entries : std::vector<Section> {
   T like{};                  ///< a new entry
   bool may_be_none = false;  ///< `key = []` is allowed
 };
 
 /// A new table of a member that is one, and a new entry of a list of them.
-template <Keyed T>
-T new_table(const T&) {
-  return {};
-}
-template <Keyed T>
-T new_table(const std::optional<T>&) {
-  return {};
-}
-template <Keyed T>
-T new_table(const Inner<T>&) {
-  return {};
-}
+template <Keyed T> T new_table(const T&) { return {}; }
+template <Keyed T> T new_table(const std::optional<T>&) { return {}; }
+template <Keyed T> T new_table(const Inner<T>&) { return {}; }
 auto entry_of(const auto& list) -> decltype((list.like)) { return list.like; }
-template <Keyed T>
-T entry_of(const std::vector<T>&) {
-  return {};
-}
+template <Keyed T> T entry_of(const std::vector<T>&) { return {}; }
 
 /// Reads members from a section. The member of an absent key gets the fallback of its row; without
 /// one it keeps its value if it is optional or the row has `otherwise`, or the key is reported.
@@ -93,62 +77,58 @@ class KeyReader {
   void operator()(const Parameter& p, std::optional<std::uint64_t>& value);
   void operator()(const Parameter& p, bool& value);
   void operator()(const Parameter& p, std::string& value);
-  void operator()(const Parameter& p, std::optional<std::string>& value) { value = section_.text(p.key); }
+  void operator()(const Parameter& p, std::optional<std::string>& value) {
+    value = section_.text(p.key);
+  }
   void operator()(const Parameter& p, std::optional<Section>& value) {
     value.emplace(section_.section(p.key));
   }
   void operator()(const Parameter& p, std::optional<std::vector<std::string>>& values) {
     if (section_.has(p.key)) values = section_.settings(p.key);
   }
-  void operator()(const Parameter& p, std::vector<std::string>& values) { values = section_.settings(p.key); }
+  void operator()(const Parameter& p, std::vector<std::string>& values) {
+    values = section_.settings(p.key);
+  }
   void operator()(const Parameter& p, Colour& value) { value = section_.colour(p.key, value); }
   void operator()(const Parameter& p, MotionSpec& motion) { motion = read_motion(section_, p.key); }
   void operator()(const Parameter& p, VesselSpec& vessel) { vessel = read_vessel(section_, p.key); }
   void operator()(const Parameter& p, Choice auto& value) {
     const auto& names = choices_of(value);
     const auto name = section_.choice(p.key, {names.begin(), names.end()});
-    value = static_cast<std::decay_t<decltype(value)>>(std::find(names.begin(), names.end(), name) -
-                                                       names.begin());
+    value = static_cast<std::decay_t<decltype(value)>>(
+        std::find(names.begin(), names.end(), name) - names.begin());
   }
-  template <Formed T>
-  void operator()(const Parameter& p, T&& value) {
+  template <Formed T> void operator()(const Parameter& p, T&& value) {
     value.read_from(section_, p.key);
   }
-  template <NamedEntry T>
-  void operator()(const Parameter&, std::vector<T>& values) {
+  template <NamedEntry T> void operator()(const Parameter&, std::vector<T>& values) {
     for (const auto& name : section_.keys())
       if (auto value = T::read(section_, name)) values.push_back(*value);
   }
-  template <Keyed T>
-  void operator()(const Parameter& p, std::optional<T>& value) {
+  template <Keyed T> void operator()(const Parameter& p, std::optional<T>& value) {
     if (section_.section(p.key).present()) (*this)(p, value.emplace());
   }
-  template <Keyed T>
-  void operator()(const Parameter& p, T& value) {
+  template <Keyed T> void operator()(const Parameter& p, T& value) {
     Section own = section_.section(p.key);
     read_all_keys(own, value);
   }
   /// Entries [[key]]. `T::check(entry, list)`, if T has it, checks the last of the list so far.
-  template <Keyed T>
-  void operator()(const Parameter& p, std::vector<T>& list) {
+  template <Keyed T> void operator()(const Parameter& p, std::vector<T>& list) {
     for (Section& entry : section_.sections(p.key)) {
       read_keys(entry, list.emplace_back());
       if constexpr (requires { T::check(entry, list); }) T::check(entry, list);
       entry.reject_unknown_keys();
     }
   }
-  template <Keyed T>
-  void operator()(const Parameter& p, Inner<T>& table) {
+  template <Keyed T> void operator()(const Parameter& p, Inner<T>& table) {
     table.section.emplace(section_.section(p.key));
   }
-  template <Keyed T>
-  void operator()(const Parameter& p, Entries<T>& entries) {
+  template <Keyed T> void operator()(const Parameter& p, Entries<T>& entries) {
     static_cast<std::vector<Section>&>(entries) = section_.sections(p.key, entries.may_be_none);
   }
 
   /// True if every quantity was present and readable.
   bool complete() const { return complete_; }
-
  private:
   /// Reports an absent key that has no default and is not optional.
   void require_presence(const Parameter& p, const std::string& expected);
@@ -166,8 +146,7 @@ void read_all_keys(Section& section, Keyed auto& keyed) {
 }
 
 /// Reads each entry, hands it to `use(entry, value)`, and reports its other keys.
-template <Keyed T>
-void read_entries(Entries<T>& entries, const auto& use) {
+template <Keyed T> void read_entries(Entries<T>& entries, const auto& use) {
   for (Section& entry : entries) {
     T value = entries.like;
     read_keys(entry, value);
@@ -193,8 +172,7 @@ struct KeyChecker {
 };
 
 /// The kind of values that a member accepts, for readers: "count", "three lengths".
-template <class Value>
-std::string kind_of(const Parameter& p) {
+template <class Value> std::string kind_of(const Parameter& p) {
   if (p.kind) return p.kind;
   if constexpr (std::is_same_v<Value, Quantity>) {
     return p.range == Range::count ? "count" : noun(p.dimension);
@@ -226,8 +204,7 @@ inline std::string digest_of(const std::string& value) { return value; }
 inline std::string digest_of(std::uint64_t value) { return std::to_string(value); }
 std::string digest_of(const std::array<Quantity, 3>& value);
 std::string digest_of(const Colour& value);
-template <class Value>
-std::string digest_of(const std::optional<Value>& value) {
+template <class Value> std::string digest_of(const std::optional<Value>& value) {
   return value ? digest_of(*value) : "-";
 }
 
@@ -237,11 +214,11 @@ struct DigestValue {
 };
 
 /// Values that affect a run, in the order of the keys.
-template <class T>
-std::vector<DigestValue> digest_values(const T& keyed) {
+template <class T> std::vector<DigestValue> digest_values(const T& keyed) {
   T plain{};
   std::vector<std::string> defaults;
-  T::keys(plain, [&](const Parameter&, const auto& value) { defaults.push_back(digest_of(value)); });
+  T::keys(
+      plain, [&](const Parameter&, const auto& value) { defaults.push_back(digest_of(value)); });
   std::vector<DigestValue> values;
   auto usual = defaults.begin();
   T::keys(keyed, [&](const Parameter& p, const auto& value) {
@@ -286,8 +263,7 @@ class KeyLister {
     return lister;
   }
 
-  template <class Value>
-  void operator()(const Parameter& p, const Value& value) const {
+  template <class Value> void operator()(const Parameter& p, const Value& value) const {
     if (!p.key) return;
     constexpr bool optional = requires { value.has_value(); };
     constexpr bool table = requires { new_table(value); };
@@ -300,14 +276,12 @@ class KeyLister {
     if constexpr (list) add_section(p, true, entry_of(value));
   }
   /// Adds the key of a choice between types, and the keys of each type.
-  template <class... Part>
-  void operator()(const Parameter& p, const std::variant<Part...>&) const {
+  template <class... Part> void operator()(const Parameter& p, const std::variant<Part...>&) const {
     add_choice<std::variant<Part...>>(p);
     (list_part(Part{}), ...);
   }
   /// Adds a key whose meaning is followed by the names of a variant's types.
-  template <class Variant>
-  void add_choice(const Parameter& p) const {
+  template <class Variant> void add_choice(const Parameter& p) const {
     std::string meaning = p.meaning;
     for (const auto& name : names_of_kinds<Variant>())
       meaning += (meaning.ends_with('`') ? ", `" : ": `") + name + "`";
@@ -315,7 +289,6 @@ class KeyLister {
     named.meaning = meaning.c_str();
     add(named, p.kind, p.otherwise);
   }
-
  private:
   void list_part(auto part) const {
     const auto own = only_of(part.name);
@@ -330,8 +303,7 @@ class KeyLister {
   /// Adds a row. A key that several types have with the same meaning gets only one.
   void add(const Parameter& p, const std::string& kind, const std::string& fallback) const;
 
-  template <Keyed T>
-  void add_section(const Parameter& p, bool list, T entry) const {
+  template <Keyed T> void add_section(const Parameter& p, bool list, T entry) const {
     T::keys(entry, inside(p.key, list, T::what));
   }
 

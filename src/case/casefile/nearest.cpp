@@ -13,7 +13,8 @@ namespace {
 std::string plain(const std::string& word) {
   std::string text;
   for (const char c : word)
-    if (c != '-' && c != '_') text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (c != '-' && c != '_')
+      text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;
 }
 

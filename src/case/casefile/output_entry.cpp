@@ -20,23 +20,25 @@ void check_common(Section& s, const CaseSpec& spec, const OutputSpec& output) {
   const auto& timer = output.timer;
   if (timer.start_time && timer.end_time)
     s.require(*timer.end_time > *timer.start_time, "end_time", "a time after start_time");
-  const bool plain = output.file.find('/') == std::string::npos && output.file != "." && output.file != "..";
+  const bool plain =
+      output.file.find('/') == std::string::npos && output.file != "." && output.file != "..";
   s.require(plain, "file", "a plain file name");
   const auto& f = output.folder;
-  const bool inside = f.empty() || (f.front() != '/' && ("/" + f + "/").find("/../") == std::string::npos);
+  const bool inside =
+      f.empty() || (f.front() != '/' && ("/" + f + "/").find("/../") == std::string::npos);
   s.require(inside, "folder", "a folder inside the run's folder");
   const auto place = [](const OutputSpec& o) {
     return (std::filesystem::path("run") / o.folder / o.file).lexically_normal();
   };
-  for (const auto* taken : {"summary.json", "final_state.csv", "case.toml", "report.html", "checkpoint",
-                            "ro-crate-metadata.json"})
+  for (const auto* taken : {"summary.json", "final_state.csv", "case.toml", "report.html",
+           "checkpoint", "ro-crate-metadata.json"})
     s.require(place(output) != std::filesystem::path("run") / taken, "file",
-              "a plain file name other than the run's own summary.json, final_state.csv, case.toml, "
-              "report.html, checkpoint and ro-crate-metadata.json");
+        "a plain file name other than the run's own summary.json, final_state.csv, case.toml, "
+        "report.html, checkpoint and ro-crate-metadata.json");
   s.require(!output.append || !output.hdf5(), "append", "false for HDF5");
   for (const auto& other : spec.outputs)
     s.require(place(other) != place(output) || (other.append && output.append), "file",
-              "a file name that no other output has, or append = true for both");
+        "a file name that no other output has, or append = true for both");
 }
 
 /// Index in ball_variables of a name; nothing for an unknown one, which is reported.
@@ -48,8 +50,8 @@ std::optional<int> ball_variable_of(Section& s, const std::string& name) {
   return found;
 }
 
-std::vector<Statistic> statistics_of(Section& s, const ColumnTable& given,
-                                     const std::vector<Statistic>& allowed) {
+std::vector<Statistic> statistics_of(
+    Section& s, const ColumnTable& given, const std::vector<Statistic>& allowed) {
   std::vector<std::string> names;
   for (const auto a : allowed) names.push_back(statistic_name(a));
   const auto expected = "an array of " + listed(names);
@@ -88,13 +90,15 @@ std::optional<Restriction> Restriction::read(Section& only, const std::string& k
 }
 
 std::optional<int> variable_of(Section& s, const std::string& name, const ColumnRules& rules) {
-  if (!s.has("variable")) s.problem("variable", "nothing", "the name of a variable (docs/variables.md)");
+  if (!s.has("variable"))
+    s.problem("variable", "nothing", "the name of a variable (docs/variables.md)");
   if (name.empty()) return std::nullopt;
   const auto found = model::find_variable(name);
   const auto kind = found ? impact_variables[*found].kind : VariableKind::number;
-  const bool allowed = found && (kind == VariableKind::flag    ? rules.flags
-                                 : kind == VariableKind::count ? rules.counts
-                                                               : rules.numbers);
+  const bool allowed = found &&
+      (kind == VariableKind::flag           ? rules.flags
+              : kind == VariableKind::count ? rules.counts
+                                            : rules.numbers);
   std::vector<std::string> names;
   for (const auto& variable : impact_variables) names.emplace_back(variable.name);
   const auto near = found ? "" : nearest(name, names);
@@ -115,8 +119,8 @@ void ColumnReader::read_from(Section& output, const char* key) {
   for (Section& entry : output.sections(key)) {
     ColumnTable given = like;
     read_keys(entry, given);
-    const auto variable =
-        rules.of_balls ? ball_variable_of(entry, given.name) : variable_of(entry, given.name, rules);
+    const auto variable = rules.of_balls ? ball_variable_of(entry, given.name)
+                                         : variable_of(entry, given.name, rules);
     given.variable = variable.value_or(0);
     const bool flag = !rules.of_balls && ColumnTable::is_flag(given.name);
     const auto& allowed = flag ? rules.of_flags : rules.of_numbers;
@@ -140,7 +144,7 @@ void read_output(Section& s, CaseSpec& spec) {
   output.type = s.kind("type", names);
   if (!s.has("type") || s.of_unknown_kind()) return;
   const auto& type = *std::find_if(types.begin(), types.end(),
-                                   [&](const OutputType& known) { return known.name == output.type; });
+      [&](const OutputType& known) { return known.name == output.type; });
   output.table = type.extension == ".csv";
   output.file = output.type + std::string(type.extension);
   read_keys(s, output);

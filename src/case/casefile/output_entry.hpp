@@ -23,26 +23,28 @@ struct ColumnTable : ColumnSpec {
   static constexpr const char* what = "A list of tables, one for each column.";
   static void keys(auto& c, auto&& row) {
     const bool single = c.rules.of_numbers.empty();
-    row(described_key("variable", "name", "required", "a variable; for `trends_balls` a quantity of a ball"),
+    row(described_key(
+            "variable", "name", "required", "a variable; for `trends_balls` a quantity of a ball"),
         c.name);
     if (!single)
       row(described_key("statistics", "list of names", "required",
-                        "`sum`, `average`, `minimum`, `maximum`, `rate` (per second), `percentage` (of the "
-                        "total's sum); for flags only `sum`, `rate` and `percentage`; not for "
-                        "`trends_instant`"),
+              "`sum`, `average`, `minimum`, `maximum`, `rate` (per second), `percentage` (of the "
+              "total's sum); for flags only `sum`, `rate` and `percentage`; not for "
+              "`trends_instant`"),
           c.wanted);
-    row(Parameter{"label", "name of the column in the header"}.usually("the variable's name"), c.label);
+    row(Parameter{"label", "name of the column in the header"}.usually("the variable's name"),
+        c.label);
     if (single && (c.name.empty() || is_flag(c.name))) {
-      row(Parameter{"true_text", "text for a flag that is true", Range::any, "1", "`\"1\"`"}.only_of(
-              "trends_instant"),
+      row(Parameter{"true_text", "text for a flag that is true", Range::any, "1", "`\"1\"`"}
+              .only_of("trends_instant"),
           c.true_text);
-      row(Parameter{"false_text", "text for a flag that is false", Range::any, "0", "`\"0\"`"}.only_of(
-              "trends_instant"),
+      row(Parameter{"false_text", "text for a flag that is false", Range::any, "0", "`\"0\"`"}
+              .only_of("trends_instant"),
           c.false_text);
     }
     if (c.rules.of_balls)
-      row(Parameter{"with_ball", "add which ball has the minimum or maximum", Range::any, "false"}.only_of(
-              "trends_balls"),
+      row(Parameter{"with_ball", "add which ball has the minimum or maximum", Range::any, "false"}
+              .only_of("trends_balls"),
           c.with_ball);
   }
   static bool is_flag(const std::string& variable);
@@ -63,10 +65,11 @@ constexpr Parameter interval_key(const char* fallback) {
   return {"interval", Dimension::time, "length of an interval", Range::positive, fallback};
 }
 constexpr Parameter max_rows_key(const char* fallback = nullptr) {
-  return {"max_rows", Dimension::none, "the record ends after this many rows", Range::count, fallback};
+  return {
+      "max_rows", Dimension::none, "the record ends after this many rows", Range::count, fallback};
 }
-inline constexpr Parameter contact_point_key{"contact_point", Dimension::none,
-                                             "mark the point where the bodies touch by a sphere"};
+inline constexpr Parameter contact_point_key{
+    "contact_point", Dimension::none, "mark the point where the bodies touch by a sphere"};
 
 /// Index in impact_variables of a name; nothing for an unknown or excluded one, which is reported.
 std::optional<int> variable_of(Section& s, const std::string& name, const ColumnRules& rules);
@@ -95,18 +98,18 @@ struct OutputType {
 
 /// The keys that `Keys::keys(output, row)` lists, and conditions that `Keys::check` may check.
 template <class Keys>
-inline constexpr OutputKeys output_keys{[](Section& entry, const CaseSpec& spec, OutputSpec& output) {
-                                          Keys::keys(output, KeyReader(entry));
-                                          if constexpr (requires { Keys::check(entry, spec, output); })
-                                            Keys::check(entry, spec, output);
-                                        },
-                                        [](const KeyLister& lister) {
-                                          OutputSpec output;
-                                          Keys::keys(output, lister);
-                                        }};
+inline constexpr OutputKeys output_keys{
+    [](Section& entry, const CaseSpec& spec, OutputSpec& output) {
+      Keys::keys(output, KeyReader(entry));
+      if constexpr (requires { Keys::check(entry, spec, output); })
+        Keys::check(entry, spec, output);
+    },
+    [](const KeyLister& lister) {
+      OutputSpec output;
+      Keys::keys(output, lister);
+    }};
 /// The keys of a struct that is stored in OutputSpec::own.
-template <Keyed Keys>
-struct OwnKeys {
+template <Keyed Keys> struct OwnKeys {
   static void keys(auto& output, auto&& row) { Keys::keys(output.template make_own<Keys>(), row); }
 };
 struct NoKeys {

@@ -18,8 +18,8 @@ using model::Parameter;
 using model::Range;
 
 /// A key without a dimension whose values and default are described to readers.
-constexpr Parameter described_key(const char* key, const char* kind, const char* otherwise,
-                                  const char* meaning) {
+constexpr Parameter described_key(
+    const char* key, const char* kind, const char* otherwise, const char* meaning) {
   return Parameter{key, meaning}.as(kind).usually(otherwise);
 }
 
@@ -39,20 +39,21 @@ struct TimerSpec {
   static void keys(auto& t, auto&& row) {
     using enum Dimension;
     row({"on", "false leaves the table empty", Range::any, "true"}, t.on);
-    row({"start_time", time, "the record begins at this time or at `start_collision`, whichever is earlier",
-         Range::not_negative, nullptr, "the start of the run"},
+    row({"start_time", time,
+            "the record begins at this time or at `start_collision`, whichever is earlier",
+            Range::not_negative, nullptr, "the start of the run"},
         t.start_time);
-    row({"start_collision", "index of the impact, from 0, at which the record begins", Range::any, nullptr,
-         "none"},
+    row({"start_collision", "index of the impact, from 0, at which the record begins", Range::any,
+            nullptr, "none"},
         t.start_collision);
     row({"end_time", time,
-         "the record ends at this time, after `duration` or after `collisions`, whichever is "
-         "earliest",
-         Range::not_negative, nullptr, "the end of the run"},
+            "the record ends at this time, after `duration` or after `collisions`, whichever is "
+            "earliest",
+            Range::not_negative, nullptr, "the end of the run"},
         t.end_time);
     row({"duration", time, "duration of the record", Range::positive}, t.duration);
-    row({"collisions", "number of impacts in the record, including those that `only` excludes", Range::count,
-         nullptr, "none"},
+    row({"collisions", "number of impacts in the record, including those that `only` excludes",
+            Range::count, nullptr, "none"},
         t.collisions);
   }
 };
@@ -61,8 +62,7 @@ class Section;
 
 /// A table whose keys the user chooses, described by `T::entry`: `T::read(section, name)` reads
 /// one.
-template <class T>
-struct Named : std::vector<T> {
+template <class T> struct Named : std::vector<T> {
   static constexpr const char* what = T::what;
   static void keys(auto& names, auto&& row) { row(T::entry, static_cast<std::vector<T>&>(names)); }
 };
@@ -86,8 +86,8 @@ struct Restriction {
 
 enum class Statistic { sum, average, minimum, maximum, rate, percentage };
 /// In the order of the enumerators.
-inline constexpr std::array<std::string_view, 6> statistic_names{"sum",     "average", "minimum",
-                                                                 "maximum", "rate",    "percentage"};
+inline constexpr std::array<std::string_view, 6> statistic_names{
+    "sum", "average", "minimum", "maximum", "rate", "percentage"};
 inline std::string statistic_name(Statistic s) {
   return std::string(statistic_names[static_cast<std::size_t>(s)]);
 }
@@ -98,7 +98,7 @@ struct ColumnSpec {
   std::vector<Statistic> statistics;
   std::string label;                  ///< in place of the variable's name
   std::string true_text, false_text;  ///< for flags
-  bool with_ball = false;             ///< trends_balls: also show which ball has the minimum or maximum
+  bool with_ball = false;  ///< trends_balls: also show which ball has the minimum or maximum
 };
 
 struct FrequencySpec {
@@ -117,9 +117,11 @@ struct ContactPointSpec {
 
   static constexpr const char* what = "A table.";
   static void keys(auto& c, auto&& row) {
-    row({"radius", Dimension::length, "radius of the sphere that marks the point", Range::positive, "1 mm"},
+    row({"radius", Dimension::length, "radius of the sphere that marks the point", Range::positive,
+            "1 mm"},
         c.radius);
-    row({"colour", "colour of the sphere that marks the point", Range::any, nullptr, "yellow"}, c.colour);
+    row({"colour", "colour of the sphere that marks the point", Range::any, nullptr, "yellow"},
+        c.colour);
   }
 };
 
@@ -131,8 +133,10 @@ struct AnimationSpec {
 
   static void keys(auto& a, auto&& row) {
     row({"speed", "speed of playback; 1 is real time", Range::positive, "0.001"}, a.speed);
-    row({"frames_per_minute", "frames per minute of playback", Range::count, "60"}, a.frames_per_minute);
-    row({"min_frames", "smallest number of frames of the whole animation", Range::count, "8"}, a.min_frames);
+    row({"frames_per_minute", "frames per minute of playback", Range::count, "60"},
+        a.frames_per_minute);
+    row({"min_frames", "smallest number of frames of the whole animation", Range::count, "8"},
+        a.min_frames);
   }
 };
 
@@ -147,7 +151,7 @@ struct OutputSpec {
   Named<Restriction> only;
   std::vector<ColumnSpec> columns;
   FrequencySpec frequency;
-  bool accumulated = false;                       ///< trends: since the start instead of for each interval
+  bool accumulated = false;  ///< trends: since the start instead of for each interval
   std::optional<ContactPointSpec> contact_point;  ///< pictures
   AnimationSpec animation;
   std::any own;  ///< keys that only this type of output has, set by its reader
@@ -155,37 +159,36 @@ struct OutputSpec {
   static constexpr const char* what = "Tables and pictures that the run writes.";
   /// The keys of every type.
   static void keys(auto& o, auto&& row) {
-    row(described_key("type", "name", "required", "type of table or picture: see the types of outputs above"),
+    row(described_key(
+            "type", "name", "required", "type of table or picture: see the types of outputs above"),
         o.type);
     TimerSpec::keys(o.timer, row);
     row(Parameter{"file",
-                  "name of the file, without folders; a table whose name ends in `.h5` is written as "
-                  "HDF5"}
+            "name of the file, without folders; a table whose name ends in `.h5` is written as "
+            "HDF5"}
             .usually("type and extension"),
         o.file);
-    row(Parameter{"folder", "folder inside the run's folder; created if absent"}.usually("the run's folder"),
+    row(Parameter{"folder", "folder inside the run's folder; created if absent"}.usually(
+            "the run's folder"),
         o.folder);
     if (o.table)
       row({"append",
-           "for CSV: keep the contents of the file and add to them; outputs that all append can "
-           "share a file",
-           Range::any, "false"},
+              "for CSV: keep the contents of the file and add to them; outputs that all append can "
+              "share a file",
+              Range::any, "false"},
           o.append);
-    row(Parameter{"only", "only impacts with these values of flags and counts"}.usually("all impacts"),
+    row(Parameter{"only", "only impacts with these values of flags and counts"}.usually(
+            "all impacts"),
         o.only);
   }
 
   /// The keys of this type; they are created if there are none yet.
-  template <class Keys>
-  Keys& make_own() {
+  template <class Keys> Keys& make_own() {
     if (!own.has_value()) own = Keys{};
     return std::any_cast<Keys&>(own);
   }
   /// @pre the reader of this type left keys of this kind
-  template <class Keys>
-  const Keys& own_keys() const {
-    return std::any_cast<const Keys&>(own);
-  }
+  template <class Keys> const Keys& own_keys() const { return std::any_cast<const Keys&>(own); }
   /// Whether a table is to be written as HDF5.
   bool hdf5() const { return file.ends_with(".h5"); }
 };

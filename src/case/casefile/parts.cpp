@@ -61,7 +61,7 @@ Quantity in_turns(const Quantity& radians) {
 
 void require_speed(Section& swing, const Quantity& speed) {
   swing.require(speed.positive() && speed.to<double>() < 1e6, "speed",
-                "a positive angular speed below 1e6 rad/s");
+      "a positive angular speed below 1e6 rad/s");
 }
 
 std::vector<Swing<Quantity>> read_swings(Entries<SwingTable>& entries) {
@@ -70,7 +70,7 @@ std::vector<Swing<Quantity>> read_swings(Entries<SwingTable>& entries) {
   read_entries(entries, [&](Section& entry, const SwingTable& swing) {
     require_speed(entry, swing.speed);
     swings.push_back({rotates ? in_turns(swing.amplitude) : swing.amplitude, in_turns(swing.speed),
-                      in_turns(swing.phase)});
+        in_turns(swing.phase)});
   });
   return swings;
 }
@@ -91,23 +91,23 @@ Joint<Quantity> joint_of(Section& section, JointTable& table, bool copied) {
     joint.angle = in_turns(table.angle);
     if (joint.angle.zero() && !moves && !copied)
       section.problem(first_of(section, {"speed", "angle", "rotate"}), "a joint that does not turn",
-                      "one with angle, speed or swing");
+          "one with angle, speed or swing");
     return joint;
   }
   const auto& shift = table.axis.shift;
   const bool named = !section.is_array("translate");
   if (!named && section.has("distance"))
-    section.problem(
-        "distance",
-        shift ? "a distance in addition to three lengths" : "a distance along an axis of three numbers",
+    section.problem("distance",
+        shift ? "a distance in addition to three lengths"
+              : "a distance along an axis of three numbers",
         shift ? "translate = \"x\", \"y\" or \"z\", or no distance"
               : "a separate joint for it, translate = [..] with three lengths");
   if (shift) joint.shift = *shift;
   if (!named) return joint;
   for (std::size_t k = 0; k < 3; ++k) joint.shift[k] = joint.axis[k] * table.distance;
   if (table.distance.zero() && !moves)
-    section.problem(first_of(section, {"speed", "distance", "translate"}), "a joint that shifts nothing",
-                    "one with distance, speed or swing");
+    section.problem(first_of(section, {"speed", "distance", "translate"}),
+        "a joint that shifts nothing", "one with distance, speed or swing");
   return joint;
 }
 
@@ -137,7 +137,9 @@ std::string axis_name(const QuantityVector& axis) {
 }
 
 /// A term of a sum with its sign, " + 5".
-std::string term(double value) { return fmt::format(" {} {:g}", value < 0 ? '-' : '+', std::abs(value)); }
+std::string term(double value) {
+  return fmt::format(" {} {:g}", value < 0 ? '-' : '+', std::abs(value));
+}
 
 /// The sum of terms with signs as text, without a leading plus.
 std::string as_sum(const std::string& terms) {
@@ -152,7 +154,7 @@ std::string text_of_joint(const Joint<Quantity>& joint) {
     if (!joint.angle.zero()) angle = fmt::format("{:g} deg", 360 * joint.angle.to<double>());
     if (!joint.speed.zero()) angle += term(360 * joint.speed.to<double>()) + " deg/s t";
     return "turn about " + axis_name(joint.axis) + " by " +
-           as_sum(angle + equation_of(joint.swings, joint.rotates));
+        as_sum(angle + equation_of(joint.swings, joint.rotates));
   }
   std::string text = "shift by " + text_of(joint.shift) + " m";
   if (!joint.speed.zero()) text += term(joint.speed.to<double>()) + " m/s t";
@@ -167,7 +169,7 @@ std::vector<Joint<Quantity>> read_joints(Entries<JointTable>& entries, bool copi
     const bool rotates = entry.has("rotate");
     if (rotates == entry.has("translate")) {
       entry.problem("rotate", rotates ? "both 'rotate' and 'translate'" : "nothing",
-                    rotates ? "one of them" : "'rotate' or 'translate'");
+          rotates ? "one of them" : "'rotate' or 'translate'");
       continue;
     }
     JointTable table;
@@ -197,7 +199,7 @@ void require_shape(Section& vessel, const model::Capsule<Quantity>& capsule) {
 void require_shape(Section& vessel, const model::RoundedCylinder<Quantity>& cylinder) {
   const Quantity width = Quantity(2) * cylinder.edge;
   vessel.require(width <= cylinder.diameter && width <= cylinder.height, "edge_radius",
-                 "at most half of the diameter and of the height");
+      "at most half of the diameter and of the height");
 }
 
 using Point = Vec3<Rational>;
@@ -208,8 +210,8 @@ QuantityVector quantities(const Point& p) {
 
 /// The convex hull in exact numbers: planes through three or more vertices with no others outside.
 /// @param corners  the vertices on each face are added
-std::vector<Face<Quantity>> hull_of(const std::vector<Point>& vertices,
-                                    std::set<std::set<std::size_t>>& corners) {
+std::vector<Face<Quantity>> hull_of(
+    const std::vector<Point>& vertices, std::set<std::set<std::size_t>>& corners) {
   std::vector<Face<Quantity>> faces;
   const auto add = [&](const Point& a, const Point& b, const Point& c) {
     Point normal = cross<Rational>(b - a, c - a);
@@ -255,7 +257,7 @@ std::vector<Face<Quantity>> read_vertices(Section& vessel, Entries<VertexTable>&
     const auto has_it = [v](const auto& face) { return face.contains(v); };
     if (std::count_if(corners.begin(), corners.end(), has_it) >= 3) continue;
     vessel.problem("vertex", fmt::format("a vertex {} that is not a corner of the convex hull", v),
-                   "the corners of a convex vessel");
+        "the corners of a convex vessel");
     return {};
   }
   return faces;
@@ -267,11 +269,11 @@ model::Polyhedron<Quantity> read_polyhedron(Section& vessel) {
   const std::string key = vessel.has("vertex") ? "vertex" : "plane";
   if (vessel.has("vertex") == vessel.has("plane")) {
     vessel.problem("plane", vessel.has("plane") ? "both planes and vertices" : "nothing",
-                   "[[vessel.plane]] or [[vessel.vertex]]");
+        "[[vessel.plane]] or [[vessel.vertex]]");
     return {};
   }
-  model::Polyhedron<Quantity> vessel_of{key == "vertex" ? read_vertices(vessel, table.vertices)
-                                                        : read_planes(table.planes)};
+  model::Polyhedron<Quantity> vessel_of{
+      key == "vertex" ? read_vertices(vessel, table.vertices) : read_planes(table.planes)};
   if (vessel_of.faces.empty()) return vessel_of;
   const auto planes = model::converted<model::Polyhedron, double>(
       vessel_of, [](const Quantity& q) { return q.to<double>(); });
@@ -280,8 +282,7 @@ model::Polyhedron<Quantity> read_polyhedron(Section& vessel) {
   return vessel_of;
 }
 
-template <class Variant>
-Variant read_part(Section& given, const char* key) {
+template <class Variant> Variant read_part(Section& given, const char* key) {
   Variant chosen;
   const auto name = given.kind(key, names_of_kinds<Variant>());
   // If the type is unknown, no other key can be checked.
@@ -313,7 +314,8 @@ std::string described(const auto& part, const Written& written) {
     }
     const bool drive = p.range == Range::drive;
     text += fmt::format("{}{}", text.empty() ? ": " : ", ", drive ? "period" : p.key);
-    model::for_each_number(value, [&](const Quantity& q) { text += fmt::format(" {:g}", q.to<double>()); });
+    model::for_each_number(
+        value, [&](const Quantity& q) { text += fmt::format(" {:g}", q.to<double>()); });
     text += drive ? " s" : si_unit(p.dimension);
   };
   std::visit([&](const auto& p) { p.parameters(p, add); }, part);
@@ -338,7 +340,7 @@ using PolyhedronVessel = model::PolyhedronVessel<double>;
 /// Whether the wall can move along its normal and leave its neighbours as they are.
 bool can_move(const model::AnyVessel<double>& vessel, int wall) {
   return vessel.get_if<PolyhedronVessel>() ||
-         (vessel.is_flat(wall) && vessel.function_count() == vessel.wall_count());
+      (vessel.is_flat(wall) && vessel.function_count() == vessel.wall_count());
 }
 
 /// Distance from a flat wall to the opposite side of the vessel [m].
@@ -348,15 +350,15 @@ double depth_of(const model::AnyVessel<double>& vessel, int wall) {
 }
 
 /// Reports pistons that, all as far inward as they go, leave too little room at the origin.
-void require_room(Section& entry, const PolyhedronVessel& polyhedron, const std::vector<PistonSpec>& pistons,
-                  double from, double to, double diameter) {
+void require_room(Section& entry, const PolyhedronVessel& polyhedron,
+    const std::vector<PistonSpec>& pistons, double from, double to, double diameter) {
   auto planes = polyhedron.planes();
   for (const auto& piston : pistons)
     planes[static_cast<std::size_t>(piston.wall)].distance -= travel_of(piston, from, to).most;
   for (const auto& plane : planes)
     if (plane.distance < diameter / 2)
-      return entry.problem(
-          "wall", fmt::format("pistons or walls that come as near as {:g} m to the origin", plane.distance),
+      return entry.problem("wall",
+          fmt::format("pistons or walls that come as near as {:g} m to the origin", plane.distance),
           fmt::format("room for a ball of {:g} m there at all times", diameter));
 }
 
@@ -389,7 +391,7 @@ std::optional<Solid> read_shape(Section& entry, const BodyTable& table) {
   }
   if (negative || nothing)
     entry.problem("size", nothing ? "a body without size" : "a negative length",
-                  "three lengths, at least one of them positive");
+        "three lengths, at least one of them positive");
   else
     entry.require(fits, "rounding", "at most half of each size");
   body.is_round = round && width < body.size[0];
@@ -403,7 +405,8 @@ void set_clock(CaseSpec& spec) {
   auto* still = std::get_if<model::StillMill<Quantity>>(&spec.mill);
   if (!still && std::any_of(own.begin(), own.end(), moves)) return;
   std::vector<Joint<Quantity>> all;
-  for (const auto& body : spec.bodies) all.insert(all.end(), body.joints.begin(), body.joints.end());
+  for (const auto& body : spec.bodies)
+    all.insert(all.end(), body.joints.begin(), body.joints.end());
   if (still)
     still->period = period_of_fastest(all);
   else if (auto* chain = std::get_if<model::Chain<Quantity>>(&spec.mill))
@@ -422,8 +425,8 @@ void Axis::read_from(Section& joint, const char* key) {
     return;
   }
   const bool shifts = key == std::string("translate") && !joint.has("swing") && !joint.has("speed");
-  direction =
-      joint.vector(key, shifts ? Dimension::length : Dimension::none).value_or(QuantityVector{Quantity{1}});
+  direction = joint.vector(key, shifts ? Dimension::length : Dimension::none)
+                  .value_or(QuantityVector{Quantity{1}});
   joint.require(shifts || !is_zero(direction), key, "an axis other than zero");
   if (shifts) shift = std::exchange(direction, {});
 }
@@ -432,14 +435,15 @@ std::string equation_of(const std::vector<Swing<Quantity>>& swings, bool rotate)
   std::string text;
   for (const auto& s : swings) {
     text += term(s.amplitude.to<double>() * (rotate ? 360 : 1)) +
-            fmt::format(" {} sin(2 pi {:g} t/s", rotate ? "deg" : "m", s.frequency.to<double>());
+        fmt::format(" {} sin(2 pi {:g} t/s", rotate ? "deg" : "m", s.frequency.to<double>());
     if (!s.phase.zero()) text += term(360 * s.phase.to<double>()) + " deg";
     text += ")";
   }
   return text;
 }
 
-std::vector<Swing<Quantity>> with_phases(std::vector<Swing<Quantity>> swings, const Quantity& period) {
+std::vector<Swing<Quantity>> with_phases(
+    std::vector<Swing<Quantity>> swings, const Quantity& period) {
   for (auto& swing : swings) {
     swing.per_period = fraction_of(swing.frequency * period);
     swing.phase = without_whole_turns(swing.phase);
@@ -494,7 +498,8 @@ void check(Section mill, const MotionSpec& motion) {
   if (const auto* chain = std::get_if<model::Chain<Quantity>>(&motion))
     for (const auto& joint : chain->given.list)
       for (const auto& swing : joint.swings)
-        require_speed(mill, quantity_of(2 * rational(swing.frequency), 1 + swing.frequency.pi_power));
+        require_speed(
+            mill, quantity_of(2 * rational(swing.frequency), 1 + swing.frequency.pi_power));
 }
 void check(Section vessel, const VesselSpec& shape) {
   const auto check_shape = [&](const auto& v) {
@@ -505,7 +510,9 @@ void check(Section vessel, const VesselSpec& shape) {
 }
 
 MotionSpec read_motion(Section& mill, const char* key) { return read_part<MotionSpec>(mill, key); }
-VesselSpec read_vessel(Section& vessel, const char* key) { return read_part<VesselSpec>(vessel, key); }
+VesselSpec read_vessel(Section& vessel, const char* key) {
+  return read_part<VesselSpec>(vessel, key);
+}
 
 void read_pistons(Section& vessel, Entries<PistonTable>& entries, CaseSpec& spec) {
   if (entries.empty() || vessel.of_unknown_kind()) return;
@@ -516,16 +523,17 @@ void read_pistons(Section& vessel, Entries<PistonTable>& entries, CaseSpec& spec
   for (int wall = 0; wall < partners.walls(); ++wall)
     if (can_move(*built, wall)) flat.push_back(partners[wall].label);
   read_entries(entries, [&](Section& entry, PistonTable& table) {
-    PistonSpec piston{wall_named(table.wall, partners), table.distance, table.speed,
-                      read_swings(table.swings)};
+    PistonSpec piston{
+        wall_named(table.wall, partners), table.distance, table.speed, read_swings(table.swings)};
     if (piston.wall >= 0 && !can_move(*built, piston.wall)) piston.wall = -1;
     entry.require(piston.wall >= 0, "wall",
-                  flat.empty() ? "a vessel with flat walls and sharp edges" : one_of(flat));
+        flat.empty() ? "a vessel with flat walls and sharp edges" : one_of(flat));
     for (const auto& other : spec.pistons)
-      entry.require(other.wall != piston.wall || piston.wall < 0, "wall", "one piston for each wall");
+      entry.require(
+          other.wall != piston.wall || piston.wall < 0, "wall", "one piston for each wall");
     if (piston.distance.zero() && piston.speed.zero() && piston.swings.empty())
       entry.problem(first_of(entry, {"speed", "distance", "wall"}), "a piston that does not move",
-                    "one with distance, speed or swing");
+          "one with distance, speed or swing");
     spec.pistons.push_back(std::move(piston));
   });
 }
@@ -533,7 +541,8 @@ void read_pistons(Section& vessel, Entries<PistonTable>& entries, CaseSpec& spec
 void require_travel(std::vector<Section>& entries, const CaseSpec& spec) {
   if (entries.empty()) return;
   const auto vessel = build_mill<double>(spec).vessel;
-  const double from = spec.initial_time.to<double>(), to = spec.end_time ? spec.end_time->to<double>() : from;
+  const double from = spec.initial_time.to<double>(),
+               to = spec.end_time ? spec.end_time->to<double>() : from;
   const double diameter = spec.largest_diameter();
   const auto normal = [&](int wall) { return vessel.normal(wall, Vec3<double>::Zero()); };
   for (std::size_t k = 0; k < spec.pistons.size(); ++k) {
@@ -547,7 +556,7 @@ void require_travel(std::vector<Section>& entries, const CaseSpec& spec) {
     const double depth = depth_of(vessel, piston.wall);
     if (own.least < -1e-14 * depth)  // beyond rounding
       entry.problem("wall", fmt::format("a piston that leaves the vessel by {:g} m", -own.least),
-                    "a distance, speed and swings that keep it inside");
+          "a distance, speed and swings that keep it inside");
     if (const auto* polyhedron = vessel.get_if<PolyhedronVessel>()) {
       if (k == 0) require_room(entry, *polyhedron, spec.pistons, from, to, diameter);
       continue;
@@ -558,15 +567,16 @@ void require_travel(std::vector<Section>& entries, const CaseSpec& spec) {
         room -= travel_of(other, from, to).most;
     if (room < diameter)
       entry.problem("wall",
-                    fmt::format("a piston that comes too close to the other end: it leaves {:g} m",
-                                std::max(room, 0.0)),
-                    fmt::format("room for a ball of {:g} m at all times", diameter));
+          fmt::format("a piston that comes too close to the other end: it leaves {:g} m",
+              std::max(room, 0.0)),
+          fmt::format("room for a ball of {:g} m at all times", diameter));
   }
 }
 
 QuantityVector Solid::core() const {
   QuantityVector half;
-  for (std::size_t k = 0; k < 3; ++k) half[k] = quantity_of(rational(size[k]) / 2 - rational(rounding));
+  for (std::size_t k = 0; k < 3; ++k)
+    half[k] = quantity_of(rational(size[k]) / 2 - rational(rounding));
   return half;
 }
 
@@ -584,9 +594,10 @@ void read_bodies(Entries<BodyTable>& entries, CaseSpec& spec) {
         std::find_if(joints.begin(), joints.end(), [](const auto& joint) { return joint.rotates; });
     if (copied && turning == joints.end())
       return entry.problem("repeat", "copies without a rotating joint",
-                           "a joint with 'rotate', about whose axis they are placed");
+          "a joint with 'rotate', about whose axis they are placed");
     const int material = material_of(entry, "material", table.material, spec);
-    const std::string name = table.name.empty() ? fmt::format("body {}", spec.bodies.size()) : table.name;
+    const std::string name =
+        table.name.empty() ? fmt::format("body {}", spec.bodies.size()) : table.name;
     const auto place = turning - joints.begin();
     for (int k = 0; k < table.repeat; ++k) {
       auto copy = *body;
@@ -609,7 +620,7 @@ void read_bodies(Entries<BodyTable>& entries, CaseSpec& spec) {
   if (spec.bodies.empty()) return;
   if (spec.wall_materials.size() > most) {
     entries.back().problem("repeat", fmt::format("{} walls and bodies", spec.wall_materials.size()),
-                           fmt::format("at most {}", most));
+        fmt::format("at most {}", most));
     spec.bodies.clear();
   }
   set_clock(spec);
@@ -637,8 +648,9 @@ void require_bodies_inside(Entries<BodyTable>& entries, const CaseSpec& spec) {
       const auto& where = spec.bodies[k].where;
       for (auto& entry : entries)
         if (entry.where() == where)
-          entry.problem("joint", fmt::format("{} outside of the vessel at {:g} s", spec.bodies[k].name, time),
-                        "joints that keep it inside");
+          entry.problem("joint",
+              fmt::format("{} outside of the vessel at {:g} s", spec.bodies[k].name, time),
+              "joints that keep it inside");
       return;
     }
   }

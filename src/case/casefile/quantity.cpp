@@ -70,7 +70,8 @@ const std::vector<Unit>& units() {
       {D::angular_speed, {"rad/s"}, 1},
       {D::angular_speed, {"deg/s"}, pi_by(180)},
       {D::angular_speed, {"Hz", "hertz"}, Quantity(2) * pi_by(1)},
-      {D::angular_speed, {"rpm", "cpm", "r/min", "rev/min", "cycles/min", "1/min", "min-1"}, pi_by(30)},
+      {D::angular_speed, {"rpm", "cpm", "r/min", "rev/min", "cycles/min", "1/min", "min-1"},
+          pi_by(30)},
       {D::acceleration, {"m/s2", "m/s/s"}, 1},
       {D::acceleration, {"cm/s2", "cm/s/s"}, {1, 100}},
       {D::acceleration, {"in/s2", "in/s/s"}, inch},
@@ -88,8 +89,8 @@ const std::vector<Unit>& units() {
 
 /// "g/cm³", "g / cm^3" and "g/cm3" are one spelling; "µ" is u, "°" is deg.
 std::string plain_unit(std::string_view text) {
-  constexpr std::pair<std::string_view, std::string_view> replacements[]{
-      {"²", "2"}, {"³", "3"}, {"**", ""}, {"^", ""}, {"µ", "u"}, {"μ", "u"}, {"°", "deg"}, {" ", ""}};
+  constexpr std::pair<std::string_view, std::string_view> replacements[]{{"²", "2"}, {"³", "3"},
+      {"**", ""}, {"^", ""}, {"µ", "u"}, {"μ", "u"}, {"°", "deg"}, {" ", ""}};
   std::string unit(text);
   for (const auto& [from, to] : replacements)
     for (auto at = unit.find(from); at != std::string::npos; at = unit.find(from, at + to.size()))
@@ -104,12 +105,14 @@ const Unit* find_unit(std::string_view spelling, Dimension dimension) {
 }
 
 /// In the order of the enumerators.
-constexpr std::array dimension_names{
-    "a plain number",     "a length", "a mass",           "a time",          "an angle",  "an energy",
-    "an energy per mass", "a speed",  "an angular speed", "an acceleration", "a density", "a pressure"};
+constexpr std::array dimension_names{"a plain number", "a length", "a mass", "a time", "an angle",
+    "an energy", "an energy per mass", "a speed", "an angular speed", "an acceleration",
+    "a density", "a pressure"};
 static_assert(dimension_names.size() == static_cast<std::size_t>(Dimension::pressure) + 1);
 
-std::string name(Dimension dimension) { return dimension_names[static_cast<std::size_t>(dimension)]; }
+std::string name(Dimension dimension) {
+  return dimension_names[static_cast<std::size_t>(dimension)];
+}
 
 /// The arc cotangent of x times 2^bits, with an error of a few hundred at most.
 cpp_int arc_cotangent(int x, int bits) {
@@ -233,7 +236,7 @@ std::string Quantity::text() const {
 bool has_comma(std::string_view text) {
   const auto end = text.find_first_not_of("+-0123456789.");
   return end != std::string_view::npos && text[end] == ',' && end + 1 < text.size() &&
-         is_digit(text[end + 1]);
+      is_digit(text[end + 1]);
 }
 
 std::optional<Quantity> parse_decimal(std::string_view text) {
@@ -251,7 +254,8 @@ std::optional<Quantity> parse_decimal(std::string_view text) {
   const auto first = digits.find_first_not_of('0');
   const cpp_int mantissa(first == std::string::npos ? std::string("0") : digits.substr(first));
   const cpp_int power = pow(cpp_int(10), static_cast<unsigned>(std::abs(exponent)));
-  const Quantity value = quantity_of(exponent < 0 ? Rational(mantissa, power) : Rational(mantissa * power));
+  const Quantity value =
+      quantity_of(exponent < 0 ? Rational(mantissa, power) : Rational(mantissa * power));
   return text.front() == '-' ? -value : value;
 }
 
@@ -262,7 +266,8 @@ std::optional<std::pair<double, std::string>> split_number(const std::string& te
   return std::pair{number->to<double>(), text.substr(end)};
 }
 
-QuantityResult parse_quantity(std::string_view text, Dimension dimension, SizeLimit limit, Plain plain) {
+QuantityResult parse_quantity(
+    std::string_view text, Dimension dimension, SizeLimit limit, Plain plain) {
   const auto problem = [&](const std::string& what) {
     return QuantityProblem{fmt::format("\"{}\" ({})", text, what)};
   };
@@ -286,7 +291,8 @@ QuantityResult parse_quantity(std::string_view text, Dimension dimension, SizeLi
   }
   if (!known && plain == Plain::refused && dimension != Dimension::none) return problem("no unit");
   const Quantity quantity = known ? *number * known->factor : *number;
-  if (!of_physical_size(quantity, limit)) return problem("its size is outside of 1e-30 to 1e30 in SI units");
+  if (!of_physical_size(quantity, limit))
+    return problem("its size is outside of 1e-30 to 1e30 in SI units");
   return quantity;
 }
 

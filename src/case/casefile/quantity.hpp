@@ -59,12 +59,10 @@ class Quantity {
   friend bool operator==(const Quantity& a, const Quantity& b) { return (a <=> b) == 0; }
 
   /// Nearest value of a scalar type; the conversion to a wider one does not go through double.
-  template <class Real>
-  Real to() const;
+  template <class Real> Real to() const;
 
   /// Canonical text, "119/25000" or "1/12*pi", for digests.
   std::string text() const;
-
  private:
   std::shared_ptr<const Exact> value_;  ///< shared by copies
 };
@@ -84,7 +82,7 @@ enum class Plain { refused, is_si };
 
 /// Number and unit, e.g. "1054 rpm", "8 g/cm^3", "-9.8 m/s²".
 QuantityResult parse_quantity(std::string_view text, Dimension dimension,
-                              SizeLimit limit = SizeLimit::physical, Plain plain = Plain::refused);
+    SizeLimit limit = SizeLimit::physical, Plain plain = Plain::refused);
 
 /// Whether a text begins with a number that has a comma between its digits.
 bool has_comma(std::string_view text);

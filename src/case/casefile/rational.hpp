@@ -16,7 +16,8 @@ struct Quantity::Exact {
 inline const Rational& rational(const Quantity& quantity) { return quantity.exact().value; }
 
 inline Quantity quantity_of(Rational value, int pi_power = 0) {
-  return Quantity(std::make_shared<const Quantity::Exact>(Quantity::Exact{std::move(value)}), pi_power);
+  return Quantity(
+      std::make_shared<const Quantity::Exact>(Quantity::Exact{std::move(value)}), pi_power);
 }
 
 /// The number in SI units: exact without a power of pi, otherwise correct to more than `bits`.

@@ -27,8 +27,9 @@ double radical_inverse(int k, int base) {
 Place nearest(const Body& body, const model::ChainPose<double>& pose, const Place& place) {
   const auto local = body.motion.position_in_vessel(pose, place);
   const double away = body.shape.clearance(local) + body.shape.rounding();
-  return away > 0 ? Place(place - body.motion.direction_to_inertial(pose, body.shape.normal(0, local)) * away)
-                  : place;
+  return away > 0
+      ? Place(place - body.motion.direction_to_inertial(pose, body.shape.normal(0, local)) * away)
+      : place;
 }
 
 /// Distance of two bodies, by projections in turn onto their cores; 0 or less if they overlap [m].
@@ -55,8 +56,8 @@ std::vector<Place> corners_of(const model::RoundedBody<double>& shape) {
       const auto turn = numerics::sin_cos_turns<double>((k + 0.5) / sides);
       const double wide = half[0] / std::cos(numerics::pi<double>() / sides);
       corners.push_back(shape.is_round()
-                            ? Place(wide * turn.cos, up * half[1], wide * turn.sin)
-                            : Place((k % 2 ? 1 : -1) * half[0], up * half[1], (k / 2 ? 1 : -1) * half[2]));
+              ? Place(wide * turn.cos, up * half[1], wide * turn.sin)
+              : Place((k % 2 ? 1 : -1) * half[0], up * half[1], (k / 2 ? 1 : -1) * half[2]));
     }
   return corners;
 }
@@ -75,13 +76,14 @@ double depth(const model::AnyVessel<double>& vessel, int wall, const Place& plac
 }
 
 /// Distance of a body from a wall of the convex vessel [m]: least at a corner.
-double distance(const Body& body, const std::vector<Place>& corners, const model::Mill<double>& mill,
-                int wall, const Instant<double>& when) {
+double distance(const Body& body, const std::vector<Place>& corners,
+    const model::Mill<double>& mill, int wall, const Instant<double>& when) {
   const auto pose = body.motion.pose(when);
   const auto of_vessel = mill.motion.pose(when);
   double least = INFINITY;
   for (const auto& corner : corners) {
-    const Place place = mill.motion.position_in_vessel(of_vessel, body.motion.to_inertial(pose, corner));
+    const Place place =
+        mill.motion.position_in_vessel(of_vessel, body.motion.to_inertial(pose, corner));
     least = std::min(least, depth(mill.vessel, wall, place));
   }
   return least - body.shape.rounding();
@@ -95,13 +97,14 @@ struct Least {
 /// @param change  the largest rate of the gap [m/s]
 /// @param enough  parts where the gap is certainly larger are left
 /// @param finest  to which the gap is known [m]
-void search(const std::function<double(double)>& gap, double from, double to, double change, double enough,
-            double finest, Least& least) {
+void search(const std::function<double(double)>& gap, double from, double to, double change,
+    double enough, double finest, Least& least) {
   const double middle = (from + to) / 2, value = gap(middle);
   least.joined = least.joined && !(value > 0);
   if (value < least.gap) least = {value, middle, least.joined};
   const double possible = value - change * (to - from) / 2;
-  if (possible > std::min(enough, std::max(least.gap, 0.0)) || change * (to - from) < finest) return;
+  if (possible > std::min(enough, std::max(least.gap, 0.0)) || change * (to - from) < finest)
+    return;
   Interruption::check();
   search(gap, from, middle, change, enough, finest, least);
   search(gap, middle, to, change, enough, finest, least);
@@ -118,14 +121,15 @@ double free_volume(const model::Mill<double>& mill, const Instant<double>& when)
   const Place half = mill.vessel.half_sizes();
   int inside = 0, outside_of_bodies = 0;
   for (int k = 1; k <= points; ++k) {
-    const Place local{half[0] * (2 * radical_inverse(k, 2) - 1), half[1] * (2 * radical_inverse(k, 3) - 1),
-                      half[2] * (2 * radical_inverse(k, 5) - 1)};
+    const Place local{half[0] * (2 * radical_inverse(k, 2) - 1),
+        half[1] * (2 * radical_inverse(k, 3) - 1), half[2] * (2 * radical_inverse(k, 5) - 1)};
     if (!mill.vessel.contains(local)) continue;
     ++inside;
     const Place place = mill.motion.to_inertial(pose, local);
     bool is_free = true;
     for (std::size_t b = 0; const auto& body : mill.bodies)
-      is_free = is_free && body.shape.clearance(body.motion.position_in_vessel(poses[b++], place)) > 0;
+      is_free =
+          is_free && body.shape.clearance(body.motion.position_in_vessel(poses[b++], place)) > 0;
     outside_of_bodies += is_free ? 1 : 0;
   }
   return inside > 0 ? mill.vessel.volume() * outside_of_bodies / inside : 0;
@@ -147,7 +151,8 @@ std::vector<NarrowGap> narrow_gaps(const CaseSpec& spec, const model::Mill<doubl
     }
   };
   for (const auto& body : mill.bodies) look_at(body.motion.joints().list);
-  if (const auto* chain = mill.motion.get_if<model::ChainMotion<double>>()) look_at(chain->joints().list);
+  if (const auto* chain = mill.motion.get_if<model::ChainMotion<double>>())
+    look_at(chain->joints().list);
   const double from = spec.initial_time.to<double>();
   double to = from + slowest;
   if (spec.end_time) {
@@ -160,18 +165,20 @@ std::vector<NarrowGap> narrow_gaps(const CaseSpec& spec, const model::Mill<doubl
       for (const auto& axis : {Place(0, 0, 0), Place(1, 0, 0), Place(0, 1, 0)}) {
         const auto at = [&](double time) -> Place {
           const auto when = clock.at(time);
-          return other.position_in_vessel(other.pose(when),
-                                          body.motion.to_inertial(body.motion.pose(when), axis));
+          return other.position_in_vessel(
+              other.pose(when), body.motion.to_inertial(body.motion.pose(when), axis));
         };
         if (norm<double>(Place(at(from) - at(from + share * (to - from)))) > 1e-9) return true;
       }
     return false;
   };
-  const auto judge = [&](const Body& body, const std::string& other, double speed, const auto& gap) {
+  const auto judge = [&](const Body& body, const std::string& other, double speed,
+                         const auto& gap) {
     const double change = body.motion.wall_speed(body.shape.size()) + speed;
     Least least;
     const double finest = std::max(diameter / 200, change * (to - from) / 20000);
-    search([&](double time) { return gap(clock.at(time)); }, from, to, change, diameter, finest, least);
+    search([&](double time) { return gap(clock.at(time)); }, from, to, change, diameter, finest,
+        least);
     if (!least.joined && least.gap < diameter)
       found.push_back({body.name.label, other, std::max(least.gap, 0.0), least.time});
   };
@@ -182,13 +189,13 @@ std::vector<NarrowGap> narrow_gaps(const CaseSpec& spec, const model::Mill<doubl
     if (moves(body, mill.motion))
       for (int wall = 0; wall < (rounded ? 1 : mill.vessel.wall_count()); ++wall)
         judge(body, rounded ? "vessel" : mill.vessel.walls()[static_cast<std::size_t>(wall)].label,
-              mill.motion.wall_speed(mill.vessel.reach()),
-              [&](const auto& when) { return distance(body, corners, mill, wall, when); });
+            mill.motion.wall_speed(mill.vessel.reach()),
+            [&](const auto& when) { return distance(body, corners, mill, wall, when); });
     for (std::size_t other = k + 1; other < mill.bodies.size(); ++other) {
       const auto& partner = mill.bodies[other];
       if (moves(body, partner.motion))
         judge(body, partner.name.label, partner.motion.wall_speed(partner.shape.size()),
-              [&](const auto& when) { return distance(body, partner, when); });
+            [&](const auto& when) { return distance(body, partner, when); });
     }
   }
   return found;

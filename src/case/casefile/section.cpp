@@ -16,11 +16,11 @@ namespace edmill::casefile {
 
 namespace {
 
-constexpr std::pair<std::string_view, Colour> named_colours[]{
-    {"black", {0, 0, 0}},      {"blue", {0, 0, 1}},     {"cyan", {0, 1, 1}},      {"fuchsia", {1, 0, 1}},
-    {"grey", {0.5, 0.5, 0.5}}, {"green", {0, 0.5, 0}},  {"lime", {0, 1, 0}},      {"magenta", {1, 0, 1}},
-    {"maroon", {0.5, 0, 0}},   {"navy", {0, 0, 0.5}},   {"olive", {0.5, 0.5, 0}}, {"purple", {0.5, 0, 0.5}},
-    {"red", {1, 0, 0}},        {"teal", {0, 0.5, 0.5}}, {"white", {1, 1, 1}},     {"yellow", {1, 1, 0}}};
+constexpr std::pair<std::string_view, Colour> named_colours[]{{"black", {0, 0, 0}},
+    {"blue", {0, 0, 1}}, {"cyan", {0, 1, 1}}, {"fuchsia", {1, 0, 1}}, {"grey", {0.5, 0.5, 0.5}},
+    {"green", {0, 0.5, 0}}, {"lime", {0, 1, 0}}, {"magenta", {1, 0, 1}}, {"maroon", {0.5, 0, 0}},
+    {"navy", {0, 0, 0.5}}, {"olive", {0.5, 0.5, 0}}, {"purple", {0.5, 0, 0.5}}, {"red", {1, 0, 0}},
+    {"teal", {0, 0.5, 0.5}}, {"white", {1, 1, 1}}, {"yellow", {1, 1, 0}}};
 
 /// Byte position of a column that counts characters.
 std::size_t byte_of_column(const std::string& line, std::size_t column) {
@@ -37,24 +37,25 @@ std::string hint_of(const Document& document, std::size_t line) {
   if (line == 0 || line > document.lines.size()) return "";
   const std::string& text = document.lines[line - 1];
   const auto value = text.find_first_not_of(" \t", text.find('=') + 1);
-  const bool comma =
-      text.find('=') != std::string::npos && value != std::string::npos && has_comma(text.substr(value));
+  const bool comma = text.find('=') != std::string::npos && value != std::string::npos &&
+      has_comma(text.substr(value));
   for (const auto* quote : {"\u201c", "\u201d", "\u2018", "\u2019"})
-    if (text.find(quote) != std::string::npos) return " with a typographic quotation mark in place of \"";
+    if (text.find(quote) != std::string::npos)
+      return " with a typographic quotation mark in place of \"";
   return comma ? " with a comma in place of a decimal point" : "";
 }
 
 /// Parses the index of an array entry, "3"; nothing if there is no such entry.
 std::optional<std::size_t> entry_of(const toml::array& array, const std::string& index) {
-  if (index.empty() || index.size() > 6 || index.find_first_not_of("0123456789") != std::string::npos)
+  if (index.empty() || index.size() > 6 ||
+      index.find_first_not_of("0123456789") != std::string::npos)
     return std::nullopt;
   const std::size_t place = std::stoul(index);
   return place < array.size() ? std::optional(place) : std::nullopt;
 }
 
 /// The child of a table by key, or of an array by index; null if there is none.
-template <class Node>
-Node* child_of(Node& parent, const std::string& key) {
+template <class Node> Node* child_of(Node& parent, const std::string& key) {
   if (auto* table = parent.as_table()) return table->get(key);
   auto* array = parent.as_array();
   const auto entry = array ? entry_of(*array, key) : std::nullopt;
@@ -108,13 +109,13 @@ void apply(toml::table& root, Document& document, const std::string& text) {
 }  // namespace
 
 std::string kind_of(const toml::node& node) {
-  return node.is_table()            ? "a table"
-         : node.is_array()          ? "an array"
-         : node.is_string()         ? "a text"
-         : node.is_integer()        ? "an integer"
-         : node.is_floating_point() ? "a number"
-         : node.is_boolean()        ? "true or false"
-                                    : "a date or time";
+  return node.is_table()         ? "a table"
+      : node.is_array()          ? "an array"
+      : node.is_string()         ? "a text"
+      : node.is_integer()        ? "an integer"
+      : node.is_floating_point() ? "a number"
+      : node.is_boolean()        ? "true or false"
+                                 : "a date or time";
 }
 
 std::string one_of(const std::vector<std::string>& names) {
@@ -135,7 +136,7 @@ const toml::node* node_at(const toml::table& root, const std::string& path) {
 }
 
 toml::table parse_toml(const std::string& text, const std::string& kind, Document& document,
-                       const std::vector<std::string>& settings) {
+    const std::vector<std::string>& settings) {
   std::istringstream stream(text);
   for (std::string line; std::getline(stream, line);) document.lines.push_back(line);
   if (const std::string mark = "\xEF\xBB\xBF"; text.starts_with(mark))
@@ -147,7 +148,7 @@ toml::table parse_toml(const std::string& text, const std::string& kind, Documen
   } catch (const toml::parse_error& error) {
     const auto line = error.source().begin.line;
     throw InputError(document.name + ":" + std::to_string(line) + ": invalid TOML (" +
-                     std::string(error.description()) + ")" + hint_of(document, line) + ", expected " + kind);
+        std::string(error.description()) + ")" + hint_of(document, line) + ", expected " + kind);
   }
 }
 
@@ -188,17 +189,19 @@ std::string Document::raw(const toml::node& node, const std::string& path) const
   const auto first = byte_of_column(whole, source.begin.column);
   std::string text = whole.substr(first, byte_of_column(whole, source.end.column) - first);
   std::erase(text, '_');
-  while (!text.empty() && (text.back() == ' ' || text.back() == ',' || text.back() == '\r')) text.pop_back();
+  while (!text.empty() && (text.back() == ' ' || text.back() == ',' || text.back() == '\r'))
+    text.pop_back();
   return text;
 }
 
 void Document::report(const toml::node* node, const std::string& path, const std::string& found,
-                      const std::string& expected) {
+    const std::string& expected) {
   for (auto dot = path.find('.'); dot != std::string::npos; dot = path.find('.', dot + 1))
     if (problem_keys.count(path.substr(0, dot))) return;
   if (!problem_keys.insert(path).second) return;
   const auto what = found == "nothing" ? "missing" : "found " + found;
-  problems.push_back(where(node, path) + ": key '" + path + "': " + what + ", expected " + expected);
+  problems.push_back(
+      where(node, path) + ": key '" + path + "': " + what + ", expected " + expected);
 }
 
 std::vector<std::string> Document::problems_by_line() const {
@@ -208,7 +211,7 @@ std::vector<std::string> Document::problems_by_line() const {
   };
   auto sorted = problems;
   std::stable_sort(sorted.begin(), sorted.end(),
-                   [&](const auto& a, const auto& b) { return line_of(a) < line_of(b); });
+      [&](const auto& a, const auto& b) { return line_of(a) < line_of(b); });
   return sorted;
 }
 
@@ -236,14 +239,17 @@ std::vector<Section> Section::sections(const std::string& key, bool may_be_empty
     return entries;
   }
   for (std::size_t k = 0; k < array->size(); ++k)
-    entries.emplace_back(*document_, array->get(k)->as_table(), full(key) + "." + std::to_string(k));
+    entries.emplace_back(
+        *document_, array->get(k)->as_table(), full(key) + "." + std::to_string(k));
   return entries;
 }
 
-std::optional<Quantity> Section::quantity_in(const toml::node& node, const std::string& path,
-                                             Dimension dimension, Plain plain) {
-  if (!node.is_string() && !node.is_number()) return refuse(node, path, kind_of(node), describe(dimension));
-  const auto result = parse_quantity(document_->raw(node, path), dimension, document_->sizes, plain);
+std::optional<Quantity> Section::quantity_in(
+    const toml::node& node, const std::string& path, Dimension dimension, Plain plain) {
+  if (!node.is_string() && !node.is_number())
+    return refuse(node, path, kind_of(node), describe(dimension));
+  const auto result =
+      parse_quantity(document_->raw(node, path), dimension, document_->sizes, plain);
   if (const auto* problem = std::get_if<QuantityProblem>(&result))
     return refuse(node, path, problem->found, describe(dimension));
   return std::get<Quantity>(result);
@@ -254,8 +260,8 @@ std::optional<Quantity> Section::quantity(const std::string& key, Dimension dime
   return node ? quantity_in(*node, full(key), dimension, Plain::refused) : std::nullopt;
 }
 
-std::optional<Quantity> Section::item(const toml::array& array, const std::string& path, std::size_t k,
-                                      Dimension dimension) {
+std::optional<Quantity> Section::item(
+    const toml::array& array, const std::string& path, std::size_t k, Dimension dimension) {
   return quantity_in(*array.get(k), path + "." + std::to_string(k), dimension, Plain::is_si);
 }
 
@@ -265,8 +271,8 @@ std::optional<QuantityVector> Section::vector(const std::string& key, Dimension 
   const std::string expected = "an array of three numbers or texts, each " + describe(dimension);
   const auto* array = node->as_array();
   if (!array || array->size() != 3)
-    return refuse(*node, full(key), array ? "an array of " + std::to_string(array->size()) : kind_of(*node),
-                  expected);
+    return refuse(*node, full(key),
+        array ? "an array of " + std::to_string(array->size()) : kind_of(*node), expected);
   QuantityVector vector;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto value = item(*array, full(key), k, dimension);
@@ -276,8 +282,8 @@ std::optional<QuantityVector> Section::vector(const std::string& key, Dimension 
   return vector;
 }
 
-std::vector<std::array<Quantity, 2>> Section::pairs(const std::string& key, Dimension first,
-                                                    Dimension second) {
+std::vector<std::array<Quantity, 2>> Section::pairs(
+    const std::string& key, Dimension first, Dimension second) {
   const auto* node = find(key);
   if (!node) return {};
   const auto* array = node->as_array();
@@ -287,14 +293,15 @@ std::vector<std::array<Quantity, 2>> Section::pairs(const std::string& key, Dime
     const std::string path = full(key) + "." + std::to_string(k);
     if (!pair || pair->size() != 2) {
       document_->report(array->get(k), path, kind_of(*array->get(k)),
-                        "an array of two: " + describe(first) + " and " + describe(second));
+          "an array of two: " + describe(first) + " and " + describe(second));
       continue;
     }
     const auto one = item(*pair, path, 0, first), two = item(*pair, path, 1, second);
     if (one && two) pairs.push_back({*one, *two});
   }
   if (!array || array->empty())
-    document_->report(node, full(key), array ? "an empty array" : kind_of(*node), "an array of pairs");
+    document_->report(
+        node, full(key), array ? "an empty array" : kind_of(*node), "an array of pairs");
   return pairs;
 }
 
@@ -304,8 +311,8 @@ std::optional<std::uint64_t> Section::count(const std::string& key) {
   const auto* integer = node->as_integer();
   if (!integer || integer->get() < 0)
     return refuse(*node, full(key),
-                  node->is_value() ? "\"" + document_->raw(*node, full(key)) + "\"" : kind_of(*node),
-                  "an integer, 0 or more");
+        node->is_value() ? "\"" + document_->raw(*node, full(key)) + "\"" : kind_of(*node),
+        "an integer, 0 or more");
   return static_cast<std::uint64_t>(integer->get());
 }
 
@@ -341,8 +348,8 @@ Colour Section::colour(const std::string& key, const Colour& fallback) {
   std::vector<std::string_view> names;
   for (const auto& [known, colour] : named_colours) names.push_back(known);
   problem(key, node->is_string() ? "\"" + node->as_string()->get() + "\"" : kind_of(*node),
-          fmt::format("three integers from 0 to 255, three decimals from 0 to 1, or one of {}",
-                      fmt::join(names, ", ")));
+      fmt::format("three integers from 0 to 255, three decimals from 0 to 1, or one of {}",
+          fmt::join(names, ", ")));
   return fallback;
 }
 
@@ -365,19 +372,22 @@ std::string Section::kind(const std::string& key, const std::vector<std::string>
 std::vector<std::string> Section::keys() const {
   std::multimap<toml::source_position, std::string> found;
   if (table_)
-    for (const auto& [key, node] : *table_) found.emplace(key.source().begin, std::string(key.str()));
+    for (const auto& [key, node] : *table_)
+      found.emplace(key.source().begin, std::string(key.str()));
   std::vector<std::string> keys;
   for (auto& [place, key] : found) keys.push_back(std::move(key));
   return keys;
 }
 
 std::optional<std::string> Section::setting_of(const toml::node& node, const std::string& path) {
-  if (const auto* text = node.as_string(); text && text->get().find_first_of("\n\r") != std::string::npos)
+  if (const auto* text = node.as_string();
+      text && text->get().find_first_of("\n\r") != std::string::npos)
     return refuse(node, path, "a text of several lines", "a text in one line");
   const bool in_one_line = node.source().begin.line == node.source().end.line;
   const auto* array = node.as_array();
   const bool of_tables = array && !array->empty() && array->get(0)->is_table();
-  if (node.is_string() || node.is_number() || node.is_boolean() || (array && in_one_line && !of_tables))
+  if (node.is_string() || node.is_number() || node.is_boolean() ||
+      (array && in_one_line && !of_tables))
     return document_->raw(node, path);
   if (of_tables) return list_of(*array, path);
   return refuse(node, path, kind_of(node), "a value for this key");
@@ -395,7 +405,7 @@ std::optional<std::string> Section::list_of(const toml::array& entries, const st
       const auto text = setting_of(value, place + "." + std::string(key.str()));
       if (!text) return std::nullopt;
       row += fmt::format("{}{} = {}", row.empty() ? "" : ", ", key.str(),
-                         value.is_string() ? "\"" + *text + "\"" : *text);
+          value.is_string() ? "\"" + *text + "\"" : *text);
     }
     list += (list.empty() ? "{" : ", {") + row + "}";
   }
@@ -421,8 +431,8 @@ std::vector<std::string> Section::settings(const std::string& key, Twice twice) 
   const auto* array = node->as_array();
   if (!array || array->empty()) {
     const std::string dotted = node->is_table() ? "; write a key with dots in quotes" : "";
-    document_->report(node, full(key), array ? "an empty array" : kind_of(*node),
-                      "an array of values" + dotted);
+    document_->report(
+        node, full(key), array ? "an empty array" : kind_of(*node), "an array of values" + dotted);
     return {};
   }
   std::vector<std::string> values;
@@ -437,7 +447,8 @@ std::vector<std::string> Section::settings(const std::string& key, Twice twice) 
   return values;
 }
 
-void Section::problem(const std::string& key, const std::string& found, const std::string& expected) {
+void Section::problem(
+    const std::string& key, const std::string& found, const std::string& expected) {
   const auto* node = node_of(key);
   document_->report(node ? node : place_, full(key), found, expected);
 }

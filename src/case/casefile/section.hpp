@@ -37,8 +37,7 @@ struct Document {
   std::vector<std::string> problems_by_line() const;
   /// Adds a problem. Each key gets at most one; inside of an invalid table there are none.
   void report(const toml::node* node, const std::string& path, const std::string& found,
-              const std::string& expected);
-
+      const std::string& expected);
  private:
   using Override = std::pair<const std::string, std::string>;
   /// The command line's setting of a key or of a table that contains it; null for others.
@@ -50,7 +49,7 @@ struct Document {
 /// @param settings  "section.key=value", over the text; errors become problems of the document
 /// @throws InputError when the text is not valid TOML
 toml::table parse_toml(const std::string& text, const std::string& kind, Document& document,
-                       const std::vector<std::string>& settings = {});
+    const std::vector<std::string>& settings = {});
 
 /// "balls", "0", "count" of "balls.0.count".
 std::vector<std::string> parts_of(const std::string& path);
@@ -65,8 +64,10 @@ std::string kind_of(const toml::node& node);
 class Section {
  public:
   /// @param table  null for a section that is absent: look-ups then find nothing
-  Section(Document& document, const toml::table* table, std::string path, const toml::node* place = nullptr)
-      : document_(&document), table_(table), path_(std::move(path)), place_(place ? place : table) {}
+  Section(Document& document, const toml::table* table, std::string path,
+      const toml::node* place = nullptr)
+      : document_(&document), table_(table), path_(std::move(path)), place_(place ? place : table) {
+  }
 
   bool present() const { return table_ != nullptr; }
   const std::string& path() const { return path_; }
@@ -80,7 +81,8 @@ class Section {
   std::optional<Quantity> quantity(const std::string& key, Dimension dimension);
   std::optional<QuantityVector> vector(const std::string& key, Dimension dimension);
   /// An array of pairs, such as the points of a table; empty when it is not one, which is reported.
-  std::vector<std::array<Quantity, 2>> pairs(const std::string& key, Dimension first, Dimension second);
+  std::vector<std::array<Quantity, 2>> pairs(
+      const std::string& key, Dimension first, Dimension second);
   std::optional<std::uint64_t> count(const std::string& key);
   std::optional<std::string> text(const std::string& key);
   /// A name, or red, green and blue: integers up to 255 or decimals up to 1.
@@ -108,24 +110,25 @@ class Section {
   void require(bool good, const std::string& key, const std::string& expected);
   /// Reports every key that no look-up asked for.
   void reject_unknown_keys();
-
  private:
   std::string full(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
   /// Looks up a key and marks it as known.
   const toml::node* find(const std::string& key);
-  const toml::node* node_of(const std::string& key) const { return table_ ? table_->get(key) : nullptr; }
+  const toml::node* node_of(const std::string& key) const {
+    return table_ ? table_->get(key) : nullptr;
+  }
   /// Reports a value and returns nothing in its place.
   std::nullopt_t refuse(const toml::node& node, const std::string& path, const std::string& found,
-                        const std::string& expected) {
+      const std::string& expected) {
     document_->report(&node, path, found, expected);
     return std::nullopt;
   }
   /// Nothing when the value is no quantity, which is reported.
-  std::optional<Quantity> quantity_in(const toml::node& node, const std::string& path, Dimension dimension,
-                                      Plain plain);
+  std::optional<Quantity> quantity_in(
+      const toml::node& node, const std::string& path, Dimension dimension, Plain plain);
   /// An entry of an array.
-  std::optional<Quantity> item(const toml::array& array, const std::string& path, std::size_t k,
-                               Dimension dimension);
+  std::optional<Quantity> item(
+      const toml::array& array, const std::string& path, std::size_t k, Dimension dimension);
   std::optional<std::string> setting_of(const toml::node& node, const std::string& path);
   std::optional<std::string> list_of(const toml::array& entries, const std::string& path);
 

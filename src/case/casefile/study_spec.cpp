@@ -29,7 +29,7 @@ void check_study(Section& s, StudySpec& spec) {
       s.problem("case", "\"" + spec.case_file + "\", which cannot be read", "a case file");
     else if (asks_for_digits(spec.case_file))
       s.problem("case", "run.digits in '" + spec.case_file + "'",
-                "a case with run.precision: all runs of a study have one precision");
+          "a case with run.precision: all runs of a study have one precision");
   }
   if (!spec.precision.empty()) check_precision(s, spec.precision);
 }
@@ -57,7 +57,8 @@ void check_keys(Section& s, const SweepSpec& spec) {
     for (const auto& key : set.keys()) {
       check_key(set, key);
       for (const auto& axis : spec.grid)
-        if (axis.key == key) set.problem(key, "a key of [sweep.grid]", "the key in only one of the two");
+        if (axis.key == key)
+          set.problem(key, "a key of [sweep.grid]", "the key in only one of the two");
     }
   }
 }
@@ -67,8 +68,8 @@ void check_size(Section& s, const SweepSpec& spec) {
   for (const auto& axis : spec.grid) {
     runs *= std::max<std::uint64_t>(axis.values.size(), 1);
     if (runs > most_runs)
-      return s.problem("grid", "more than " + std::to_string(most_runs) + " runs",
-                       "fewer points or replicas");
+      return s.problem(
+          "grid", "more than " + std::to_string(most_runs) + " runs", "fewer points or replicas");
   }
 }
 
@@ -76,7 +77,8 @@ void read_range(Section& s, OptimizeVariable& variable) {
   const auto bound = [&](const char* key, const std::optional<std::string>& text) {
     const auto value = text && !has_comma(*text) ? split_number(*text) : std::nullopt;
     if (!value)
-      s.problem(key, text ? "\"" + *text + "\"" : "nothing", "a number with a decimal point, and its unit");
+      s.problem(key, text ? "\"" + *text + "\"" : "nothing",
+          "a number with a decimal point, and its unit");
     return value;
   };
   const auto low = bound("low", variable.least.text), high = bound("high", variable.most.text);
@@ -85,7 +87,8 @@ void read_range(Section& s, OptimizeVariable& variable) {
   variable.high = high->first;
   s.require(variable.unit == high->second, "high", "the same unit as 'low'");
   s.require(variable.low < variable.high, "high", "a value above 'low'");
-  const bool whole = variable.low == std::floor(variable.low) && variable.high == std::floor(variable.high);
+  const bool whole =
+      variable.low == std::floor(variable.low) && variable.high == std::floor(variable.high);
   s.require(!variable.integer || whole, "integer", "whole numbers for 'low' and 'high'");
 }
 
@@ -98,7 +101,8 @@ Spec read_study_file(const std::string& path, const std::string& section, const 
   Spec spec;
   spec.file = path;
   Section top(document, &root, "");
-  if (!top.has(section) && (top.has("mill") || top.has("vessel") || top.has("ball") || top.has("balls")))
+  if (!top.has(section) &&
+      (top.has("mill") || top.has("vessel") || top.has("ball") || top.has("balls")))
     throw InputError(path + ": found a case file, expected " + kind + ": use edmill run");
   if (!top.has(section)) top.problem(section, "nothing", "a section [" + section + "]");
   Section s = top.section(section);
@@ -150,7 +154,8 @@ SweepSpec read_sweep(const std::string& path) {
 
 OptimizeSpec read_optimize(const std::string& path) {
   return read_study_file<OptimizeSpec>(path, "optimize", [](Section& s, const OptimizeSpec& spec) {
-    s.require(spec.replicas_max >= spec.replicas_first, "replicas_max", "at least 'replicas_first'");
+    s.require(
+        spec.replicas_max >= spec.replicas_first, "replicas_max", "at least 'replicas_first'");
     const std::string expected = "1 to 3 entries [[optimize.variable]]";
     if (!s.has("variable")) s.problem("variable", "nothing", expected);
     s.require(spec.variables.size() <= 3, "variable", expected);

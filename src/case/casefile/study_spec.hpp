@@ -39,14 +39,15 @@ struct StudySpec {
     return cpu_limit ? cpu_limit->to<double>() : std::numeric_limits<double>::infinity();
   }
 
-  static constexpr Parameter seed_key{"seed", Dimension::none, "first seed", {0, 999999999999}, "1"};
+  static constexpr Parameter seed_key{
+      "seed", Dimension::none, "first seed", {0, 999999999999}, "1"};
   /// @param relative  "case file, relative to the sweep file"
   static void shared_keys(auto& s, auto&& row, const char* relative) {
     row(Parameter{"case", relative}.as("file").usually("required"), s.case_file);
     row(described_key("precision", "name of a scalar", "that of the case", "scalar of all runs"),
         s.precision);
     row({"max_cpu_time", Dimension::time, "processor time after which a run ends without a result",
-         Range::positive},
+            Range::positive},
         s.cpu_limit);
   }
 };
@@ -56,8 +57,8 @@ struct GridAxis {
   std::string key;
   std::vector<std::string> values;
   static constexpr const char* what = "Values of keys.";
-  static constexpr Parameter entry = described_key(
-      "*", "list of values", "", "values of a key of the case, named as in `--set`, or of `charge_ratio`");
+  static constexpr Parameter entry = described_key("*", "list of values", "",
+      "values of a key of the case, named as in `--set`, or of `charge_ratio`");
   static std::optional<GridAxis> read(Section& grid, const std::string& key);
 };
 
@@ -72,10 +73,10 @@ struct SweepPoint {
     row(Parameter{"name", "name of the point in the tables"}.usually("none"), p.name);
     row(Parameter{"set", "keys of the case with their values"}.usually("this or a list"), p.set);
     row(described_key("balls", "tables", "those of the case",
-                      "the whole list of batches, entries `[[sweep.point.balls]]`"),
+            "the whole list of batches, entries `[[sweep.point.balls]]`"),
         p.balls);
     row(described_key("ball", "tables", "those of the case",
-                      "the whole list of single balls, entries `[[sweep.point.ball]]`"),
+            "the whole list of single balls, entries `[[sweep.point.ball]]`"),
         p.ball);
   }
   static void check(Section& entry, std::vector<SweepPoint>& points);
@@ -89,11 +90,13 @@ struct SweepSpec : StudySpec {
   static constexpr const char* what = "Settings of a sweep.";
   static void keys(auto& s, auto&& row) {
     row(seed_key, s.seed);
-    row({"replicas", "number of runs of each point, with successive seeds", Range(1, most_runs), "1"},
+    row({"replicas", "number of runs of each point, with successive seeds", Range(1, most_runs),
+            "1"},
         s.replicas);
     shared_keys(s, row, "case file, relative to the sweep file");
     row({"grid", "every combination of the values, `[sweep.grid]`"}, s.grid);
-    row({"point", "single points, each with all of the grid, entries `[[sweep.point]]`"}, s.entries);
+    row({"point", "single points, each with all of the grid, entries `[[sweep.point]]`"},
+        s.entries);
   }
 };
 
@@ -112,7 +115,8 @@ struct OptimizeVariable {
     row(Parameter{"low", "lower bound"}.as("value").usually("required without `values`"), v.least);
     row(Parameter{"high", "upper bound"}.as("value").usually("required without `values`"), v.most);
     row({"integer", "whole numbers only", Range::any, "false"}, v.integer);
-    row(described_key("values", "list of values", "none", "the only values, in place of bounds"), v.values);
+    row(described_key("values", "list of values", "none", "the only values, in place of bounds"),
+        v.values);
   }
   static void check(Section& entry, std::vector<OptimizeVariable>& variables);
 };
@@ -124,7 +128,9 @@ inline constexpr std::array<std::string_view, 2> choices_of(Objective) {
 
 struct OptimizeSpec : StudySpec {
   Objective wanted{};
-  std::string objective() const { return std::string(choices_of(wanted)[static_cast<std::size_t>(wanted)]); }
+  std::string objective() const {
+    return std::string(choices_of(wanted)[static_cast<std::size_t>(wanted)]);
+  }
   std::uint64_t runs_max = 0, replicas_first = 3, replicas_max = 24, points = 5, refinements = 2;
   std::vector<OptimizeVariable> variables;
 
@@ -135,14 +141,16 @@ struct OptimizeSpec : StudySpec {
     row({"replicas_first", "number of runs of every point", {2, 1000}, "3"}, o.replicas_first);
     row({"replicas_max", "largest number of runs of a point that may be the best", {2, 1000}, "24"},
         o.replicas_max);
-    row({"points", "number of points of the first grid along each variable", {2, 100}, "5"}, o.points);
-    row({"refinements", "number of finer grids around the best point", {0, 20}, "2"}, o.refinements);
+    row({"points", "number of points of the first grid along each variable", {2, 100}, "5"},
+        o.points);
+    row({"refinements", "number of finer grids around the best point", {0, 20}, "2"},
+        o.refinements);
     shared_keys(o, row, "case file, relative to the optimisation file");
     row(described_key("objective", "name", "`\"specific_milling_dose_rate\"`",
-                      "quantity to maximise: this or `milling_dose_rate`"),
+            "quantity to maximise: this or `milling_dose_rate`"),
         o.wanted);
-    row({"variable", "variables of the search, one to three entries `[[optimize.variable]]`", Range::any,
-         nullptr, "required"},
+    row({"variable", "variables of the search, one to three entries `[[optimize.variable]]`",
+            Range::any, nullptr, "required"},
         o.variables);
   }
 };

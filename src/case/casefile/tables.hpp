@@ -16,11 +16,13 @@ struct SwingTable {
 
   static constexpr const char* what =
       "A list of tables: `swing = [{ amplitude = \"5 mm\", speed = \"1500 rpm\" }]`.";
-  static constexpr Parameter key{"swing", Dimension::none, "harmonic parts, amplitude sin(speed t + phase)"};
+  static constexpr Parameter key{
+      "swing", Dimension::none, "harmonic parts, amplitude sin(speed t + phase)"};
   static void keys(auto& s, auto&& row) {
     const Parameter amplitude{"amplitude", s.dimension, s.meaning};
     row(s.dimension == Dimension::none ? amplitude.as("angle or length") : amplitude, s.amplitude);
-    row({"speed", Dimension::angular_speed, "angular frequency, 2 pi times the frequency"}, s.speed);
+    row({"speed", Dimension::angular_speed, "angular frequency, 2 pi times the frequency"},
+        s.speed);
     row({"phase", Dimension::angle, "phase at time 0", Range::any, "0 deg"}, s.phase);
   }
 };
@@ -44,31 +46,33 @@ struct JointTable {
     const bool rotates = j.rotates.value_or(true), translates = !j.rotates.value_or(false);
     if (rotates)
       row(described_key("rotate", "axis", "this or `translate`",
-                        "axis of rotation in the frame of the previous joint: `\"x\"`, `\"y\"`, `\"z\"` or "
-                        "three numbers"),
+              "axis of rotation in the frame of the previous joint: `\"x\"`, `\"y\"`, `\"z\"` or "
+              "three numbers"),
           j.axis);
     if (translates)
       row(described_key("translate", "axis or three lengths", "this or `rotate`",
-                        "axis of translation: `\"x\"`, `\"y\"`, `\"z\"`, or three numbers with `speed` or "
-                        "`swing`; without them, three lengths are a constant shift"),
+              "axis of translation: `\"x\"`, `\"y\"`, `\"z\"`, or three numbers with `speed` or "
+              "`swing`; without them, three lengths are a constant shift"),
           j.axis);
     if (rotates) row({"angle", angle, "constant part of a rotation", Range::any, "0 deg"}, j.angle);
     row(Parameter{"speed", translates ? speed : angular_speed,
-                  "constant part of the speed of rotation or translation; rotations need no common "
-                  "period, a translation needs `run.end_time`",
-                  Range::any, translates ? "0 m/s" : "0 rad/s", "`0`"}
+            "constant part of the speed of rotation or translation; rotations need no common "
+            "period, a translation needs `run.end_time`",
+            Range::any, translates ? "0 m/s" : "0 rad/s", "`0`"}
             .as("angular speed or speed"),
         j.speed);
     if (translates)
-      row({"distance", length, "constant part of a translation along `\"x\"`, `\"y\"` or `\"z\"`", Range::any,
-           "0 m"},
+      row({"distance", length, "constant part of a translation along `\"x\"`, `\"y\"` or `\"z\"`",
+              Range::any, "0 m"},
           j.distance);
     row(SwingTable::key, j.swings);
   }
 };
 
 enum class Solidity { box, cylinder };
-inline constexpr std::array<std::string_view, 2> choices_of(Solidity) { return {"box", "cylinder"}; }
+inline constexpr std::array<std::string_view, 2> choices_of(Solidity) {
+  return {"box", "cylinder"};
+}
 enum class Base { vessel, ground };
 inline constexpr std::array<std::string_view, 2> choices_of(Base) { return {"vessel", "ground"}; }
 
@@ -89,34 +93,35 @@ struct BodyTable {
       "walls and each other.";
   static void keys(auto& b, auto&& row) {
     using enum Dimension;
-    row(Parameter{"name", "name of the body in tables", Range::any, nullptr, "`body 0`, `body 1`, ..."},
+    row(Parameter{"name", "name of the body in tables", Range::any, nullptr,
+            "`body 0`, `body 1`, ..."},
         b.name);
     row(described_key("type", "`\"box\"` or `\"cylinder\"`", "`\"box\"`",
-                      "shape of the body; the axis of a cylinder is y"),
+            "shape of the body; the axis of a cylinder is y"),
         b.type);
     row({"size", length, "sizes of a box along x, y, z, including roundings; up to two may be zero",
-         Range::any, nullptr, "required for a box"},
+            Range::any, nullptr, "required for a box"},
         b.size);
     row(Parameter{"diameter", length, "diameter of a cylinder", Range::positive}.usually(
             "required for a cylinder"),
         b.diameter);
     row(Parameter{"height", length,
-                  "height of a cylinder, including roundings; zero for a disc without thickness",
-                  Range::not_negative}
+            "height of a cylinder, including roundings; zero for a disc without thickness",
+            Range::not_negative}
             .usually("required for a cylinder"),
         b.height);
-    row({"rounding", length, "radius of all edges; a box whose sizes are all twice the radius is a sphere",
-         Range::not_negative, "0 m"},
+    row({"rounding", length,
+            "radius of all edges; a box whose sizes are all twice the radius is a sphere",
+            Range::not_negative, "0 m"},
         b.rounding);
     row(described_key("on", "`\"vessel\"` or `\"ground\"`", "`\"vessel\"`",
-                      "frame in which its joints begin"),
+            "frame in which its joints begin"),
         b.on);
     row(Parameter{"joint", "joints from there to the body, as in `[[mill.joint]]`"}.usually("none"),
         b.joints);
     row({"repeat",
-         "number of copies, at equal angles about the axis of the first joint that rotates",
-         {1, 24},
-         "1"},
+            "number of copies, at equal angles about the axis of the first joint that rotates",
+            {1, 24}, "1"},
         b.repeat);
     row(Parameter{"material", "material of the surface"}.as("name").usually("none"), b.material);
     row({"colour", "colour in pictures", Range::any, nullptr, "grey"}, b.colour);
@@ -128,8 +133,8 @@ struct ChainTable {
   Entries<JointTable> joints;
 
   static void keys(auto& c, auto&& row) {
-    row({"joint", "joints from the ground to the vessel, any number of entries `[[mill.joint]]`", Range::any,
-         nullptr, "required"},
+    row({"joint", "joints from the ground to the vessel, any number of entries `[[mill.joint]]`",
+            Range::any, nullptr, "required"},
         c.joints);
   }
 };
@@ -150,7 +155,8 @@ struct PlaneTable {
   static constexpr const char* what = "Walls of a polyhedron.";
   static void keys(auto& p, auto&& row) {
     row({"normal", "outward normal, of any length"}, p.normal);
-    row({"distance", Dimension::length, "distance from the vessel's origin, which is inside"}, p.distance);
+    row({"distance", Dimension::length, "distance from the vessel's origin, which is inside"},
+        p.distance);
   }
 };
 
@@ -185,9 +191,8 @@ inline PolyhedronTable table_of(const model::Polyhedron<Quantity>&) { return {};
 /// A name in [vessel.materials]. It is compared with the walls when the vessel has been read.
 struct WallName : std::string {
   static constexpr const char* what = "Materials of single walls.";
-  static constexpr Parameter entry =
-      described_key("*", "name", "`vessel.material`",
-                    "material of the wall that the key names, by label or number: `\"cap +y\"`, `wall_1`");
+  static constexpr Parameter entry = described_key("*", "name", "`vessel.material`",
+      "material of the wall that the key names, by label or number: `\"cap +y\"`, `wall_1`");
   static std::optional<WallName> read(Section&, const std::string& name) { return WallName{name}; }
 };
 
@@ -199,12 +204,14 @@ struct PistonTable {
   static constexpr const char* what =
       "A wall that is displaced inward from its nominal position by distance + speed t + swings.";
   static void keys(auto& p, auto&& row) {
-    row(described_key("wall", "name", "required", "flat wall, by label or number: `\"cap -y\"`, `wall_0`"),
+    row(described_key(
+            "wall", "name", "required", "flat wall, by label or number: `\"cap -y\"`, `wall_0`"),
         p.wall);
-    row({"distance", Dimension::length, "distance inward from the wall's nominal position at time 0",
-         Range::any, "0 m"},
+    row({"distance", Dimension::length,
+            "distance inward from the wall's nominal position at time 0", Range::any, "0 m"},
         p.distance);
-    row({"speed", Dimension::speed, "speed inward; needs `run.end_time`", Range::any, "0 m/s"}, p.speed);
+    row({"speed", Dimension::speed, "speed inward; needs `run.end_time`", Range::any, "0 m/s"},
+        p.speed);
     row(SwingTable::key, p.swings);
   }
 };
@@ -216,13 +223,14 @@ struct VesselTable {
   Inner<Named<WallName>> materials;
   Entries<PistonTable> pistons;
 
-  static constexpr const char* what = "Shape of the inside of the vessel, its walls and their materials.";
+  static constexpr const char* what =
+      "Shape of the inside of the vessel, its walls and their materials.";
   static void keys(auto& v, auto&& row) {
     row(described_key("type", "name", "`\"cylinder\"`",
-                      "shape of the inside; its y axis is the axis of round vessels"),
+            "shape of the inside; its y axis is the axis of round vessels"),
         v.shape);
     row({"colour", "colour in pictures: a name, three integers up to 255 or three decimals up to 1",
-         Range::any, nullptr, "yellow"},
+            Range::any, nullptr, "yellow"},
         v.colour);
     row(Parameter{"material", "material of all walls"}.as("name").usually("none"), v.material);
     row({"materials", "materials of single walls, `[vessel.materials]`"}, v.materials);
@@ -244,8 +252,8 @@ struct PairTable {
   static constexpr const char* what = "A law for two materials.";
   static void keys(auto& p, auto&& row) {
     row(described_key("materials", "two names", "required",
-                      "names of the two materials; the entry also takes all keys of `[contact]` that "
-                      "describe a law"),
+            "names of the two materials; the entry also takes all keys of `[contact]` that "
+            "describe a law"),
         p.materials);
   }
 };
@@ -261,8 +269,7 @@ struct LawTable {
     void read_from(Section& section, const char* key);
   };
   using Points = std::map<std::string, std::vector<std::array<Quantity, 2>>>;  ///< by key
-  template <class Law>
-  struct PointsOf {
+  template <class Law> struct PointsOf {
     Points& points;
     void read_from(Section& section, const char* key);
   };
@@ -274,7 +281,8 @@ struct LawTable {
 
   static void keys(auto& given, auto&& row) {
     using enum Dimension;
-    row(Parameter{"model", "name of the contact law"}.as("name").usually("`\"walton-braun\"`"), given.name);
+    row(Parameter{"model", "name of the contact law"}.as("name").usually("`\"walton-braun\"`"),
+        given.name);
     for_each_kind<Laws>([&](auto law) {
       law.parameters(law, [&](const Parameter& p, const Quantity&) {
         const Parameter own = p.only_of(law.name);
@@ -290,9 +298,9 @@ struct LawTable {
             PointsOf<Law>{given.points});
     });
     row({"least_separation", speed,
-         "lowest speed at which bodies separate after an impact; `\"0 m/s\"` is the exact "
-         "model, in which infinitely many impacts in a finite time end the run",
-         Range::not_negative, "1 cm/s"},
+            "lowest speed at which bodies separate after an impact; `\"0 m/s\"` is the exact "
+            "model, in which infinitely many impacts in a finite time end the run",
+            Range::not_negative, "1 cm/s"},
         given.least_separation);
   }
 };
@@ -309,16 +317,19 @@ struct ContactTable {
     LawTable::keys(c.shared, row);
     row(Parameter{"ball_ball", "keys that override those of `[contact]` between balls"}.as("table"),
         c.ball_ball);
-    row(Parameter{"ball_wall", "keys that override those of `[contact]` at walls"}.as("table"), c.ball_wall);
+    row(Parameter{"ball_wall", "keys that override those of `[contact]` at walls"}.as("table"),
+        c.ball_wall);
     row({"pair",
-         "keys that override those of `[contact]` between two materials, entries "
-         "`[[contact.pair]]`"},
+            "keys that override those of `[contact]` between two materials, entries "
+            "`[[contact.pair]]`"},
         c.pairs);
   }
 };
 
 enum class CountedPart { all, normal };
-inline constexpr std::array<std::string_view, 2> choices_of(CountedPart) { return {"all", "normal"}; }
+inline constexpr std::array<std::string_view, 2> choices_of(CountedPart) {
+  return {"all", "normal"};
+}
 
 struct PowderTable {
   Quantity mass;
@@ -329,11 +340,11 @@ struct PowderTable {
   static void keys(auto& p, auto&& row) {
     TargetSpec::keys(p.target, row);
     row({"mass", Dimension::mass, "mass of the powder, for the charge ratio and the specific dose",
-         Range::positive},
+            Range::positive},
         p.mass);
     row(described_key("counts", "`\"all\"` or `\"normal\"`", "`\"all\"`",
-                      "which part of the dose counts toward the target: all of it, or the part along the "
-                      "normal"),
+            "which part of the dose counts toward the target: all of it, or the part along the "
+            "normal"),
         p.counts);
   }
 };
@@ -368,7 +379,8 @@ struct CaseFile {
 };
 
 /// Number of the material that a key names; 0 without a name, and for an unknown, reported one.
-int material_of(Section& section, const std::string& key, const std::string& name, const CaseSpec& spec);
+int material_of(
+    Section& section, const std::string& key, const std::string& name, const CaseSpec& spec);
 /// The vessel in double; nothing if it is invalid, which has been reported.
 std::optional<model::AnyVessel<double>> known_vessel(const CaseSpec& spec);
 /// The wall of a label or a key; -1 for none.

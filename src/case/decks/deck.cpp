@@ -17,8 +17,8 @@
 namespace edmill::decks {
 
 // Templates with named fields, the files *.in of this folder. One that may be empty ends its line.
-extern const std::string_view lammps_in, lammps_frame_in, liggghts_in, pose_in, yade_in, yade_planes_in,
-    yade_triangles_in;
+extern const std::string_view lammps_in, lammps_frame_in, liggghts_in, pose_in, yade_in,
+    yade_planes_in, yade_triangles_in;
 
 namespace {
 
@@ -68,12 +68,13 @@ struct DeckCase {
   }
 };
 
-SoftLaw soft_law(const model::ContactLaw<double>& law, const std::string& file, const DeckOptions& options) {
+SoftLaw soft_law(
+    const model::ContactLaw<double>& law, const std::string& file, const DeckOptions& options) {
   if (law.name() != std::string("walton-braun"))
     throw InputError(
         fmt::format("{}: key 'contact.model': found \"{}\", expected \"walton-braun\": a deck has "
                     "contacts of one restitution and friction",
-                    file, law.name()));
+            file, law.name()));
   SoftLaw soft{};
   law.parameters([&](const model::Parameter& p, double value) {
     if (p.key == std::string("restitution")) soft.restitution = value;
@@ -83,37 +84,45 @@ SoftLaw soft_law(const model::ContactLaw<double>& law, const std::string& file, 
     throw InputError(
         fmt::format("{}: key 'contact.restitution': found {}, expected 0.05 or more: with a lower "
                     "one the contacts of DEM codes stick",
-                    file, soft.restitution));
+            file, soft.restitution));
   soft.damping = damping_for(soft.restitution, options.steps,
-                             options.code == "yade" ? Separation::attracts : Separation::free);
+      options.code == "yade" ? Separation::attracts : Separation::free);
   return soft;
 }
 
-void refuse_what_no_code_has(const casefile::CaseSpec& spec, const casefile::InitialCase<double>& built) {
+void refuse_what_no_code_has(
+    const casefile::CaseSpec& spec, const casefile::InitialCase<double>& built) {
   std::vector<std::string> problems;
   const auto problem = [&](const std::string& found, const std::string& expected) {
     problems.push_back(fmt::format("{}: found {}, expected {}", spec.file, found, expected));
   };
   if (!spec.pistons.empty())
-    problem("pistons", "walls that move together: decks have no walls that move relative to each other");
-  if (!spec.pairs.empty()) problem("laws of pairs of materials", "one law between balls and one at walls");
+    problem("pistons",
+        "walls that move together: decks have no walls that move relative to each other");
+  if (!spec.pairs.empty())
+    problem("laws of pairs of materials", "one law between balls and one at walls");
   const auto& balls = built.the_case.balls;
-  const auto is_hollow = [](const auto& ball) { return std::abs(ball.reduced_inertia - 0.4) > 1e-12; };
-  if (const auto hollow = std::find_if(balls.begin(), balls.end(), is_hollow); hollow != balls.end())
+  const auto is_hollow = [](const auto& ball) {
+    return std::abs(ball.reduced_inertia - 0.4) > 1e-12;
+  };
+  if (const auto hollow = std::find_if(balls.begin(), balls.end(), is_hollow);
+      hollow != balls.end())
     problem(fmt::format("a reduced inertia of {}", hollow->reduced_inertia),
-            "0.4: DEM codes have solid spheres");
+        "0.4: DEM codes have solid spheres");
   if (!problems.empty()) throw InputError(problems);
 }
 
 model::Joints<double> in_double(const model::Joints<casefile::Quantity>& joints) {
-  return model::converted_joints<double>(joints, [](const casefile::Quantity& q) { return q.to<double>(); });
+  return model::converted_joints<double>(
+      joints, [](const casefile::Quantity& q) { return q.to<double>(); });
 }
 
 /// Gravity as a command of LAMMPS and LIGGGHTS; empty where there is none.
 std::string weight_of(const Vec3<double>& g) {
   const double size = norm<double>(g);
   if (!(size > 0)) return "";
-  return fmt::format("fix weight all gravity {} vector {}\n", size, fmt::join(Vec3<double>(g / size), " "));
+  return fmt::format(
+      "fix weight all gravity {} vector {}\n", size, fmt::join(Vec3<double>(g / size), " "));
 }
 
 bool moves(const model::Joint<double>& joint) { return joint.speed != 0 || !joint.swings.empty(); }
@@ -155,14 +164,15 @@ Formula moved_formula(const model::Joint<double>& joint, double factor, const st
   if (joint.speed != 0) sum += fmt::format("{}*{}", factor * joint.speed, time);
   for (const auto& s : joint.swings)
     if (s.amplitude != 0)
-      sum += fmt::format("{}*sin({}*{}+{})", factor * s.amplitude, turn * s.frequency, time, turn * s.phase);
+      sum += fmt::format(
+          "{}*sin({}*{}+{})", factor * s.amplitude, turn * s.frequency, time, turn * s.phase);
   return sum;
 }
 
 /// The sum of all translations along each axis at the time `t`, as a formula of LAMMPS and Python.
 /// @pre none of the joints turns
-std::array<Formula, 3> displacement_formulas(const std::vector<model::Joint<double>>& joints,
-                                             const std::string& time) {
+std::array<Formula, 3> displacement_formulas(
+    const std::vector<model::Joint<double>>& joints, const std::string& time) {
   std::array<Formula, 3> sums;
   for (const auto& joint : joints) {
     const auto axis = axis_of(joint);
@@ -183,10 +193,10 @@ std::string joints_in_python(const model::Joints<double>& chain) {
     std::string swings;
     for (const auto& s : j.swings)
       swings += fmt::format("({}, {}, {}), ", j.rotates ? turn * s.amplitude : s.amplitude,
-                            turn * s.frequency, turn * s.phase);
+          turn * s.frequency, turn * s.phase);
     joints += fmt::format("    ({}, np.array([{}]), np.array([{}]), {}, {}, [{}]),\n",
-                          j.rotates ? "True" : "False", fmt::join(axis_of(j), ", "), fmt::join(j.shift, ", "),
-                          turn * j.angle, j.rotates ? turn * j.speed : j.speed, swings);
+        j.rotates ? "True" : "False", fmt::join(axis_of(j), ", "), fmt::join(j.shift, ", "),
+        turn * j.angle, j.rotates ? turn * j.speed : j.speed, swings);
   }
   return joints;
 }
@@ -204,10 +214,11 @@ std::string atoms_of(const DeckCase& c, const char* spin, bool also_at_rest) {
   for (std::size_t k = 0; k < c.balls.size(); ++k) {
     const auto& [x, v, w] = c.states[k];
     text += fmt::format("create_atoms 1 single {} {} {} units box\n", x[0], x[1], x[2]);
-    sets += fmt::format("set atom {} diameter {} density {}\n", k + 1, 2 * c.balls[k].radius, c.density(k));
+    sets += fmt::format(
+        "set atom {} diameter {} density {}\n", k + 1, 2 * c.balls[k].radius, c.density(k));
     if (also_at_rest || norm<double>(v) > 0 || norm<double>(w) > 0)
       sets += fmt::format("set atom {} vx {} vy {} vz {} ", k + 1, v[0], v[1], v[2]) +
-              fmt::format(fmt::runtime(spin), w[0], w[1], w[2]) + "\n";
+          fmt::format(fmt::runtime(spin), w[0], w[1], w[2]) + "\n";
   }
   return text + sets;
 }
@@ -216,13 +227,13 @@ std::string atoms_of(const DeckCase& c, const char* spin, bool also_at_rest) {
 /// triangles.
 void tell_triangles(DeckCase& c, const std::vector<WallMesh>& meshes, Deck& deck) {
   const int facets = c.options.facets;
-  const bool is_round =
-      std::any_of(meshes.begin(), meshes.end(), [](const WallMesh& mesh) { return mesh.smooth_angle > 0; });
+  const bool is_round = std::any_of(
+      meshes.begin(), meshes.end(), [](const WallMesh& mesh) { return mesh.smooth_angle > 0; });
   c.add("facets", is_round ? fmt::format("# facets {}\n", facets) : "");
   if (is_round)
     deck.notes.push_back(
-        fmt::format("the cylinder is a prism of {} facets around it, {:.2g} % wider at its corners", facets,
-                    100 * (1 / std::cos(numerics::pi<double>() / facets) - 1)));
+        fmt::format("the cylinder is a prism of {} facets around it, {:.2g} % wider at its corners",
+            facets, 100 * (1 / std::cos(numerics::pi<double>() / facets) - 1)));
   if (!c.mill.bodies.empty())
     deck.notes.push_back(
         "bodies in the vessel are triangles; round parts are prisms of 48 facets within them, 0.2 "
@@ -236,10 +247,11 @@ using Place = std::array<double, 3>;
 
 std::string block(const Place& p, const Vec3<double>& half) {
   return fmt::format("block {} {} {} {} {} {}", p[0] - half[0], p[0] + half[0], p[1] - half[1],
-                     p[1] + half[1], p[2] - half[2], p[2] + half[2]);
+      p[1] + half[1], p[2] - half[2], p[2] + half[2]);
 }
 std::string upright(const Place& p, double radius, double half_height) {
-  return fmt::format("cylinder y {} {} {} {} {}", p[0], p[2], radius, p[1] - half_height, p[1] + half_height);
+  return fmt::format(
+      "cylinder y {} {} {} {} {}", p[0], p[2], radius, p[1] - half_height, p[1] + half_height);
 }
 
 std::string region_of(const DeckCase& c, const std::string& moves) {
@@ -255,7 +267,7 @@ std::string region_of(const DeckCase& c, const std::string& moves) {
   throw InputError(
       fmt::format("{}: key 'vessel.type': found a vessel that is not a single region of LAMMPS, "
                   "expected cylinder, box or sphere",
-                  c.file));
+          c.file));
 }
 
 /// The motion of a region in LAMMPS: it turns about an axis through the origin, then it is shifted.
@@ -269,7 +281,7 @@ InputError no_region(const DeckCase& c, std::size_t body, const char* found, con
   return InputError(
       fmt::format("{}: found {}, {}, expected {}, as LAMMPS's regions require; LIGGGHTS and YADE "
                   "represent bodies by triangles",
-                  c.file, c.mill.bodies[body].name.label, found, expected));
+          c.file, c.mill.bodies[body].name.label, found, expected));
 }
 
 /// @throws InputError for a body that turns about several axes, or that slides on a part that turns
@@ -294,12 +306,14 @@ RegionMotion motion_of_region(const DeckCase& c, std::size_t k) {
       if (axis == none) axis = own;
       const Vec3<double> off(place.data()), about(own.data());
       if (own != axis || norm<double>(cross<double>(off, about)) > 1e-15)
-        throw no_region(c, k, "whose joints turn about several axes", "one that turns about one axis");
+        throw no_region(
+            c, k, "whose joints turn about several axes", "one that turns about one axis");
       angle += Formula(turn * joint.angle) + moved_formula(joint, turn, "v_t");
     } else if (axis == none) {
       shifts.push_back(joint);
     } else if (moves(joint)) {
-      throw no_region(c, k, "which slides on a joint that turns", "one that slides before it turns");
+      throw no_region(
+          c, k, "which slides on a joint that turns", "one that slides before it turns");
     } else {
       for (std::size_t i = 0; i < 3; ++i) place[i] += joint.shift[i];
     }
@@ -315,10 +329,12 @@ std::string body_of(const DeckCase& c, std::size_t k, const std::string& contact
   const auto& half = body.shape.half();
   const double rounding = body.shape.rounding();
   const bool sphere = half == Vec3<double>::Zero();
-  if (rounding > 0 && !sphere) throw no_region(c, k, "with rounded edges", "sharp edges or a sphere");
-  std::string text, region = sphere ? fmt::format("sphere {} {}", fmt::join(place, " "), rounding)
-                             : body.shape.is_round() ? upright(place, half[0], half[1])
-                                                     : block(place, half);
+  if (rounding > 0 && !sphere)
+    throw no_region(c, k, "with rounded edges", "sharp edges or a sphere");
+  std::string text,
+      region = sphere         ? fmt::format("sphere {} {}", fmt::join(place, " "), rounding)
+      : body.shape.is_round() ? upright(place, half[0], half[1])
+                              : block(place, half);
   const auto shift = displacement_formulas(motion.shifts, "v_t");
   for (std::size_t i = 0; i < 3; ++i)
     text += fmt::format("variable shift{}{} equal {}\n", k, "xyz"[i], shift[i].text);
@@ -328,8 +344,9 @@ std::string body_of(const DeckCase& c, std::size_t k, const std::string& contact
     region += fmt::format(" rotate v_angle{} 0 0 0 {}", k, fmt::join(motion.axis, " "));
   }
   return text +
-         fmt::format("region body{0} {1}\nfix body{0} all wall/gran/region granular {2} region body{0}\n", k,
-                     region, contact);
+      fmt::format(
+          "region body{0} {1}\nfix body{0} all wall/gran/region granular {2} region body{0}\n", k,
+          region, contact);
 }
 
 /// The parameter of LAMMPS's `damping tsuji` for a law.
@@ -338,7 +355,7 @@ double tsuji_of(const DeckCase& c, const SoftLaw& law) {
     throw InputError(
         fmt::format("{}: key 'contact.restitution': found {}, expected {:.2g} or more: LAMMPS's "
                     "damping tsuji allows no lower one",
-                    c.file, law.restitution, restitution_of(1.2728, c.options.steps) + 0.005));
+            c.file, law.restitution, restitution_of(1.2728, c.options.steps) + 0.005));
   return lammps_restitution(law.damping);
 }
 
@@ -367,10 +384,10 @@ Deck lammps_deck(DeckCase& c) {
              at_rest = std::none_of(c.joints.list.begin(), c.joints.list.end(), moves);
   for (std::size_t k = 0; k < c.mill.bodies.size(); ++k)
     if (in_vessel && !at_rest && !c.on_vessel[k])
-      throw InputError(
-          fmt::format("{}: found {} on the ground in a vessel that turns, expected a body on the vessel or a "
-                      "vessel that does not turn: the deck computes in the vessel's frame",
-                      c.file, c.mill.bodies[k].name.label));
+      throw InputError(fmt::format(
+          "{}: found {} on the ground in a vessel that turns, expected a body on the vessel or a "
+          "vessel that does not turn: the deck computes in the vessel's frame",
+          c.file, c.mill.bodies[k].name.label));
   if (in_vessel) put_in_vessel(c);
   c.add("forces", in_vessel && !at_rest ? fictitious_forces(c) : "");
   const auto time = fmt::format("variable t equal {}+step*dt\n", c.begin);
@@ -386,9 +403,9 @@ Deck lammps_deck(DeckCase& c) {
   c.add("tsuji", tsuji_of(c, c.of_balls));
   c.add("vessel", vessel + region_of(c, shifted ? " move v_movex v_movey v_movez" : ""));
   c.add("wall_tsuji", tsuji_of(c, c.of_walls), "weight",
-        !in_vessel ? weight_of(c.mill.gravity)
-        : at_rest  ? weight_of(c.mill.motion.in_axes(c.pose, c.mill.gravity))
-                   : "");
+      !in_vessel    ? weight_of(c.mill.gravity)
+          : at_rest ? weight_of(c.mill.motion.in_axes(c.pose, c.mill.gravity))
+                    : "");
   std::string bodies;
   if (in_vessel && !c.mill.bodies.empty()) bodies = time;
   const auto contact = c.filled(
@@ -413,7 +430,8 @@ class Chain {
  public:
   /// @param prefix  of the names of its variables
   Chain(const model::Joints<double>& joints, std::string prefix) : prefix_(std::move(prefix)) {
-    for (const auto& joint : joints.list) joint.rotates ? add_rotation(joint) : add_translation(joint);
+    for (const auto& joint : joints.list)
+      joint.rotates ? add_rotation(joint) : add_translation(joint);
     // The velocity that the material point at the origin has.
     for (int i = 0; i < 3; ++i) velocity[i] = named(velocity[i] - named(spin.cross(centre_))[i]);
     // A rotation acts on the position at the beginning of a step, before the translation.
@@ -430,7 +448,8 @@ class Chain {
   /// Defines a variable for a formula, unless that is as short as a variable.
   Formula named(const Formula& formula) {
     const auto& text = formula.text;
-    const bool is_variable = text.starts_with("v_") && text.find_first_of("*+(") == std::string::npos;
+    const bool is_variable =
+        text.starts_with("v_") && text.find_first_of("*+(") == std::string::npos;
     if (text.empty() || text == "1" || is_variable) return formula;
     const auto name = fmt::format("{}q{}", prefix_, count_++);
     lines += fmt::format("variable {} equal {}\n", name, text);
@@ -501,7 +520,8 @@ std::string moves_of(const Chain& chain, const std::vector<WallMesh>& meshes) {
       std::string speeds;
       for (std::size_t k = 0; k < 3; ++k)
         speeds += " " + (chain.velocity[k].text.empty() ? "v_zero" : chain.velocity[k].text);
-      text += fmt::format("fix shift_{0} all move/mesh mesh {0} linear/variable{1}\n", mesh.name, speeds);
+      text += fmt::format(
+          "fix shift_{0} all move/mesh mesh {0} linear/variable{1}\n", mesh.name, speeds);
     }
   }
   return text;
@@ -513,17 +533,18 @@ Deck liggghts_deck(DeckCase& c) {
     throw InputError(
         fmt::format("{}: key 'vessel.type': found a vessel with doubly curved walls, expected flat "
                     "walls or a cylinder, which LIGGGHTS can represent by triangles",
-                    c.file));
+            c.file));
   Deck deck{{{}}, fmt::format("liggghts -in {}.in", c.options.name), {}};
   // During a step the commands evaluate their rates with the step number of its end. The rates of
   // its middle keep the walls in place.
-  std::string rates = fmt::format("variable t equal {}+(step-0.5)*dt\n", c.begin), walls, names, moves;
+  std::string rates = fmt::format("variable t equal {}+(step-0.5)*dt\n", c.begin), walls, names,
+              moves;
   const auto put = [&](const WallMesh& mesh, const auto& motion, const auto& pose) {
     const auto file = fmt::format("{}_{}.stl", c.options.name, mesh.name);
     deck.files.push_back({file, stl_text({&mesh, 1}, motion, pose)});
-    walls +=
-        fmt::format("fix {0} all mesh/surface file {1} type 2 curvature {2:.6g} curvature_tolerant yes\n",
-                    mesh.name, file, mesh.smooth_angle > 0 ? mesh.smooth_angle : 0.26);
+    walls += fmt::format(
+        "fix {0} all mesh/surface file {1} type 2 curvature {2:.6g} curvature_tolerant yes\n",
+        mesh.name, file, mesh.smooth_angle > 0 ? mesh.smooth_angle : 0.26);
     names += " " + mesh.name;
   };
   const auto move = [&](const model::Joints<double>& joints, const std::string& prefix,
@@ -541,8 +562,8 @@ Deck liggghts_deck(DeckCase& c) {
     move(c.of_bodies[k], mesh.name, {mesh});
   }
   tell_triangles(c, meshes, deck);
-  c.add("balls", atoms_of(c, "omegax {} omegay {} omegaz {}", false), "rates", rates, "walls", walls,
-        "mesh_count", meshes.size() + c.mill.bodies.size(), "meshes", names);
+  c.add("balls", atoms_of(c, "omegax {} omegay {} omegaz {}", false), "rates", rates, "walls",
+      walls, "mesh_count", meshes.size() + c.mill.bodies.size(), "meshes", names);
   c.add("moves", moves, "weight", weight_of(c.mill.gravity));
   deck.files.front() = {c.options.name + ".in", c.filled(liggghts_in)};
   return deck;
@@ -557,7 +578,8 @@ bool turns_about_a_point(const DeckCase& c, const auto& motion) {
   for (int k = 0; k < 64; ++k) {
     const auto pose = motion.pose(clock.at(c.begin + c.joints.period * k / 64));
     const Vec3<double> spin = motion.angular_velocity(pose),
-                       velocity = motion.wall_velocity(pose, motion.to_inertial(pose, Vec3<double>::Zero()));
+                       velocity = motion.wall_velocity(
+                           pose, motion.to_inertial(pose, Vec3<double>::Zero()));
     const double size = norm<double>(spin), speed = norm<double>(velocity);
     if (speed > 1e-12 && !(size > 1e-9)) return false;
     if (std::abs(dot<double>(spin, velocity)) > 1e-9 * (1 + size * speed)) return false;
@@ -574,7 +596,7 @@ Deck yade_deck(DeckCase& c) {
       throw InputError(
           fmt::format("{}: found {}, which has no point at rest, expected a body that turns about "
                       "one, as YADE's engines require",
-                      c.file, body.name.label));
+              c.file, body.name.label));
   if (!planes && (meshes.empty() || !turns_about_a_point(c, c.mill.motion)))
     throw InputError(fmt::format(
         "{}: found a {}, expected a box that translates, or flat walls or a cylinder that turn "
@@ -584,7 +606,7 @@ Deck yade_deck(DeckCase& c) {
   for (std::size_t k = 0; k < c.balls.size(); ++k) {
     const auto& [x, v, w] = c.states[k];
     balls += fmt::format("    (({}), {}, {}, ({}), ({})),\n", fmt::join(x, ", "), c.balls[k].radius,
-                         c.density(k), fmt::join(v, ", "), fmt::join(w, ", "));
+        c.density(k), fmt::join(v, ", "), fmt::join(w, ", "));
   }
   Deck deck{{{}}, fmt::format("yade -n -x -j1 {}.py", c.options.name), {}};
   tell_triangles(c, meshes, deck);
@@ -592,7 +614,7 @@ Deck yade_deck(DeckCase& c) {
   if (planes) {
     const auto [x, y, z] = displacement_formulas(c.joints.list, "t");
     c.add("half", fmt::format("{}", fmt::join(box->half, ", ")), "place",
-          x.text + ", " + y.text + ", " + z.text);
+        x.text + ", " + y.text + ", " + z.text);
     c.add("walls", c.filled(yade_planes_in));
   } else {
     std::string solids;
@@ -601,7 +623,8 @@ Deck yade_deck(DeckCase& c) {
       const auto mesh = mesh_of(body.shape, fmt::format("body{}", k));
       const auto file = fmt::format("{}_{}.stl", c.options.name, mesh.name);
       solids += fmt::format("    ('{}', [\n{}    ]),\n", file, joints_in_python(c.of_bodies[k]));
-      deck.files.push_back({file, stl_text({&mesh, 1}, body.motion, body.motion.pose(c.at_begin()))});
+      deck.files.push_back(
+          {file, stl_text({&mesh, 1}, body.motion, body.motion.pose(c.at_begin()))});
     }
     c.add("pose", pose_in_python(c), "solids", solids);
     c.add("walls", c.filled(yade_triangles_in));
@@ -621,41 +644,44 @@ Deck make_deck(const casefile::CaseSpec& spec, const DeckOptions& options) {
   const DriveClock<double> clock(mill.motion.period());
   const double begin = clock.seconds(built.start), time_step = options.contact_time / options.steps;
   const double duration = options.duration > 0 ? options.duration
-                          : spec.end_time      ? spec.end_time->to<double>() - begin
+      : spec.end_time                          ? spec.end_time->to<double>() - begin
                                                : 0;
-  const double interval = options.frame_interval > 0 ? options.frame_interval : options.contact_time / 5;
+  const double interval =
+      options.frame_interval > 0 ? options.frame_interval : options.contact_time / 5;
   const auto smaller = [](const auto& a, const auto& b) { return a.radius < b.radius; };
   const auto& largest = *std::max_element(balls.begin(), balls.end(), smaller);
   const auto period = casefile::period_of(spec.mill);
   DeckCase c{.file = spec.file,
-             .options = options,
-             .balls = balls,
-             .states = built.states,
-             .of_balls = soft_law(mill.ball_ball, spec.file, options),
-             .of_walls = soft_law(mill.ball_wall, spec.file, options),
-             .mill = mill,
-             .joints = in_double({casefile::joints_of(spec.mill), period}),
-             .begin = begin,
-             .pose = mill.motion.pose(clock.at(begin))};
+      .options = options,
+      .balls = balls,
+      .states = built.states,
+      .of_balls = soft_law(mill.ball_ball, spec.file, options),
+      .of_walls = soft_law(mill.ball_wall, spec.file, options),
+      .mill = mill,
+      .joints = in_double({casefile::joints_of(spec.mill), period}),
+      .begin = begin,
+      .pose = mill.motion.pose(clock.at(begin))};
   for (const auto& body : spec.bodies) {
     c.of_bodies.push_back(in_double({casefile::joints_from_ground(body, spec), period}));
     c.on_vessel.push_back(body.on_vessel);
   }
-  if (!(duration > 0)) throw InputError(spec.file + ": no run.end_time: set it, or give --duration");
+  if (!(duration > 0))
+    throw InputError(spec.file + ": no run.end_time: set it, or give --duration");
   // A ball at an edge between two triangles of YADE touches both, so that they must be few.
   if (c.options.facets == 0) c.options.facets = options.code == "yade" ? 24 : 128;
   const long steps = std::lround(duration / time_step);
   constexpr double poisson = 0.3;
-  c.add("file", spec.file, "version", version(), "digest", spec.digest, "name", options.name, "contact_time",
-        options.contact_time, "speed", options.speed, "restitution", c.of_balls.restitution,
-        "wall_restitution", c.of_walls.restitution, "en", formula_restitution(c.of_balls.damping), "wall_en",
-        formula_restitution(c.of_walls.damping), "friction", c.of_balls.friction, "wall_friction",
-        c.of_walls.friction);
-  c.add("young", young_for(options.contact_time, options.speed, largest.radius, largest.mass, poisson),
-        "poisson", poisson, "gravity", fmt::format("{}", fmt::join(mill.gravity, ", ")), "reach",
-        1.5 * mill.motion.reach(mill.vessel.reach()), "skin", largest.radius / 2);
+  c.add("file", spec.file, "version", version(), "digest", spec.digest, "name", options.name,
+      "contact_time", options.contact_time, "speed", options.speed, "restitution",
+      c.of_balls.restitution, "wall_restitution", c.of_walls.restitution, "en",
+      formula_restitution(c.of_balls.damping), "wall_en", formula_restitution(c.of_walls.damping),
+      "friction", c.of_balls.friction, "wall_friction", c.of_walls.friction);
+  c.add("young",
+      young_for(options.contact_time, options.speed, largest.radius, largest.mass, poisson),
+      "poisson", poisson, "gravity", fmt::format("{}", fmt::join(mill.gravity, ", ")), "reach",
+      1.5 * mill.motion.reach(mill.vessel.reach()), "skin", largest.radius / 2);
   c.add("begin", begin, "time_step", time_step, "steps", steps, "frame_every",
-        std::max(1L, std::lround(interval / time_step)), "thermo", std::max(1L, steps / 20));
+      std::max(1L, std::lround(interval / time_step)), "thermo", std::max(1L, steps / 20));
   if (options.code == "lammps") return lammps_deck(c);
   return options.code == "liggghts" ? liggghts_deck(c) : yade_deck(c);
 }

@@ -15,9 +15,10 @@ struct DeckOptions {
   double contact_time = 50e-6;  ///< of the largest ball on a wall [s]
   double speed = 1;             ///< approach speed of that contact [m/s]
   double duration = 0;          ///< simulated [s]; 0 for that of the case
-  double frame_interval = 0;    ///< between frames of the dump [s]; 0 for a fifth of the contact time
-  int steps = 50;               ///< time steps during a contact
-  int facets = 0;  ///< of a round wall in codes that have only triangles; 0: 128 in LIGGGHTS, 24 in YADE
+  double frame_interval = 0;  ///< between frames of the dump [s]; 0 for a fifth of the contact time
+  int steps = 50;             ///< time steps during a contact
+  int facets =
+      0;  ///< of a round wall in codes that have only triangles; 0: 128 in LIGGGHTS, 24 in YADE
 };
 
 inline constexpr std::array<const char*, 3> deck_codes{"lammps", "liggghts", "yade"};

@@ -40,13 +40,13 @@ std::vector<WallMesh> meshes_of(const model::AnyVessel<double>& vessel, int face
       for (int k = 0; k < facets; ++k) {
         const double low = -tube->half_height, high = tube->half_height;
         add_fan({corner(*tube, facets, k, low), corner(*tube, facets, k + 1, low),
-                 corner(*tube, facets, k + 1, high), corner(*tube, facets, k, high)},
-                round.triangles);
+                    corner(*tube, facets, k + 1, high), corner(*tube, facets, k, high)},
+            round.triangles);
       }
     } else if (const auto* disc = std::get_if<model::Disc<double>>(&surface.kind())) {
       add_fan(square_of(*disc, facets), flat.triangles);
     } else if (std::holds_alternative<model::Zone<double>>(surface.kind()) ||
-               std::holds_alternative<model::Edge<double>>(surface.kind())) {
+        std::holds_alternative<model::Edge<double>>(surface.kind())) {
       all = false;
     } else {
       add_fan(surface.rings().front(), flat.triangles);
@@ -101,7 +101,7 @@ Vec3<double> facet_normal(const model::Tube<double>& tube, int facets, const Vec
 }
 
 std::string stl_text(std::span<const WallMesh> meshes, const model::AnyMotion<double>& motion,
-                     const model::AnyPose<double>& pose) {
+    const model::AnyPose<double>& pose) {
   std::string text = "solid walls\n";
   for (const auto& mesh : meshes)
     for (const auto& triangle : mesh.triangles) {
@@ -114,18 +114,14 @@ std::string stl_text(std::span<const WallMesh> meshes, const model::AnyMotion<do
 }
 
 MovingVessel::MovingVessel(const model::Mill<double>& mill,
-                           const std::vector<model::BallProperties<double>>& balls, int facets)
-    : mill_(mill),
-      motions_{mill.motion},
-      balls_(balls),
-      clock_(mill.motion.period()),
-      facets_(facets),
-      surfaces_(mill.vessel.surfaces()) {
+    const std::vector<model::BallProperties<double>>& balls, int facets)
+    : mill_(mill), motions_{mill.motion}, balls_(balls), clock_(mill.motion.period()),
+      facets_(facets), surfaces_(mill.vessel.surfaces()) {
   for (const auto& body : mill_.bodies) motions_.emplace_back(body.motion);
   std::vector<double> radii;
   for (const auto& ball : balls_) {
-    const auto k =
-        static_cast<std::size_t>(std::find(radii.begin(), radii.end(), ball.radius) - radii.begin());
+    const auto k = static_cast<std::size_t>(
+        std::find(radii.begin(), radii.end(), ball.radius) - radii.begin());
     inset_of_.push_back(k);
     if (k < radii.size()) continue;
     radii.push_back(ball.radius);
@@ -142,56 +138,60 @@ MovingVessel::Pose MovingVessel::at(double time) const {
 
 const model::Tube<double>* MovingVessel::prism(int wall) const {
   return facets_ > 0 && frame_of(wall) == 0
-             ? std::get_if<model::Tube<double>>(&surfaces_[static_cast<std::size_t>(wall)].kind())
-             : nullptr;
+      ? std::get_if<model::Tube<double>>(&surfaces_[static_cast<std::size_t>(wall)].kind())
+      : nullptr;
 }
 
 // The gap follows from the overlap, which is a length; gap functions of vessels need not be.
-double MovingVessel::gap(const Pose& pose, std::size_t ball, int wall, const Vector& position) const {
+double MovingVessel::gap(
+    const Pose& pose, std::size_t ball, int wall, const Vector& position) const {
   const auto frame = frame_of(wall);
   const Vector place = motions_[frame].position_in_vessel(pose[frame], position);
-  if (const auto* body = mill_.body_of(wall)) return -body->shape.overlap(0, place) - balls_[ball].radius;
+  if (const auto* body = mill_.body_of(wall))
+    return -body->shape.overlap(0, place) - balls_[ball].radius;
   if (const auto* tube = prism(wall))
     return tube->radius - balls_[ball].radius -
-           dot<double>(place - tube->frame.origin, facet_normal(*tube, facets_, place));
+        dot<double>(place - tube->frame.origin, facet_normal(*tube, facets_, place));
   return -inset(ball).overlap(wall, place);
 }
 
-Vector MovingVessel::normal(const Pose& pose, std::size_t ball, int wall, const Vector& position) const {
+Vector MovingVessel::normal(
+    const Pose& pose, std::size_t ball, int wall, const Vector& position) const {
   const auto frame = frame_of(wall);
   const Vector p = motions_[frame].position_in_vessel(pose[frame], position);
   const auto* body = mill_.body_of(wall);
   const auto* tube = prism(wall);
-  return motions_[frame].direction_to_inertial(pose[frame], body   ? body->shape.normal(0, p)
-                                                            : tube ? Vector(-facet_normal(*tube, facets_, p))
-                                                                   : inset(ball).normal(wall, p));
+  return motions_[frame].direction_to_inertial(pose[frame],
+      body       ? body->shape.normal(0, p)
+          : tube ? Vector(-facet_normal(*tube, facets_, p))
+                 : inset(ball).normal(wall, p));
 }
 
-double MovingVessel::energy(const Pose& pose, std::size_t frame, std::size_t ball,
-                            const BallState& state) const {
+double MovingVessel::energy(
+    const Pose& pose, std::size_t frame, std::size_t ball, const BallState& state) const {
   const auto& b = balls_[ball];
   const auto& m = motions_[frame];
   const Vector u = m.to_vessel_frame(pose[frame], state.position, state.velocity).velocity;
   const Vector s = state.spin - m.angular_velocity(pose[frame]);
   return b.mass / 2 * squared_norm<double>(u) +
-         b.reduced_inertia * b.mass * b.radius * b.radius / 2 * squared_norm<double>(s);
+      b.reduced_inertia * b.mass * b.radius * b.radius / 2 * squared_norm<double>(s);
 }
 
 double MovingVessel::work(const Pose& poses, const BallState& before, const Pose& later,
-                          const BallState& after, std::size_t frame, std::size_t ball,
-                          const Vector& gravity) const {
+    const BallState& after, std::size_t frame, std::size_t ball, const Vector& gravity) const {
   const auto& m = motions_[frame];
   const auto &from = poses[frame], &to = later[frame];
   // Coriolis's force does no work.
   const Vector force = m.in_axes(from, gravity - m.wall_acceleration(from, before.position)) +
-                       m.in_axes(to, gravity - m.wall_acceleration(to, after.position));
-  const Vector way = m.position_in_vessel(to, after.position) - m.position_in_vessel(from, before.position);
+      m.in_axes(to, gravity - m.wall_acceleration(to, after.position));
+  const Vector way =
+      m.position_in_vessel(to, after.position) - m.position_in_vessel(from, before.position);
   const auto& b = balls_[ball];
   // The torque -J w' on a spin relative to the vessel.
   const Vector turn = m.angular_velocity(to) - m.angular_velocity(from);
   const Vector spins = before.spin - m.angular_velocity(from) + after.spin - m.angular_velocity(to);
   return b.mass / 2 * dot<double>(force, way) -
-         b.reduced_inertia * b.mass * b.radius * b.radius / 2 * dot<double>(turn, spins);
+      b.reduced_inertia * b.mass * b.radius * b.radius / 2 * dot<double>(turn, spins);
 }
 
 BallState MovingVessel::inertial(const Pose& poses, const BallState& seen) const {
@@ -199,12 +199,12 @@ BallState MovingVessel::inertial(const Pose& poses, const BallState& seen) const
   const auto& pose = poses.front();
   const Vector place = m.to_inertial(pose, seen.position);
   return {place, m.direction_to_inertial(pose, seen.velocity) + m.wall_velocity(pose, place),
-          m.direction_to_inertial(pose, seen.spin) + m.angular_velocity(pose)};
+      m.direction_to_inertial(pose, seen.spin) + m.angular_velocity(pose)};
 }
 
 BallState flown(const BallState& state, const Vector& gravity, double duration) {
   return {state.position + (state.velocity + gravity * (duration / 2)) * duration,
-          state.velocity + gravity * duration, state.spin};
+      state.velocity + gravity * duration, state.spin};
 }
 
 }  // namespace edmill::decks

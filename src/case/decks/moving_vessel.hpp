@@ -1,4 +1,5 @@
-// The walls of a case as triangles; its moving vessel with bodies and such walls, and balls relative to it.
+// The walls of a case as triangles; its moving vessel with bodies and such walls, and balls
+// relative to it.
 #pragma once
 
 #include <algorithm>
@@ -20,8 +21,8 @@ struct WallMesh {
   double smooth_angle = 0;  ///< [deg] of facets that represent a round wall; 0 for flat walls
 };
 
-/// A round wall becomes a prism around it, whose facets touch it along their middles, one of them on the
-/// vessel's x axis. Empty for a vessel that has none.
+/// A round wall becomes a prism around it, whose facets touch it along their middles, one of them
+/// on the vessel's x axis. Empty for a vessel that has none.
 std::vector<WallMesh> meshes_of(const model::AnyVessel<double>& vessel, int facets);
 
 /// The surface of a body, whose round parts are prisms within it.
@@ -32,18 +33,18 @@ Vec3<double> facet_normal(const model::Tube<double>& tube, int facets, const Vec
 
 /// The text of an STL file (ASCII) of these meshes, placed as in this pose.
 std::string stl_text(std::span<const WallMesh> meshes, const model::AnyMotion<double>& motion,
-                     const model::AnyPose<double>& pose);
+    const model::AnyPose<double>& pose);
 
 using Vector = Vec3<double>;
 using BallState = model::BallState<double>;
 
-/// Motion and walls for balls of given radii. The motion of walls within the vessel (pistons) is ignored.
-/// Frame 0 is the vessel's; each body has one of its own.
+/// Motion and walls for balls of given radii. The motion of walls within the vessel (pistons) is
+/// ignored. Frame 0 is the vessel's; each body has one of its own.
 class MovingVessel {
  public:
   /// @param facets  of the prism that replaces a round wall, as in `meshes_of`; 0 if none does
-  MovingVessel(const model::Mill<double>& mill, const std::vector<model::BallProperties<double>>& balls,
-               int facets = 0);
+  MovingVessel(const model::Mill<double>& mill,
+      const std::vector<model::BallProperties<double>>& balls, int facets = 0);
 
   using Pose = std::vector<model::AnyPose<double>>;  ///< by frame
   Pose at(double time) const;
@@ -64,18 +65,18 @@ class MovingVessel {
   bool has_bodies() const { return motions_.size() > 1; }
 
   /// Kinetic energy of a ball relative to a frame [J].
-  double energy(const Pose& pose, std::size_t frame, std::size_t ball, const BallState& state) const;
-  /// Work of gravity and of the fictitious forces and torques on a ball between two states, relative to a
-  /// frame [J]: the mean of the forces in both states times the displacement.
+  double energy(
+      const Pose& pose, std::size_t frame, std::size_t ball, const BallState& state) const;
+  /// Work of gravity and of the fictitious forces and torques on a ball between two states,
+  /// relative to a frame [J]: the mean of the forces in both states times the displacement.
   double work(const Pose& from, const BallState& before, const Pose& to, const BallState& after,
-              std::size_t frame, std::size_t ball, const Vector& gravity) const;
+      std::size_t frame, std::size_t ball, const Vector& gravity) const;
 
   /// Transforms a state from the vessel frame to the inertial frame.
   BallState inertial(const Pose& pose, const BallState& in_vessel) const;
 
   const model::BallProperties<double>& ball(std::size_t k) const { return balls_[k]; }
   std::size_t ball_count() const { return balls_.size(); }
-
  private:
   const model::AnyVessel<double>& inset(std::size_t ball) const { return insets_[inset_of_[ball]]; }
   /// The cylindrical wall, if a prism represents it; otherwise null.

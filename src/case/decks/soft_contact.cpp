@@ -54,7 +54,7 @@ double restitution_of(double damping, int steps, Separation separation) {
 double damping_for(double restitution, int steps, Separation separation) {
   if (restitution >= 1) return 0;
   return where_falling([&](double damping) { return restitution_of(damping, steps, separation); },
-                       restitution, 0, 8);
+      restitution, 0, 8);
 }
 
 double press_effect(double restitution) {
@@ -79,7 +79,8 @@ double press_effect(double restitution) {
 
 double lammps_restitution(double damping) {
   const auto polynomial = [](double e) {
-    return 1.2728 + e * (-4.2783 + e * (11.087 + e * (-22.348 + e * (27.467 + e * (-18.022 + e * 4.8218)))));
+    return 1.2728 +
+        e * (-4.2783 + e * (11.087 + e * (-22.348 + e * (27.467 + e * (-18.022 + e * 4.8218)))));
   };
   return where_falling(polynomial, damping, 0, 1);
 }

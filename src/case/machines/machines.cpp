@@ -51,30 +51,31 @@ Catalogue read() {
   each_table(root, "machine", [&](const toml::table& m) {
     const auto speeds = texts_of(m, "speeds");
     Machine machine{.key = text_of(m, "key"),
-                    .name = text_of(m, "name"),
-                    .also = texts_of(m, "also"),
-                    .slowest = speeds[0],
-                    .fastest = speeds[1],
-                    .usual = text_of(m, "usual")};
+        .name = text_of(m, "name"),
+        .also = texts_of(m, "also"),
+        .slowest = speeds[0],
+        .fastest = speeds[1],
+        .usual = text_of(m, "usual")};
     each(m, "jars", [&](const toml::node& jar) {
       const auto size = [&](std::size_t k) { return (*jar.as_array())[k].value_or(std::string()); };
       machine.jars.push_back({size(0), size(1), size(2)});
     });
     each_table(m, "setting", [&](const toml::table& s) {
-      machine.settings.push_back({text_of(s, "key"), text_of(s, "value"), source_of(s), text_of(s, "note")});
+      machine.settings.push_back(
+          {text_of(s, "key"), text_of(s, "value"), source_of(s), text_of(s, "note")});
     });
     all.machines.push_back(std::move(machine));
   });
   each_table(root, "material", [&](const toml::table& m) {
-    all.materials.push_back(
-        {text_of(m, "key"), text_of(m, "density"), source_of(m), text_of(m, "dry"), texts_of(m, "also")});
+    all.materials.push_back({text_of(m, "key"), text_of(m, "density"), source_of(m),
+        text_of(m, "dry"), texts_of(m, "also")});
   });
   each_table(root, "elsewhere", [&](const toml::table& e) {
     all.elsewhere.push_back({texts_of(e, "names"), text_of(e, "what")});
   });
   each_table(root, "contact", [&](const toml::table& c) {
     all.contacts.push_back({text_of(c, "key"), text_of(c, "what"), text_of(c, "model"),
-                            text_of(c, "restitution"), source_of(c)});
+        text_of(c, "restitution"), source_of(c)});
   });
   const auto& friction = *root["friction"].as_table();
   all.friction = text_of(friction, "value");
@@ -91,8 +92,8 @@ std::string plain(const std::string& name) {
   for (const char c : name)
     if (std::isalnum(static_cast<unsigned char>(c)))
       text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  for (const std::string word : {"retsch", "fritsch", "sampleprep", "planetary", "mixermill", "ballmill",
-                                 "micromill", "monomill", "classicline", "premiumline"})
+  for (const std::string word : {"retsch", "fritsch", "sampleprep", "planetary", "mixermill",
+           "ballmill", "micromill", "monomill", "classicline", "premiumline"})
     if (const auto at = text.find(word); at != std::string::npos) text.erase(at, word.size());
   return text;
 }
@@ -121,20 +122,22 @@ std::string keys_of(const auto& list) {
 }
 
 /// An option's quantity, in SI. @throws InputError
-double value_of(const std::string& option, const std::string& text, Dimension dimension = Dimension::length) {
+double value_of(
+    const std::string& option, const std::string& text, Dimension dimension = Dimension::length) {
   const auto read = casefile::parse_quantity(text, dimension);
   const auto* quantity = std::get_if<casefile::Quantity>(&read);
   if (quantity && quantity->positive()) return quantity->to<double>();
   const auto* problem = std::get_if<casefile::QuantityProblem>(&read);
   throw InputError(fmt::format("{}: found {}, expected a positive {}", option,
-                               problem ? problem->found : "\"" + text + "\"", casefile::noun(dimension)));
+      problem ? problem->found : "\"" + text + "\"", casefile::noun(dimension)));
 }
 
 /// @throws InputError
 void require_number(const std::string& option, const std::string& text, double high) {
   const auto number = casefile::parse_decimal(text);
   if (!number || number->negative() || number->to<double>() > high)
-    throw InputError(fmt::format("{}: found \"{}\", expected a number from 0 to {:g}", option, text, high));
+    throw InputError(
+        fmt::format("{}: found \"{}\", expected a number from 0 to {:g}", option, text, high));
 }
 
 Batch batch_of(const std::string& text) {
@@ -163,7 +166,7 @@ Batch batch_of(const std::string& text) {
   const auto found = named(materials, material);
   if (found == materials.end()) throw fail("a material among " + keys_of(materials));
   return {counted ? static_cast<std::uint64_t>(count->to<double>()) : 0, diameter,
-          value_of("--balls", diameter), &*found};
+      value_of("--balls", diameter), &*found};
 }
 
 /// The inside of a vessel.
@@ -206,7 +209,7 @@ Inside inside_of(const Machine& machine, const std::string& wanted) {
     throw InputError(
         fmt::format("--jar: found \"{}\", expected a volume, \"250ml\", or the inner diameter and "
                     "height, \"75x57mm\"",
-                    jar));
+            jar));
   const double volume = number->to<double>() * unit->second;
   for (const auto& sold : machine.jars)
     if (plain(sold.volume) == plain(jar)) {
@@ -247,13 +250,15 @@ struct Charge {
   Charge(const Wanted& wanted, const Inside& inside) {
     if (!wanted.powder.empty()) powder = value_of("--powder", wanted.powder, Dimension::mass);
     double fill = 0, ratio = 0;
-    if (!wanted.fill.empty()) fill = number_of("--fill", wanted.fill, "a share of the jar, \"30%\"");
+    if (!wanted.fill.empty())
+      fill = number_of("--fill", wanted.fill, "a share of the jar, \"30%\"");
     if (!wanted.ratio.empty())
       ratio = number_of("--bpr", wanted.ratio.substr(0, wanted.ratio.find(':')),
-                        "mass of the balls over that of the powder, 10");
+          "mass of the balls over that of the powder, 10");
     if (fill > 1)
       throw InputError(fmt::format(
-          "--fill: found {}, which is more than the jar, expected a share of it, \"30%\"", wanted.fill));
+          "--fill: found {}, which is more than the jar, expected a share of it, \"30%\"",
+          wanted.fill));
     const bool finds_number = fill > 0 || (ratio > 0 && powder > 0);
     auto texts = wanted.balls;
     if (texts.empty()) texts = {finds_number ? "10mm" : "10x10mm"};
@@ -264,26 +269,30 @@ struct Charge {
         throw InputError(
             fmt::format("--balls: found \"{0}\" without a number of balls, expected \"10x{0}\", or "
                         "--fill, or --powder and --bpr, which determine their number",
-                        b.diameter));
+                b.diameter));
       if (b.count == 0) open = &b;
       add(b);
     }
     if (finds_number && !open)
-      throw InputError(fmt::format("{} determines the number of balls: give --balls with a diameter alone",
-                                   fill > 0 ? "--fill" : "--bpr"));
+      throw InputError(
+          fmt::format("{} determines the number of balls: give --balls with a diameter alone",
+              fill > 0 ? "--fill" : "--bpr"));
     if (fill > 0 && ratio > 0 && powder > 0)
-      throw InputError("--bpr cannot be combined with both --fill and --powder: give two of the three");
+      throw InputError(
+          "--bpr cannot be combined with both --fill and --powder: give two of the three");
     if (open) {
-      const double wanted_now = fill > 0 ? (fill * packing * inside.volume() - volume) / volume_of(*open)
-                                         : (ratio * powder - mass) / mass_of(*open);
+      const double wanted_now = fill > 0
+          ? (fill * packing * inside.volume() - volume) / volume_of(*open)
+          : (ratio * powder - mass) / mass_of(*open);
       open->count = static_cast<std::uint64_t>(std::clamp(std::round(wanted_now), 1.0, 1e6));
       add(*open);
     }
     if (ratio > 0 && powder <= 0) powder = mass / ratio;
   }
-
  private:
-  static double volume_of(const Batch& b) { return std::numbers::pi / 6 * b.size * b.size * b.size; }
+  static double volume_of(const Batch& b) {
+    return std::numbers::pi / 6 * b.size * b.size * b.size;
+  }
   static double mass_of(const Batch& b) {
     return value_of("density", b.material->density, Dimension::density) * volume_of(b);
   }
@@ -316,19 +325,23 @@ struct Writer {
 };
 
 /// The first word or words of a source, "Barahona"; `edmill machines` prints the whole source.
-std::string brief(const std::string& source) { return source.substr(0, source.find_first_of(",:")); }
+std::string brief(const std::string& source) {
+  return source.substr(0, source.find_first_of(",:"));
+}
 
 std::string quoted(const std::string& text) { return "\"" + text + "\""; }
 
 void put_machine(Writer& out, const Machine& machine, const Wanted& wanted, const Inside& inside) {
   std::string section, source;
   const auto& speed = wanted.speed.empty() ? machine.usual : wanted.speed;
-  const auto rate = [](const auto& text) { return value_of("--speed", text, Dimension::angular_speed); };
-  const bool outside =
-      !wanted.speed.empty() && (rate(speed) < rate(machine.slowest) || rate(speed) > rate(machine.fastest));
-  const std::string as_given =
-      outside ? fmt::format("as given; the machine has {} to {}", machine.slowest, machine.fastest)
-              : "as given";
+  const auto rate = [](const auto& text) {
+    return value_of("--speed", text, Dimension::angular_speed);
+  };
+  const bool outside = !wanted.speed.empty() &&
+      (rate(speed) < rate(machine.slowest) || rate(speed) > rate(machine.fastest));
+  const std::string as_given = outside
+      ? fmt::format("as given; the machine has {} to {}", machine.slowest, machine.fastest)
+      : "as given";
   for (const auto& s : machine.settings) {
     const auto dot = s.key.find('.');
     if (s.key.substr(0, dot) != section) {
@@ -360,11 +373,10 @@ void put_machine(Writer& out, const Machine& machine, const Wanted& wanted, cons
 
 void put_contact(Writer& out, const Wanted& wanted, const Charge& charge) {
   const auto& contact = contact_of(charge);
-  const auto other = std::find_if(charge.batches.begin(), charge.batches.end(), [](const Batch& b) {
-    return b.material->key.find("steel") == std::string::npos;
-  });
-  const auto source =
-      brief(contact.source) + (other == charge.batches.end() ? "" : "; assumed for " + other->material->key);
+  const auto other = std::find_if(charge.batches.begin(), charge.batches.end(),
+      [](const Batch& b) { return b.material->key.find("steel") == std::string::npos; });
+  const auto source = brief(contact.source) +
+      (other == charge.batches.end() ? "" : "; assumed for " + other->material->key);
   out.section("contact");
   if (wanted.restitution.empty() || wanted.friction.empty())
     out.comment("Known to 0.1 at best; what that changes: edmill run --check");
@@ -394,7 +406,8 @@ std::string table() {
     out += fmt::format("{:<16}{}, {} to {}\n", m.key, m.name, m.slowest, m.fastest);
     std::string before;
     for (const auto& s : m.settings) {
-      out += fmt::format("  {:<18}{:<26}{}\n", s.key, s.value, s.source == before ? "\"" : s.source);
+      out +=
+          fmt::format("  {:<18}{:<26}{}\n", s.key, s.value, s.source == before ? "\"" : s.source);
       if (!s.note.empty()) out += fmt::format("  {:<18}  {}\n", "", s.note);
       before = s.source;
     }
@@ -409,13 +422,15 @@ std::string markdown() {
       "knows, with the source of each number. Data sheets round, and a mill wears: measure your "
       "own machine where the result matters.\n";
   for (const auto& m : all.machines) {
-    out += fmt::format("\n## {}\n\n`--mill {}`, {} to {}.\n\n| key | value | source |\n|---|---|---|\n",
-                       m.name, m.key, m.slowest, m.fastest);
+    out += fmt::format(
+        "\n## {}\n\n`--mill {}`, {} to {}.\n\n| key | value | source |\n|---|---|---|\n", m.name,
+        m.key, m.slowest, m.fastest);
     for (const auto& s : m.settings)
       out += fmt::format("| {} | {}{} | {} |\n", code(s.key), code(s.value),
-                         s.note.empty() ? "" : ", " + s.note, s.source);
+          s.note.empty() ? "" : ", " + s.note, s.source);
   }
-  out += "\n## Other machines\n\n| machine | what to do, or why it cannot be simulated |\n|---|---|\n";
+  out +=
+      "\n## Other machines\n\n| machine | what to do, or why it cannot be simulated |\n|---|---|\n";
   for (const auto& other : all.elsewhere)
     out += fmt::format("| {} | {} |\n", fmt::join(other.names, ", "), other.what);
   out +=
@@ -423,7 +438,7 @@ std::string markdown() {
       "| density | source | contacts without powder in the literature |\n|---|---|---|---|\n";
   for (const auto& m : all.materials)
     out += fmt::format("| {} | {} | {} | {} |\n", code(m.key), m.density, m.source,
-                       m.dry.empty() ? "not known" : m.dry);
+        m.dry.empty() ? "not known" : m.dry);
   out +=
       "\n## Contacts\n\nWhat a case has unless `--restitution` and `--friction` say otherwise. The "
       "powder decides the restitution more than the balls do, and only that of steel with powder "
@@ -431,7 +446,7 @@ std::string markdown() {
       "result.\n\n| charge | restitution | source |\n|---|---|---|\n";
   for (const auto& c : all.contacts)
     out += fmt::format("| {} | {} | {} |\n", c.what,
-                       c.model.empty() ? c.restitution : "model " + code(c.model), c.source);
+        c.model.empty() ? c.restitution : "model " + code(c.model), c.source);
   return out + fmt::format("| all | friction {} | {} |\n", all.friction, all.friction_source);
 }
 
@@ -441,48 +456,52 @@ std::string new_case(const Wanted& wanted) {
   if (machine == all.machines.end()) {
     for (const auto& other : all.elsewhere)
       if (std::any_of(other.names.begin(), other.names.end(),
-                      [&](const auto& name) { return plain(name) == plain(wanted.machine); }))
+              [&](const auto& name) { return plain(name) == plain(wanted.machine); }))
         throw InputError(fmt::format("--mill: \"{}\": {}", wanted.machine, other.what));
     std::vector<std::string> keys;
     for (const auto& one : all.machines) keys.push_back(one.key);
-    throw InputError(
-        fmt::format("--mill: found \"{}\", expected {}; other mills are described by joints, [[mill.joint]]",
-                    wanted.machine, casefile::nearest_of(wanted.machine, keys)));
+    throw InputError(fmt::format(
+        "--mill: found \"{}\", expected {}; other mills are described by joints, [[mill.joint]]",
+        wanted.machine, casefile::nearest_of(wanted.machine, keys)));
   }
   const auto inside = inside_of(*machine, wanted.jar);
   const Charge charge(wanted, inside);
   if (!wanted.speed.empty()) value_of("--speed", wanted.speed, Dimension::angular_speed);
   if (!wanted.target_dose.empty()) {
     value_of("--target-dose", wanted.target_dose, Dimension::specific_energy);
-    if (charge.powder <= 0) throw InputError("--target-dose needs the mass of the powder: give --powder");
+    if (charge.powder <= 0)
+      throw InputError("--target-dose needs the mass of the powder: give --powder");
   }
   if (!wanted.restitution.empty()) require_number("--restitution", wanted.restitution, 1);
   if (!wanted.friction.empty()) require_number("--friction", wanted.friction, 1e6);
   const double time = value_of("--time", wanted.time, Dimension::time);
   Writer out;
   out.comment(fmt::format("{}, {} to {}. Sources of its numbers: edmill machines", machine->name,
-                          machine->slowest, machine->fastest));
+      machine->slowest, machine->fastest));
   out.comment("Check it with `edmill check`, simulate it with `edmill run FILE --report`.");
   out.section("run");
   out.key("start_time", quoted(fmt::format("{:g} s", time / 10)),
-          "statistics begin here, when the charge has spread");
+      "statistics begin here, when the charge has spread");
   out.key("end_time", quoted(wanted.time),
-          "or until the dose rate is known: edmill run --until-precision 1%");
+      "or until the dose rate is known: edmill run --until-precision 1%");
   out.key("gravity", quoted("9.81 m/s2"), "downward, along -Y");
   put_machine(out, *machine, wanted, inside);
-  out.comment(fmt::format("The balls fill {} of the jar, with the gaps between them; makers advise a third.",
-                          percent(charge.volume / packing / inside.volume())));
+  out.comment(fmt::format(
+      "The balls fill {} of the jar, with the gaps between them; makers advise a third.",
+      percent(charge.volume / packing / inside.volume())));
   if (charge.volume / packing > inside.volume() / 2)
     out.comment(
         "Above half, balls rest on each other for long: see docs/limits.md before you trust the "
         "result.");
   if (charge.powder > 0) {
-    out.comment(fmt::format("For grains up to {:.2g} mm: makers advise balls of three times the largest.",
-                            1000 * charge.smallest / 3));
+    out.comment(
+        fmt::format("For grains up to {:.2g} mm: makers advise balls of three times the largest.",
+            1000 * charge.smallest / 3));
     out.section("powder");
     out.key("mass",
-            quoted(wanted.powder.empty() ? fmt::format("{:.4g} g", 1000 * charge.powder) : wanted.powder),
-            fmt::format("charge ratio {:.3g}", charge.mass / charge.powder));
+        quoted(
+            wanted.powder.empty() ? fmt::format("{:.4g} g", 1000 * charge.powder) : wanted.powder),
+        fmt::format("charge ratio {:.3g}", charge.mass / charge.powder));
     if (!wanted.target_dose.empty())
       out.key("target_dose", quoted(wanted.target_dose), "the run gives the milling time");
   }
@@ -491,7 +510,8 @@ std::string new_case(const Wanted& wanted) {
     out.section("[balls]");
     out.key("count", std::to_string(b.count), "");
     out.key("diameter", quoted(b.diameter), "");
-    out.key("density", quoted(b.material->density), b.material->key + "; " + brief(b.material->source));
+    out.key(
+        "density", quoted(b.material->density), b.material->key + "; " + brief(b.material->source));
   }
   return out.text;
 }

@@ -20,8 +20,7 @@
 namespace edmill {
 
 /// Converts a number between the byte order of the machine and that of files, mostly the same.
-template <class T>
-T in_file_order(T value) {
+template <class T> T in_file_order(T value) {
   if constexpr (std::endian::native == std::endian::big) {
     std::array<unsigned char, sizeof(T)> bytes;
     std::memcpy(bytes.data(), &value, sizeof(T));
@@ -31,9 +30,9 @@ T in_file_order(T value) {
   return value;
 }
 
-/// Saves or loads the values it is called with. A class lists its members, `void archive(Archive& a) {
-/// a(x_, y_); }`, a scalar has `archive_value` (base/scalar_list.hpp). Every bit is preserved; the bytes
-/// are the same on every machine, but only the build that saved can load them.
+/// Saves or loads the values it is called with. A class lists its members, `void archive(Archive&
+/// a) { a(x_, y_); }`, a scalar has `archive_value` (base/scalar_list.hpp). Every bit is preserved;
+/// the bytes are the same on every machine, but only the build that saved can load them.
 class Archive {
  public:
   Archive() : loading_(false) {}
@@ -44,10 +43,7 @@ class Archive {
   const std::string& bytes() const { return bytes_; }
 
   /// @throws InputError when there are too few bytes to load
-  template <class... T>
-  void operator()(T&... values) {
-    (one(values), ...);
-  }
+  template <class... T> void operator()(T&... values) { (one(values), ...); }
   void raw(void* data, std::size_t size) {
     if (!loading_) return void(bytes_.append(static_cast<const char*>(data), size));
     need(size);
@@ -65,10 +61,8 @@ class Archive {
   void finish() const {
     if (loading_ && !rest_.empty()) throw InputError("the saved state has too many bytes");
   }
-
  private:
-  template <class T>
-  void one(T& value);
+  template <class T> void one(T& value);
   void need(std::uint64_t size) const {
     if (size > rest_.size()) throw InputError("the saved state ends early");
   }
@@ -82,10 +76,9 @@ inline void archive_value(Archive& a, std::string& text) {
   text.resize(a.count(text.size()));
   a.raw(text.data(), text.size());
 }
-/// A vector that is not empty before loading was sized by the case and keeps its length. An empty one
-/// grows with what is read, so that a wrong number cannot allocate more memory.
-template <class T, class Pages>
-void archive_value(Archive& a, std::vector<T, Pages>& values) {
+/// A vector that is not empty before loading was sized by the case and keeps its length. An empty
+/// one grows with what is read, so that a wrong number cannot allocate more memory.
+template <class T, class Pages> void archive_value(Archive& a, std::vector<T, Pages>& values) {
   const std::size_t size = a.count(values.size());
   if (values.size() != size) {
     if (!values.empty()) throw InputError("the saved state belongs to another case");
@@ -94,27 +87,24 @@ void archive_value(Archive& a, std::vector<T, Pages>& values) {
     for (auto& value : values) a(value);
   }
 }
-template <class T, std::size_t size>
-void archive_value(Archive& a, std::array<T, size>& values) {
+template <class T, std::size_t size> void archive_value(Archive& a, std::array<T, size>& values) {
   for (auto& value : values) a(value);
 }
-template <class A, class B>
-void archive_value(Archive& a, std::pair<A, B>& pair) {
+template <class A, class B> void archive_value(Archive& a, std::pair<A, B>& pair) {
   a(pair.first, pair.second);
 }
-template <class T>
-void archive_value(Archive& a, std::optional<T>& value) {
+template <class T> void archive_value(Archive& a, std::optional<T>& value) {
   bool there = value.has_value();
   a(there);
   if (a.loading()) value = there ? std::optional<T>(T{}) : std::nullopt;
   if (there) a(*value);
 }
-template <class... T>
-void archive_value(Archive& a, std::variant<T...>& value) {
+template <class... T> void archive_value(Archive& a, std::variant<T...>& value) {
   std::uint64_t index = value.index();
   a(index);
   if (a.loading()) {
-    if (index >= sizeof...(T)) throw InputError("the saved state contains an unknown kind of value");
+    if (index >= sizeof...(T))
+      throw InputError("the saved state contains an unknown kind of value");
     [&]<std::size_t... kind>(std::index_sequence<kind...>) {
       ((index == kind ? void(value.template emplace<kind>()) : void()), ...);
     }
@@ -122,17 +112,16 @@ void archive_value(Archive& a, std::variant<T...>& value) {
   }
   std::visit([&](auto& present) { a(present); }, value);
 }
-template <class Real>
-void archive_value(Archive& a, Vec3<Real>& v) {
+template <class Real> void archive_value(Archive& a, Vec3<Real>& v) {
   for (int axis = 0; axis < 3; ++axis) a(v[axis]);
 }
 
-template <class T>
-void Archive::one(T& value) {
+template <class T> void Archive::one(T& value) {
   if constexpr (std::is_same_v<T, bool>) {
     std::uint8_t byte = value;
     raw(&byte, 1);
-    if (byte > 1) throw InputError("the saved state contains a flag that is neither true nor false");
+    if (byte > 1)
+      throw InputError("the saved state contains a flag that is neither true nor false");
     value = byte == 1;
   } else if constexpr (std::is_same_v<T, long> || std::is_same_v<T, unsigned long>) {
     // The size of long depends on the machine, as does that of std::size_t.

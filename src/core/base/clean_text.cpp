@@ -48,13 +48,15 @@ std::string one_line(std::string_view text) {
   auto line = clean_text(text);
   // Python's splitlines() takes U+0085, U+2028 and U+2029 for line ends, too.
   for (const std::string_view end : {"\n", "\r", "\xc2\x85", "\xe2\x80\xa8", "\xe2\x80\xa9"})
-    for (auto at = line.find(end); at != line.npos; at = line.find(end)) line.replace(at, end.size(), " ");
+    for (auto at = line.find(end); at != line.npos; at = line.find(end))
+      line.replace(at, end.size(), " ");
   return line;
 }
 
 std::string percent(double share) {
   const double hundredths = 100 * share;
-  return hundredths < 99.5 ? fmt::format("{:.2g} %", hundredths) : fmt::format("{:.0f} %", hundredths);
+  return hundredths < 99.5 ? fmt::format("{:.2g} %", hundredths)
+                           : fmt::format("{:.0f} %", hundredths);
 }
 
 std::string counted(std::uint64_t number, std::string_view noun) {
@@ -81,10 +83,10 @@ std::string with_interval(double value, std::optional<double> half_width) {
 
 std::string time_with_interval(double seconds, std::optional<double> half_width) {
   constexpr double min = 60, h = 60 * min, day = 24 * h;
-  const auto [size, unit] = seconds >= 3 * day   ? std::pair{day, "days"}
-                            : seconds >= 2 * h   ? std::pair{h, "h"}
-                            : seconds >= 2 * min ? std::pair{min, "min"}
-                                                 : std::pair{1.0, "s"};
+  const auto [size, unit] = seconds >= 3 * day ? std::pair{day, "days"}
+      : seconds >= 2 * h                       ? std::pair{h, "h"}
+      : seconds >= 2 * min                     ? std::pair{min, "min"}
+                                               : std::pair{1.0, "s"};
   if (half_width) half_width = *half_width / size;
   return with_interval(seconds / size, half_width) + " " + unit;
 }
@@ -92,7 +94,7 @@ std::string time_with_interval(double seconds, std::optional<double> half_width)
 std::string energy_text(double joules) {
   constexpr double rounds_up = 0.9995;  // to three digits
   const auto [size, unit] = joules >= rounds_up || joules < 1e-9 ? std::pair{1.0, "J"}
-                            : joules >= 1e-3 * rounds_up         ? std::pair{1e-3, "mJ"}
+      : joules >= 1e-3 * rounds_up                               ? std::pair{1e-3, "mJ"}
                                                                  : std::pair{1e-6, "\u00b5J"};
   return fmt::format("{:.3g} {}", joules / size, unit);
 }

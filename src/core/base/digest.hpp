@@ -17,7 +17,6 @@ class Sha256 {
   void add(std::string_view bytes);
   /// Digest of the bytes so far; more can follow.
   std::string hex() const;
-
  private:
   static constexpr std::size_t block_size = 64;
 

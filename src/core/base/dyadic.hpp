@@ -16,8 +16,7 @@ class Dyadic {
   Dyadic(int whole) : n_(whole) {}  // NOLINT(google-explicit-constructor): exact
   Dyadic(boost::multiprecision::cpp_int n, int e) : n_(std::move(n)), e_(n_ == 0 ? 0 : e) {}
   /// @throws ContractError when x is not finite
-  template <class Real>
-  static Dyadic of(const Real& x) {
+  template <class Real> static Dyadic of(const Real& x) {
     using std::floor;
     using std::frexp;
     using std::isfinite;
@@ -38,8 +37,7 @@ class Dyadic {
     return exact;
   }
   /// Exact where n has no more bits than the scalar, otherwise to a few units of the last place.
-  template <class Real>
-  Real to() const {
+  template <class Real> Real to() const {
     using std::ldexp;
     constexpr unsigned bits = 30;
     Integer size = abs(n_);
@@ -65,9 +63,10 @@ class Dyadic {
   }
   friend Dyadic operator-(const Dyadic& a) { return Dyadic(-a.n_, a.e_); }
   friend Dyadic operator-(const Dyadic& a, const Dyadic& b) { return a + -b; }
-  friend Dyadic operator*(const Dyadic& a, const Dyadic& b) { return Dyadic(a.n_ * b.n_, a.e_ + b.e_); }
+  friend Dyadic operator*(const Dyadic& a, const Dyadic& b) {
+    return Dyadic(a.n_ * b.n_, a.e_ + b.e_);
+  }
   Dyadic half() const { return Dyadic(n_, e_ - 1); }
-
  private:
   using Integer = boost::multiprecision::cpp_int;
   Integer n_ = 0;

@@ -14,11 +14,10 @@ namespace detail {
 /// Scalars whose library functions round correctly, so that all libraries agree.
 template <class Real>
 inline constexpr bool rounds_correctly = (std::numeric_limits<Real>::digits == 0 ||
-                                          std::numeric_limits<Real>::digits > 113);
+    std::numeric_limits<Real>::digits > 113);
 
 /// x -+ x^3/3 + x^5/5 -+ ...: the arctangent, or with `sign` -1 artanh. @pre |x| <= 0.18
-template <class Real>
-Real odd_series(const Real& x, int sign) {
+template <class Real> Real odd_series(const Real& x, int sign) {
   // Each term has 5 bits more than the one before.
   constexpr int terms = std::numeric_limits<Real>::digits / 5 + 2;
   static const auto inverse = [] {
@@ -33,8 +32,7 @@ Real odd_series(const Real& x, int sign) {
 }
 
 /// @pre 0 <= t <= 1
-template <class Real>
-Real arctangent(const Real& t) {
+template <class Real> Real arctangent(const Real& t) {
   // atan(t) = atan(c) + atan((t - c) / (1 + t c)) with c = 1/4, 1/2, 3/4 or 1; atan(c) likewise.
   const int quarters = static_cast<int>(4 * static_cast<double>(t) + 0.5);
   if (quarters == 0) return odd_series<Real>(t, 1);
@@ -55,21 +53,20 @@ Real arctangent(const Real& t) {
 
 /// atan2(across, along), from 0 to pi for across >= 0. Error: a few units of the last place.
 /// @pre across >= 0, not both 0
-template <class Real>
-Real angle_between(const Real& across, const Real& along) {
+template <class Real> Real angle_between(const Real& across, const Real& along) {
   if constexpr (detail::rounds_correctly<Real>) {
     return Real(atan2(across, along));
   } else {
     const Real size = magnitude(along);
-    const Real first = across <= size ? detail::arctangent<Real>(across / size)
-                                      : Real(pi<Real>() / 2 - detail::arctangent<Real>(size / across));
+    const Real first = across <= size
+        ? detail::arctangent<Real>(across / size)
+        : Real(pi<Real>() / 2 - detail::arctangent<Real>(size / across));
     return along < 0 ? Real(pi<Real>() - first) : first;
   }
 }
 
 /// ln(1 + x). Error: a few units of the last place. @pre x >= 0
-template <class Real>
-Real log_of_one_plus(const Real& x) {
+template <class Real> Real log_of_one_plus(const Real& x) {
   if constexpr (detail::rounds_correctly<Real>) {
     return Real(log1p(x));
   } else {
@@ -83,14 +80,14 @@ Real log_of_one_plus(const Real& x) {
       --exponent;
     }
     using detail::odd_series;
-    static const Real ln2 = 2 * (2 * odd_series<Real>(Real(1) / 7, -1) + odd_series<Real>(Real(1) / 17, -1));
+    static const Real ln2 =
+        2 * (2 * odd_series<Real>(Real(1) / 7, -1) + odd_series<Real>(Real(1) / 17, -1));
     return exponent * ln2 + 2 * odd_series<Real>((m - 1) / (m + 1), -1);
   }
 }
 
 /// x^(1/5) to a few roundings, by arithmetic alone. @pre x >= 0
-template <class Real>
-Real fifth_root(const Real& x) {
+template <class Real> Real fifth_root(const Real& x) {
   using std::frexp;
   using std::ldexp;
   if (!(x > 0)) return Real(0);

@@ -15,7 +15,9 @@ constexpr auto leading = std::uint64_t{1} << 48, fraction = leading - 1;  // of 
 /// Lower and upper word of the IEEE binary128 encoding.
 std::array<std::uint64_t, 2> words_of(const float128& value) {
   const std::uint64_t sign = signbit(value) ? std::uint64_t{1} << 63 : 0;
-  const auto with_exponent = [&](int exponent) { return sign | static_cast<std::uint64_t>(exponent) << 48; };
+  const auto with_exponent = [&](int exponent) {
+    return sign | static_cast<std::uint64_t>(exponent) << 48;
+  };
   if (isnan(value)) return {1, with_exponent(largest)};
   if (isinf(value)) return {0, with_exponent(largest)};
   if (value == 0) return {0, sign};
@@ -26,7 +28,8 @@ std::array<std::uint64_t, 2> words_of(const float128& value) {
   const float128 upper = floor(float128(ldexp(whole, -64)));
   const auto high = static_cast<std::uint64_t>(upper);
   const auto low = static_cast<std::uint64_t>(float128(whole - ldexp(upper, 64)));
-  return {low, (high & leading ? with_exponent(least + bias) : with_exponent(0)) | (high & fraction)};
+  return {
+      low, (high & leading ? with_exponent(least + bias) : with_exponent(0)) | (high & fraction)};
 }
 
 float128 float128_of(const std::array<std::uint64_t, 2>& words) {

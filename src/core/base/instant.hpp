@@ -10,8 +10,7 @@
 namespace edmill {
 
 /// An instant: `period` whole drive periods, and `offset` [s] from 0 to below a period's length.
-template <class Real>
-struct Instant {
+template <class Real> struct Instant {
   std::int64_t period = 0;
   Real offset{0};
 
@@ -34,8 +33,7 @@ struct Instant {
 };
 
 /// Arithmetic of instants for one drive period [s], which for a vessel at rest is a mere unit.
-template <class Real>
-class DriveClock {
+template <class Real> class DriveClock {
  public:
   explicit DriveClock(const Real& period) : period_(period) {}
 
@@ -75,7 +73,6 @@ class DriveClock {
   /// The instant at `time` [s] on the simulation clock, and the reverse.
   Instant<Real> at(const Real& time) const { return instant(0, time); }
   Real seconds(const Instant<Real>& t) const { return Real(t.period) * period_ + t.offset; }
-
  private:
   Real period_;
 };

@@ -20,9 +20,9 @@ class Interruption {
 
   /// @throws InterruptedError once the flag is true
   static void check() {
-    if (const auto* flag = current(); flag && flag->load(std::memory_order_relaxed)) throw InterruptedError();
+    if (const auto* flag = current(); flag && flag->load(std::memory_order_relaxed))
+      throw InterruptedError();
   }
-
  private:
   static const std::atomic<bool>*& current() {
     static thread_local const std::atomic<bool>* flag = nullptr;

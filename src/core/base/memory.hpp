@@ -20,15 +20,13 @@ inline constexpr std::size_t large_page = std::size_t{1} << 21;  ///< [bytes]
 /// @return at least `size` bytes, aligned to a large page, for std::free. @throws std::bad_alloc
 void* allocate_pages(std::size_t size);
 
-/// Puts large arrays into large pages, where the system has them: an event among many balls accesses dozens
-/// of small pages, each of which needs an address translation.
-template <class T>
-struct LargePages {
+/// Puts large arrays into large pages, where the system has them: an event among many balls
+/// accesses dozens of small pages, each of which needs an address translation.
+template <class T> struct LargePages {
   using value_type = T;
 
   LargePages() = default;
-  template <class Other>
-  LargePages(const LargePages<Other>&) {}
+  template <class Other> LargePages(const LargePages<Other>&) {}
 
   T* allocate(std::size_t count) {
     if (!is_large(count)) return std::allocator<T>().allocate(count);
@@ -39,12 +37,10 @@ struct LargePages {
     std::free(array);
   }
   friend bool operator==(const LargePages&, const LargePages&) { return true; }
-
  private:
   static bool is_large(std::size_t count) { return count >= large_page / sizeof(T); }
 };
 
-template <class T>
-using LargeVector = std::vector<T, LargePages<T>>;
+template <class T> using LargeVector = std::vector<T, LargePages<T>>;
 
 }  // namespace edmill

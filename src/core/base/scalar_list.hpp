@@ -15,10 +15,7 @@
 
 namespace edmill {
 
-template <>
-struct ScalarName<float128> {
-  static constexpr std::string_view value = "float128";
-};
+template <> struct ScalarName<float128> { static constexpr std::string_view value = "float128"; };
 /// A scalar with a fixed number of digits, for the top of the decision ladder and for conversions.
 template <unsigned digits>
 using mpfr_of = boost::multiprecision::number<
@@ -30,10 +27,7 @@ using mpfr_of = boost::multiprecision::number<
     boost::multiprecision::et_off>;
 /// The widest scalar of the decision ladder.
 using mpfr50 = mpfr_of<50>;
-template <>
-struct ScalarName<mpfr50> {
-  static constexpr std::string_view value = "mpfr50";
-};
+template <> struct ScalarName<mpfr50> { static constexpr std::string_view value = "mpfr50"; };
 
 #if defined(EDMILL_NATIVE_FLOAT128)
 /// Saves or loads the IEEE binary128 encoding.
@@ -60,8 +54,7 @@ inline void archive_value(Archive& a, mpfr& value) {
   for (std::int64_t limb = 0; limb * mp_bits_per_limb < bits; ++limb) a(number->_mpfr_d[limb]);
 }
 
-template <unsigned digits>
-struct MpfrConversion<mpfr_of<digits>> {
+template <unsigned digits> struct MpfrConversion<mpfr_of<digits>> {
   static mpfr exact(const mpfr_of<digits>& value) { return mpfr(value.backend().data()); }
   static mpfr_of<digits> rounded(const mpfr& value) {
     mpfr_of<digits> result;
@@ -69,8 +62,7 @@ struct MpfrConversion<mpfr_of<digits>> {
     return result;
   }
 };
-template <>
-struct MpfrConversion<float128> {
+template <> struct MpfrConversion<float128> {
   static mpfr exact(float128 value) {
     mpfr sum;
     sum.set_precision(113);
@@ -99,31 +91,18 @@ struct MpfrConversion<float128> {
   }
 };
 
-template <>
-struct ScalarName<mpfr> {
-  static constexpr std::string_view value = "mpfr";
-};
-template <>
-inline std::string scalar_name<mpfr>() {
+template <> struct ScalarName<mpfr> { static constexpr std::string_view value = "mpfr"; };
+template <> inline std::string scalar_name<mpfr>() {
   const auto digits = std::to_string(mpfr::digits()), name = "mpfr" + digits;
   return chosen_digits_of(name) > 0 ? name : "mpfr:" + digits;
 }
-template <>
-inline mpfr epsilon<mpfr>() {
+template <> inline mpfr epsilon<mpfr>() {
   return ldexp(mpfr(1), static_cast<int>(1 - mpfr::bits()));
 }
-template <>
-inline int binary_digits<mpfr>() {
-  return static_cast<int>(mpfr::bits());
-}
-template <>
-struct HintOf<mpfr> : std::type_identity<mpfr> {};
-template <>
-inline bool double_hints<mpfr>() {
-  return mpfr::digits() <= 200;
-}
-template <>
-struct ChosenDigits<mpfr> {
+template <> inline int binary_digits<mpfr>() { return static_cast<int>(mpfr::bits()); }
+template <> struct HintOf<mpfr> : std::type_identity<mpfr> {};
+template <> inline bool double_hints<mpfr>() { return mpfr::digits() <= 200; }
+template <> struct ChosenDigits<mpfr> {
   unsigned digits = mpfr::digits(), shown = mpfr::shown();
   mpfr::Digits use() const { return mpfr::Digits(digits, shown); }
 };
@@ -132,15 +111,12 @@ inline mpfr::Digits with_all_digits_of(const mpfr& x) {
 }
 #endif
 
-template <>
-struct WiderScalar<double> : std::type_identity<float128> {};
-template <>
-struct WiderScalar<float128> : std::type_identity<mpfr50> {};
+template <> struct WiderScalar<double> : std::type_identity<float128> {};
+template <> struct WiderScalar<float128> : std::type_identity<mpfr50> {};
 
 /// Calls `function.operator()<Real>()` with the scalar of this name.
 /// @throws ContractError when there is none: names are checked where they are read
-template <class Function>
-auto with_scalar(std::string_view name, const Function& function) {
+template <class Function> auto with_scalar(std::string_view name, const Function& function) {
   if (name == ScalarName<double>::value) return function.template operator()<double>();
   if (name == ScalarName<float128>::value) return function.template operator()<float128>();
 #if !defined(EDMILL_WITHOUT_MPFR)
@@ -150,7 +126,8 @@ auto with_scalar(std::string_view name, const Function& function) {
   }
 #else
   if (chosen_digits_of(name) > 0)
-    throw InputError(std::string(name) + " needs MPFR, which this build of edmill does not contain");
+    throw InputError(
+        std::string(name) + " needs MPFR, which this build of edmill does not contain");
 #endif
   throw ContractError("no scalar named " + std::string(name));
 }
@@ -158,23 +135,17 @@ auto with_scalar(std::string_view name, const Function& function) {
 }  // namespace edmill
 
 #if !defined(EDMILL_WITHOUT_MPFR)
-template <>
-struct Eigen::NumTraits<edmill::mpfr> : Eigen::GenericNumTraits<edmill::mpfr> {
+template <> struct Eigen::NumTraits<edmill::mpfr> : Eigen::GenericNumTraits<edmill::mpfr> {
   enum { ReadCost = 20, AddCost = 40, MulCost = 80 };
   static Real epsilon() { return edmill::epsilon<edmill::mpfr>(); }
   static Real dummy_precision() { return 1000 * epsilon(); }
 };
 namespace boost::math::tools {
-template <>
-inline edmill::mpfr epsilon<edmill::mpfr>() {
-  return edmill::epsilon<edmill::mpfr>();
-}
-template <>
-inline edmill::mpfr min_value<edmill::mpfr>() {
+template <> inline edmill::mpfr epsilon<edmill::mpfr>() { return edmill::epsilon<edmill::mpfr>(); }
+template <> inline edmill::mpfr min_value<edmill::mpfr>() {
   return std::numeric_limits<double>::min();
 }
-template <>
-inline edmill::mpfr max_value<edmill::mpfr>() {
+template <> inline edmill::mpfr max_value<edmill::mpfr>() {
   return std::numeric_limits<double>::max();
 }
 }  // namespace boost::math::tools

@@ -5,8 +5,8 @@
 
 namespace edmill {
 
-/// Sets the default floating-point environment in a scope: rounding to nearest, subnormal numbers, no traps.
-/// Threads that are started in the scope inherit it.
+/// Sets the default floating-point environment in a scope: rounding to nearest, subnormal numbers,
+/// no traps. Threads that are started in the scope inherit it.
 class StandardArithmetic {
  public:
   StandardArithmetic() {
@@ -16,7 +16,6 @@ class StandardArithmetic {
   ~StandardArithmetic() { std::fesetenv(&before_); }
   StandardArithmetic(const StandardArithmetic&) = delete;
   StandardArithmetic& operator=(const StandardArithmetic&) = delete;
-
  private:
   std::fenv_t before_;
 };

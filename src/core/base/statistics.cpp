@@ -33,9 +33,11 @@ std::vector<double> deviations_of(std::vector<double> values) {
 /// Root mean square of the values from `first` on; scaled, so that no small number is squared.
 double size_of(const std::vector<double>& values, std::size_t first = 0) {
   double largest = 0, sum = 0;
-  for (std::size_t k = first; k < values.size(); ++k) largest = std::max(largest, std::abs(values[k]));
+  for (std::size_t k = first; k < values.size(); ++k)
+    largest = std::max(largest, std::abs(values[k]));
   if (!(largest > 0)) return 0;
-  for (std::size_t k = first; k < values.size(); ++k) sum += values[k] / largest * (values[k] / largest);
+  for (std::size_t k = first; k < values.size(); ++k)
+    sum += values[k] / largest * (values[k] / largest);
   return largest * std::sqrt(sum / static_cast<double>(values.size() - first));
 }
 
@@ -117,8 +119,8 @@ double mean_left_by(const std::vector<double>& x, const std::vector<double>& y) 
     rest += std::abs(x[k]) / 2;
   }
   std::sort(ratios.begin(), ratios.end());
-  const auto middle = std::find_if(ratios.begin(), ratios.end(),
-                                   [&](const auto& ratio) { return (rest -= ratio.second) <= 0; });
+  const auto middle = std::find_if(
+      ratios.begin(), ratios.end(), [&](const auto& ratio) { return (rest -= ratio.second) <= 0; });
   const double multiple = middle == ratios.end() ? 0 : middle->first;
   double sum = 0;
   for (std::size_t k = 0; k < x.size(); ++k) sum += std::abs(y[k] - multiple * x[k]);
@@ -133,8 +135,9 @@ Estimate estimate(const std::vector<double>& values) {
 
 namespace {
 
-/// Cosine transforms of a series at 1/2, 1, 3/2 ... cycles, each with the variance of a single value if
-/// these are independent. Twelve cover correlation over a twentieth of the series; few values get fewer.
+/// Cosine transforms of a series at 1/2, 1, 3/2 ... cycles, each with the variance of a single
+/// value if these are independent. Twelve cover correlation over a twentieth of the series; few
+/// values get fewer.
 std::vector<double> cosines_of(const std::vector<double>& values) {
   const auto deviations = deviations_of(values);
   const double n = count_of(values);
@@ -161,7 +164,8 @@ double skewness_of(const std::vector<double>& values) {
 
 Estimate series_estimate(const std::vector<double>& values) {
   constexpr std::size_t fewest = 5;
-  if (values.size() < fewest) return {values.empty() ? std::nullopt : std::optional(mean_of(values)), {}};
+  if (values.size() < fewest)
+    return {values.empty() ? std::nullopt : std::optional(mean_of(values)), {}};
   const auto transforms = cosines_of(values);
   const double n = count_of(values), skewness = skewness_of(values);
   const double limit = student_limit(count_of(transforms), 0.05);
@@ -274,7 +278,7 @@ std::optional<double> WeightedQuantiles::quantile(double share) const {
   const auto edge = [](std::size_t bin) {
     const int k = static_cast<int>(bin);
     return std::ldexp(1 + static_cast<double>(k % bins_per_octave) / bins_per_octave,
-                      k / bins_per_octave + least_octave - 1);
+        k / bins_per_octave + least_octave - 1);
   };
   std::size_t bin = 0;
   while (bin + 1 < weights_.size() && below > weights_[bin]) below -= weights_[bin++];

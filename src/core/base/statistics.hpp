@@ -38,9 +38,9 @@ struct Estimate {
 /// Mean and Student's 95 % interval of independent values.
 Estimate estimate(const std::vector<double>& values);
 
-/// Mean of a time series and its 95 % interval, by Student's t for the cosine transforms of the lowest
-/// frequencies, which account for correlation (Lazarus, Lewis, Stock and Watson 2018); wider for skewed
-/// values. No interval for fewer than five values.
+/// Mean of a time series and its 95 % interval, by Student's t for the cosine transforms of the
+/// lowest frequencies, which account for correlation (Lazarus, Lewis, Stock and Watson 2018); wider
+/// for skewed values. No interval for fewer than five values.
 Estimate series_estimate(const std::vector<double>& values);
 
 /// True if a time series drifts: its lowest frequency exceeds the next ones (Student's t, 1 %).
@@ -56,14 +56,14 @@ struct OfSeeds : Estimate {
   /// Ascending, if the runs differ by more than their own intervals allow; otherwise empty.
   std::vector<SteadyState> states = {};
 };
-/// Mean of several runs with an interval from the pooled variance within and between the runs. If that
-/// between them is larger (F test, 1 %) and the runs form groups with separate intervals, these are the
-/// steady states.
+/// Mean of several runs with an interval from the pooled variance within and between the runs. If
+/// that between them is larger (F test, 1 %) and the runs form groups with separate intervals,
+/// these are the steady states.
 /// @param half_widths  of the runs' 95 % intervals; if empty, only the scatter of the means is used
 OfSeeds pooled(const std::vector<double>& means, const std::vector<double>& half_widths);
 
-/// Whether the means of series differ by more than their scatter allows (analysis of variance, with this
-/// significance). @param series  two or more, of one length
+/// Whether the means of series differ by more than their scatter allows (analysis of variance, with
+/// this significance). @param series  two or more, of one length
 bool means_differ(const std::vector<std::vector<double>>& series, double significance);
 
 /// Weighted least-squares fit of a straight line to points that are added one by one.
@@ -83,7 +83,6 @@ class Line {
   /// Value at x = 0; `deviation` is its standard deviation if the weights are inverse variances.
   double value() const { return mean_y_ - slope() * mean_x_; }
   double deviation() const { return std::sqrt(1 / weights_ + mean_x_ * mean_x_ / xx_); }
-
  private:
   std::size_t points_ = 0;
   double weights_ = 0, mean_x_ = 0, mean_y_ = 0, xx_ = 0, xy_ = 0;
@@ -102,7 +101,6 @@ class WeightedQuantiles {
   std::optional<double> quantile(double share) const;
 
   void archive(auto& a) { a(weights_); }
-
  private:
   /// Values below 2^least_octave / 2 are in the first bin.
   static constexpr int least_octave = -100, bin_bits = 5, bins_per_octave = 1 << bin_bits;
@@ -124,8 +122,8 @@ class WeightedQuantiles {
 /// Whether the means of two samples differ (Welch's test, two-sided); never for single values.
 bool differ(const std::vector<double>& a, const std::vector<double>& b, double significance);
 
-/// p-value of a paired t test: the probability of a mean of `differences` at least this far from 0 if 0 is
-/// expected (two-sided). @pre at least two values
+/// p-value of a paired t test: the probability of a mean of `differences` at least this far from 0
+/// if 0 is expected (two-sided). @pre at least two values
 double paired_t_probability(const std::vector<double>& differences);
 
 /// Holm's adjusted probabilities: rejecting those up to 5 % has a familywise error rate up to 5 %.

@@ -10,26 +10,24 @@
 namespace edmill::numerics {
 
 /// A sum that does not lose small terms (Neumaier 1974).
-template <class Real>
-class CompensatedSum {
+template <class Real> class CompensatedSum {
  public:
   CompensatedSum& operator+=(const Real& term) {
     const Real next = sum_ + term;
-    lost_ += magnitude(sum_) >= magnitude(term) ? Real((sum_ - next) + term) : Real((term - next) + sum_);
+    lost_ += magnitude(sum_) >= magnitude(term) ? Real((sum_ - next) + term)
+                                                : Real((term - next) + sum_);
     sum_ = next;
     return *this;
   }
   Real value() const { return sum_ + lost_; }
   void archive(Archive& a) { a(sum_, lost_); }
-
  private:
   Real sum_{0}, lost_{0};
 };
 
-/// Totals at the ends of batches of whole drive periods, which cover all phases of the drive. Batches
-/// are merged in pairs so that from 64 periods on there are 64 to 127 complete ones.
-template <class Real>
-class Batches {
+/// Totals at the ends of batches of whole drive periods, which cover all phases of the drive.
+/// Batches are merged in pairs so that from 64 periods on there are 64 to 127 complete ones.
+template <class Real> class Batches {
  public:
   static constexpr std::size_t most = 128;
 
@@ -37,7 +35,8 @@ class Batches {
 
   /// End of the open batch.
   Instant<Real> next() const {
-    return {start_.period + periods_ * static_cast<std::int64_t>(totals_.size() + 1), start_.offset};
+    return {
+        start_.period + periods_ * static_cast<std::int64_t>(totals_.size() + 1), start_.offset};
   }
   /// Ends the open batch. @param totals  of all quantities since the start
   void close(std::vector<double> totals) {
@@ -75,7 +74,6 @@ class Batches {
   }
 
   void archive(Archive& a) { a(start_, periods_, totals_, elapsed_, latest_); }
-
  private:
   Instant<Real> start_;
   std::int64_t periods_ = 1;

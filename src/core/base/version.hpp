@@ -5,9 +5,9 @@
 
 namespace edmill {
 
-std::string version();         ///< "0.1.0"
-std::string commit();          ///< short, with "-dirty" for changed files; "unknown" outside a checkout
-std::string compiler();        ///< "GNU 12.2.0, Release"
+std::string version();   ///< "0.1.0"
+std::string commit();    ///< short, with "-dirty" for changed files; "unknown" outside a checkout
+std::string compiler();  ///< "GNU 12.2.0, Release"
 std::string optional_parts();  ///< dependencies that were found for this build: "MPI"
 
 }  // namespace edmill

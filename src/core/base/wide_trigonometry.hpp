@@ -12,10 +12,9 @@ namespace edmill::numerics {
 
 namespace detail {
 
-/// Sine and cosine by additions and multiplications alone. The angle is split into a multiple of pi/32, whose
-/// sine and cosine are tabulated, and a remainder with short Taylor polynomials.
-template <class Real, int rest_degree, int table_degree>
-class SinCosTables {
+/// Sine and cosine by additions and multiplications alone. The angle is split into a multiple of
+/// pi/32, whose sine and cosine are tabulated, and a remainder with short Taylor polynomials.
+template <class Real, int rest_degree, int table_degree> class SinCosTables {
  public:
   /// @param high, low  of pi/32, in two parts: products of the first with integers are exact
   SinCosTables(const Real& pi, const Real& high, const Real& low) : high_(high), low_(low) {
@@ -38,10 +37,8 @@ class SinCosTables {
     const auto& large = multiples_[static_cast<std::size_t>(parts & 63)];
     return {large.sin * c + large.cos * s, large.cos * c - large.sin * s};
   }
-
  private:
-  template <int degree>
-  SinCos<Real> taylor(const Real& x) const {
+  template <int degree> SinCos<Real> taylor(const Real& x) const {
     const Real square = x * x;
     Real sine = series_[degree - 1], cosine = series_[degree];
     for (std::size_t k = degree - 3; k >= 3; k -= 2) sine = series_[k] + square * sine;
@@ -57,29 +54,26 @@ class SinCosTables {
 }  // namespace detail
 
 /// Uses only operations that every implementation of binary128 rounds in the same way.
-template <>
-struct Trigonometry<float128> {
+template <> struct Trigonometry<float128> {
   static float128 pi() {
     static const float128 value = bits(pi_words[0], 0x1p-62) + bits(pi_words[1] >> 15, 0x1p-111);
     return value;
   }
   static SinCos<float128> sin_cos(const float128& angle) {
-    static const detail::SinCosTables<float128, 16, 32> tables(
-        pi(), bits(pi_words[0], 0x1p-67) + bits(pi_words[1] >> 48, 0x1p-83),
+    static const detail::SinCosTables<float128, 16, 32> tables(pi(),
+        bits(pi_words[0], 0x1p-67) + bits(pi_words[1] >> 48, 0x1p-83),
         bits(pi_words[1] & 0xffff'ffff'ffff, 0x1p-131) + bits(pi_words[2], 0x1p-195));
     return tables(angle);
   }
-
  private:
   /// pi 2^62, and 128 bits after the point.
-  static constexpr std::uint64_t pi_words[] = {0xc90f'daa2'2168'c234, 0xc4c6'628b'80dc'1cd1,
-                                               0x2902'4e08'8a67'cc74};
+  static constexpr std::uint64_t pi_words[] = {
+      0xc90f'daa2'2168'c234, 0xc4c6'628b'80dc'1cd1, 0x2902'4e08'8a67'cc74};
   static float128 bits(std::uint64_t word, double unit) { return float128(word) * float128(unit); }
 };
 
 /// Gives the same values with and without MPFR, in about MPFR's time.
-template <>
-struct Trigonometry<mpfr50> {
+template <> struct Trigonometry<mpfr50> {
   static const mpfr50& pi() { return boost::math::constants::pi<mpfr50>(); }
   static SinCos<mpfr50> sin_cos(const mpfr50& angle) {
     static const auto tables = [] {
@@ -91,8 +85,7 @@ struct Trigonometry<mpfr50> {
   }
 };
 
-template <unsigned digits>
-struct Trigonometry<mpfr_of<digits>> {
+template <unsigned digits> struct Trigonometry<mpfr_of<digits>> {
   using Real = mpfr_of<digits>;
 #if defined(EDMILL_WITHOUT_MPFR)
   static Real pi() { return boost::math::constants::pi<Real>(); }
@@ -116,8 +109,7 @@ struct Trigonometry<mpfr_of<digits>> {
 };
 
 #if !defined(EDMILL_WITHOUT_MPFR)
-template <>
-struct Trigonometry<mpfr> {
+template <> struct Trigonometry<mpfr> {
   static const mpfr& pi() {
     static thread_local mpfr value;
     if (mpfr_get_prec(value.data()) != mpfr::bits()) {

@@ -20,10 +20,11 @@ bool moves(const Joint& joint) { return joint.speed != 0 || !joint.swings.empty(
 bool commutes(const Joint& constant, const Joint& rotation) {
   if (!rotation.rotates) return false;
   const auto direction = model::ChainBounds<double>::direction(constant);
-  const Vec3<double> along =
-      constant.rotates ? direction : Vec3<double>(constant.shift[0], constant.shift[1], constant.shift[2]);
+  const Vec3<double> along = constant.rotates
+      ? direction
+      : Vec3<double>(constant.shift[0], constant.shift[1], constant.shift[2]);
   return norm<double>(cross<double>(along, model::ChainBounds<double>::direction(rotation))) <=
-         1e-15 * norm<double>(along);
+      1e-15 * norm<double>(along);
 }
 
 /// The joints up to the last one that moves, and the constant ones after it.
@@ -49,7 +50,7 @@ bool same(const List& one, const List& other) {
       return std::tie(j.rotates, j.axis, j.shift, j.angle, j.speed);
     };
     return constants(a) == constants(b) &&
-           std::equal(a.swings.begin(), a.swings.end(), b.swings.begin(), b.swings.end(), same_swing);
+        std::equal(a.swings.begin(), a.swings.end(), b.swings.begin(), b.swings.end(), same_swing);
   };
   return std::equal(one.begin(), one.end(), other.begin(), other.end(), same_joint);
 }
@@ -64,7 +65,7 @@ BodyGroups::BodyGroups(const std::vector<model::Body<double>>& bodies) {
     auto joints = motion.joints();
     auto [first, rest] = split(std::move(joints.list));
     const auto found = std::find_if(moving.begin(), moving.end(),
-                                    [&, &own = first](const List& other) { return same(other, own); });
+        [&, &own = first](const List& other) { return same(other, own); });
     const auto group = static_cast<std::size_t>(found - moving.begin());
     if (found == moving.end()) {
       moving.push_back(first);
@@ -73,23 +74,23 @@ BodyGroups::BodyGroups(const std::vector<model::Body<double>>& bodies) {
     const model::ChainMotion<double> constant({rest, joints.period, joints.times});
     const double speed = motion.wall_speed(shape.size());
     groups_[group].members.push_back({.body = k,
-                                      .place = constant.pose({0, 0.0}),
-                                      .shape = shape,
-                                      .speed = speed * (1 + 1e-9),
-                                      .margin = 1e-9 * shape.reach() + 1e-13 * motion.period() * speed});
+        .place = constant.pose({0, 0.0}),
+        .shape = shape,
+        .speed = speed * (1 + 1e-9),
+        .margin = 1e-9 * shape.reach() + 1e-13 * motion.period() * speed});
   }
 }
 
-auto BodyGroups::clear_times(const Instant<double>& when, const Vec3<double>& position, double radius,
-                             double speed) const -> Times {
+auto BodyGroups::clear_times(const Instant<double>& when, const Vec3<double>& position,
+    double radius, double speed) const -> Times {
   using Motion = model::ChainMotion<double>;
   Times times;
   for (const auto& group : groups_) {
     const auto seen = Motion::position_in_vessel(group.motion.place(when), position);
     for (const auto& member : group.members) {
       const auto local = Motion::position_in_vessel(member.place, seen);
-      times[member.body] =
-          (member.shape.clearance(local) - radius - member.margin) / (speed * (1 + 1e-9) + member.speed);
+      times[member.body] = (member.shape.clearance(local) - radius - member.margin) /
+          (speed * (1 + 1e-9) + member.speed);
     }
   }
   return times;

@@ -1,5 +1,5 @@
-// How long a ball cannot reach bodies that move together. A broad phase in double, whose margins are far
-// above its rounding: contacts that it excludes need no search in any scalar.
+// How long a ball cannot reach bodies that move together. A broad phase in double, whose margins
+// are far above its rounding: contacts that it excludes need no search in any scalar.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace edmill::dynamics {
 
-/// Bodies whose joints move alike, such as the arms of a rotor, differ by a constant transformation: one pose
-/// of the joints that move is enough. theory.md, section 2
+/// Bodies whose joints move alike, such as the arms of a rotor, differ by a constant
+/// transformation: one pose of the joints that move is enough. theory.md, section 2
 class BodyGroups {
  public:
   static constexpr std::size_t most = 64;  ///< bodies
@@ -22,9 +22,8 @@ class BodyGroups {
 
   /// For how long a ball cannot reach each body, whatever its path [s]; negative where it is near.
   /// @param position, speed  of its centre at `when`, inertial; its largest [m/s]
-  Times clear_times(const Instant<double>& when, const Vec3<double>& position, double radius,
-                    double speed) const;
-
+  Times clear_times(
+      const Instant<double>& when, const Vec3<double>& position, double radius, double speed) const;
  private:
   struct Member {
     std::size_t body;

@@ -12,10 +12,9 @@ namespace edmill::dynamics {
 
 namespace detail {
 
-template <class Real>
-std::string text(const Flight<Real>& f) {
+template <class Real> std::string text(const Flight<Real>& f) {
   std::string out = "flight from (period " + std::to_string(f.start.period) + ", offset " +
-                    to_text(f.start.offset) + " s): position";
+      to_text(f.start.offset) + " s): position";
   for (int k = 0; k < 3; ++k) out += " " + to_text<Real>(f.position[k]);
   out += " m, velocity";
   for (int k = 0; k < 3; ++k) out += " " + to_text<Real>(f.velocity[k]);
@@ -24,58 +23,49 @@ std::string text(const Flight<Real>& f) {
 
 }  // namespace detail
 
-template <class Real>
-struct DecisionLadder<Real>::Above {
+template <class Real> struct DecisionLadder<Real>::Above {
   // At the top of the ladder this type is never used.
   using Wide = std::conditional_t<std::is_void_v<Wider<Real>>, Real, Wider<Real>>;
   DecisionLadder<Wide> ladder;
 };
 
 template <class Real>
-DecisionLadder<Real>::DecisionLadder(const model::Mill<Real>& mill, const Real& smallest_sum,
-                                     const Real& top_speed)
-    : mill_(mill),
-      smallest_sum_(smallest_sum),
-      walls_(mill),
+DecisionLadder<Real>::DecisionLadder(
+    const model::Mill<Real>& mill, const Real& smallest_sum, const Real& top_speed)
+    : mill_(mill), smallest_sum_(smallest_sum), walls_(mill),
       pairs_(mill, smallest_sum, walls_.reach(), top_speed) {
   if constexpr (!std::is_void_v<Wider<Real>>) passed_up_.scalar = scalar_name<Wider<Real>>();
 }
 
-template <class Real>
-DecisionLadder<Real>::~DecisionLadder() = default;
-template <class Real>
-DecisionLadder<Real>::DecisionLadder(DecisionLadder&&) noexcept = default;
+template <class Real> DecisionLadder<Real>::~DecisionLadder() = default;
+template <class Real> DecisionLadder<Real>::DecisionLadder(DecisionLadder&&) noexcept = default;
 
-template <class Real>
-auto DecisionLadder<Real>::above() -> Above& {
+template <class Real> auto DecisionLadder<Real>::above() -> Above& {
   using Wide = typename Above::Wide;
   if (!above_)
-    above_.reset(new Above{
-        DecisionLadder<Wide>(model::mill_cast<Wide>(mill_), Wide(smallest_sum_), Wide(pairs_.top_speed()))});
+    above_.reset(new Above{DecisionLadder<Wide>(
+        model::mill_cast<Wide>(mill_), Wide(smallest_sum_), Wide(pairs_.top_speed()))});
   return *above_;
 }
 
-template <class Real>
-void DecisionLadder<Real>::raise_top_speed(const Real& speed) {
+template <class Real> void DecisionLadder<Real>::raise_top_speed(const Real& speed) {
   pairs_.raise_top_speed(speed);
   if (above_) above_->ladder.raise_top_speed(typename Above::Wide(speed));
 }
 
-template <class Real>
-void DecisionLadder<Real>::archive(Archive& a) {
+template <class Real> void DecisionLadder<Real>::archive(Archive& a) {
   bool needed_above = above_ != nullptr;
   a(passed_up_, needed_above);
   if constexpr (!std::is_void_v<Wider<Real>>)
     if (needed_above) a(above().ladder);
 }
 
-template <class Real>
-auto DecisionLadder<Real>::wall_above(const Query& query) -> Answer {
+template <class Real> auto DecisionLadder<Real>::wall_above(const Query& query) -> Answer {
   if constexpr (std::is_void_v<Wider<Real>>) {
     throw UndecidedError("ball-wall contact undecided in the widest scalar: ball of radius " +
-                         to_text(query.radius) + " m, " + detail::text(query.flight) +
-                         ", window from (period " + std::to_string(query.begin.period) + ", offset " +
-                         to_text(query.begin.offset) + " s) for " + to_text(query.length) + " s");
+        to_text(query.radius) + " m, " + detail::text(query.flight) + ", window from (period " +
+        std::to_string(query.begin.period) + ", offset " + to_text(query.begin.offset) +
+        " s) for " + to_text(query.length) + " s");
   } else {
     using Wide = Wider<Real>;
     ++passed_up_.wall;
@@ -100,17 +90,17 @@ auto DecisionLadder<Real>::wall_above(const Query& query) -> Answer {
     // A contact that is certain at the begin of the window has the same time in both scalars.
     const bool at_once = wide.time_error == 0 && time == query.begin;
     return {.verdict = wide.verdict,
-            .wall = wide.wall,
-            .time = time,
-            .by_rule = wide.by_rule,
-            .searched = searched,
-            .time_error = at_once ? Real(0) : Real(static_cast<Real>(wide.time_error) + rounding())};
+        .wall = wide.wall,
+        .time = time,
+        .by_rule = wide.by_rule,
+        .searched = searched,
+        .time_error = at_once ? Real(0) : Real(static_cast<Real>(wide.time_error) + rounding())};
   }
 }
 
 template <class Real>
 PairAnswer<Real> DecisionLadder<Real>::pair_above(const Flight<Real>& i, const Flight<Real>& j,
-                                                  const Instant<Real>& now, const Real& radius_sum) {
+    const Instant<Real>& now, const Real& radius_sum) {
   if constexpr (std::is_void_v<Wider<Real>>) {
     const Real& period = pairs_.clock().period();
     const auto time = exact_contact_time(exact_gap(i, j, now, radius_sum, mill_.gravity, period));
@@ -120,20 +110,20 @@ PairAnswer<Real> DecisionLadder<Real>::pair_above(const Flight<Real>& i, const F
   } else {
     using Wide = Wider<Real>;
     ++passed_up_.pair;
-    const auto wide = above().ladder.pair(flight_cast<Wide>(i), flight_cast<Wide>(j), instant_cast<Wide>(now),
-                                          Wide(radius_sum));
+    const auto wide = above().ladder.pair(
+        flight_cast<Wide>(i), flight_cast<Wide>(j), instant_cast<Wide>(now), Wide(radius_sum));
     const auto delay = static_cast<Real>(wide.delay), error = static_cast<Real>(wide.time_error);
     return {wide.verdict, delay, error + rounding() + 4 * epsilon<Real>() * delay};
   }
 }
 
-template <class Real>
-auto DecisionLadder<Real>::time_of(const Contact& contact) -> Timed {
+template <class Real> auto DecisionLadder<Real>::time_of(const Contact& contact) -> Timed {
   const auto& clock = pairs_.clock();
   if (!contact.with_wall) {
     const auto& now = contact.flight.start;
     const auto answer = pair(contact.flight, contact.partner, now, contact.radius);
-    if (answer.verdict == Verdict::contact) return {clock.after(now, answer.delay), answer.time_error};
+    if (answer.verdict == Verdict::contact)
+      return {clock.after(now, answer.delay), answer.time_error};
     return {contact.time, tie_window()};
   }
   // A window that ends just after the predicted time contains the contact.
@@ -151,8 +141,7 @@ auto DecisionLadder<Real>::time_of(const Contact& contact) -> Timed {
   }
 }
 
-template <class Real>
-int DecisionLadder<Real>::order(const Contact& a, const Contact& b) {
+template <class Real> int DecisionLadder<Real>::order(const Contact& a, const Contact& b) {
   const Timed first = time_of(a), second = time_of(b);
   const bool both_at_once = first.time_error == 0 && second.time_error == 0;
   if (both_at_once && first.time == second.time) return 0;
@@ -183,18 +172,17 @@ int DecisionLadder<Real>::order(const Contact& a, const Contact& b) {
     ++passed_up_.order;
     const auto widened = [](const Contact& c) {
       return dynamics::Contact<Wide>{.with_wall = c.with_wall,
-                                     .flight = flight_cast<Wide>(c.flight),
-                                     .partner = flight_cast<Wide>(c.partner),
-                                     .radius = Wide(c.radius),
-                                     .time = instant_cast<Wide>(c.time),
-                                     .wall = c.wall};
+          .flight = flight_cast<Wide>(c.flight),
+          .partner = flight_cast<Wide>(c.partner),
+          .radius = Wide(c.radius),
+          .time = instant_cast<Wide>(c.time),
+          .wall = c.wall};
     };
     return above().ladder.order(widened(a), widened(b));
   }
 }
 
-template <class Real>
-std::vector<model::Escalations> DecisionLadder<Real>::escalations() const {
+template <class Real> std::vector<model::Escalations> DecisionLadder<Real>::escalations() const {
   if constexpr (std::is_void_v<Wider<Real>>) {
     return {{"rule", passed_up_.wall, 0, passed_up_.order}};
   } else {

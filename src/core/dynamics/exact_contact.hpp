@@ -1,5 +1,5 @@
-// First contacts in exact arithmetic, where the gap is a polynomial of second degree: two balls, which fall
-// alike, and flat walls that do not move along their normals. theory.md, section 4
+// First contacts in exact arithmetic, where the gap is a polynomial of second degree: two balls,
+// which fall alike, and flat walls that do not move along their normals. theory.md, section 4
 #pragma once
 
 #include <optional>
@@ -23,15 +23,15 @@ struct ExactTime {
   Dyadic square{};
 
   /// Rounded down to the scalar, but not below zero. @pre it is not negative
-  template <class Real>
-  Real rounded_down() const {
+  template <class Real> Real rounded_down() const {
     using std::sqrt;
     // The root with the smaller absolute value is the product of both over the other one.
     const Real whole = p.to<Real>(), over = q.to<Real>(), root = Real(s) * sqrt(square.to<Real>());
     const Real t = s * p.sign() < 0 ? Real((p * p - square).to<Real>() / (over * (whole - root)))
                                     : Real((whole + root) / over);
     Real below = t > 0 ? t : Real(0);
-    for (Real step = epsilon<Real>() / 2; below > 0 && compare({Dyadic::of(below)}) < 0; step = 2 * step)
+    for (Real step = epsilon<Real>() / 2; below > 0 && compare({Dyadic::of(below)}) < 0;
+         step = 2 * step)
       below = below - below * step;
     return below;
   }
@@ -70,7 +70,7 @@ Dyadic exact_elapsed(const Instant<Real>& from, const Instant<Real>& to, const R
 /// Squared distance of two balls minus its value at contact, from `now` on [m^2].
 template <class Real>
 ExactGap exact_gap(const Flight<Real>& i, const Flight<Real>& j, const Instant<Real>& now,
-                   const Real& radius_sum, const Vec3<Real>& gravity, const Real& period) {
+    const Real& radius_sum, const Vec3<Real>& gravity, const Real& period) {
   const Dyadic age_i = exact_elapsed(i.start, now, period);
   const Dyadic age_j = exact_elapsed(j.start, now, period), sum = Dyadic::of(radius_sum);
   ExactGap gap{-(sum * sum), {}, {}};
@@ -90,31 +90,26 @@ ExactGap exact_gap(const Flight<Real>& i, const Flight<Real>& j, const Instant<R
 
 namespace detail {
 
-template <class Real>
-model::Joints<Real> joints_of(const model::ChainMotion<Real>& chain) {
+template <class Real> model::Joints<Real> joints_of(const model::ChainMotion<Real>& chain) {
   return chain.joints();
 }
 /// The joints are used only to test whether angles vary, so the unit of angles does not matter.
-template <class Real>
-model::Joints<Real> joints_of(const model::SpexMotion<Real>& spex) {
+template <class Real> model::Joints<Real> joints_of(const model::SpexMotion<Real>& spex) {
   return model::spex_joints<Real>(spex.arm(), spex.theta_max(), spex.gamma_max(), spex.period());
 }
 
-template <class Real>
-model::Joints<Real> joints_of(const model::AnyMotion<Real>& motion) {
+template <class Real> model::Joints<Real> joints_of(const model::AnyMotion<Real>& motion) {
   return motion.visit([](const auto& m) { return joints_of(m); });
 }
 
 /// The shape of a wall, by the vessel coordinates that its gap depends on.
-template <class Real>
-struct Shape {
+template <class Real> struct Shape {
   enum Kind { other, plane, round } kind = other;
   /// Of a plane its inward normal; of a round wall, one for each coordinate in its radius squared.
   Vec3<Real> axes{Real(0), Real(0), Real(0)};
   Real distance{0};  ///< of the wall from the centre [m]
 };
-template <class V, class Real = typename V::Scalar>
-Shape<Real> shape_of(const V& vessel, int id) {
+template <class V, class Real = typename V::Scalar> Shape<Real> shape_of(const V& vessel, int id) {
   const Real one(1), zero(0);
   if constexpr (std::is_same_v<V, model::AnyVessel<Real>>) {
     if (const auto* pistons = vessel.pistons())
@@ -139,15 +134,17 @@ struct StillCoordinate {
   Dyadic offset;  ///< coordinate in the vessel = sign * coordinate in the ground - offset [m]
 };
 
-/// Expresses a vessel coordinate in inertial ones, by following its axis from joint to joint to the ground;
-/// empty if a joint moves it. @param axis  of the vessel
+/// Expresses a vessel coordinate in inertial ones, by following its axis from joint to joint to the
+/// ground; empty if a joint moves it. @param axis  of the vessel
 template <class Real>
 std::optional<StillCoordinate> still_coordinate(const model::Joints<Real>& joints, int axis) {
   StillCoordinate seen{axis, 1, {}};
   for (auto joint = joints.list.rbegin(); joint != joints.list.rend(); ++joint) {
     bool moves = joint->speed != 0;
     for (const auto& swing : joint->swings) moves = moves || swing.amplitude != 0;
-    const auto along = [&](int k) -> const Real& { return joint->axis[static_cast<std::size_t>(k)]; };
+    const auto along = [&](int k) -> const Real& {
+      return joint->axis[static_cast<std::size_t>(k)];
+    };
     if (!joint->rotates) {
       if (moves && along(seen.axis) != 0) return std::nullopt;
       const Dyadic shift = Dyadic::of(joint->shift[static_cast<std::size_t>(seen.axis)]);
@@ -173,7 +170,7 @@ std::optional<StillCoordinate> still_coordinate(const model::Joints<Real>& joint
 /// The gap as a polynomial; one instance serves all motions and vessels of a scalar.
 template <class Real>
 std::optional<ExactGap> exact_gap(const model::Joints<Real>& joints, const Shape<Real>& shape,
-                                  const Vec3<Real>& gravity, const WallQuery<Real>& query) {
+    const Vec3<Real>& gravity, const WallQuery<Real>& query) {
   const bool round = shape.kind == Shape<Real>::round;
   const auto& flight = query.flight;
   const Dyadic age = exact_elapsed(flight.start, query.begin, joints.period);
@@ -185,8 +182,8 @@ std::optional<ExactGap> exact_gap(const model::Joints<Real>& joints, const Shape
     if (!seen || (round && gravity[seen->axis] != 0)) return std::nullopt;
     const Dyadic side(seen->sign), g = side * Dyadic::of(gravity[seen->axis]);
     const Dyadic begun = side * Dyadic::of(flight.velocity[seen->axis]), v = begun + age * g;
-    const Dyadic p =
-        side * Dyadic::of(flight.position[seen->axis]) + age * (begun + (age * g).half()) - seen->offset;
+    const Dyadic p = side * Dyadic::of(flight.position[seen->axis]) +
+        age * (begun + (age * g).half()) - seen->offset;
     const Dyadic n = Dyadic::of(shape.axes[k]);
     gap.value = gap.value + (round ? -(p * p) : n * p);
     gap.rate = gap.rate + (round ? Dyadic(-2) * p * v : n * v);

@@ -1,5 +1,6 @@
-// Gaps of a ball in flight to moving walls, their rates, rounding errors, and bounds on derivatives,
-// which exclude contacts. docs/theory.md: (2.17'), (2.19'), (2.21'), (2.22'), section 3
+// Gaps of a ball in flight to moving walls, their rates, rounding errors, and bounds on
+// derivatives, which exclude contacts. docs/theory.md: (2.17'), (2.19'), (2.21'), (2.22'), section
+// 3
 #pragma once
 
 #include <array>
@@ -18,39 +19,33 @@ namespace edmill::dynamics {
 using model::Motion, model::Vessel;
 
 /// Yes or no for each wall.
-template <class V>
-using WallSet = typename V::template PerWall<bool>;
+template <class V> using WallSet = typename V::template PerWall<bool>;
 
 /// True if the set contains a wall with this id or a higher one.
-template <class Set>
-bool any_from(const Set& set, std::size_t wall) {
+template <class Set> bool any_from(const Set& set, std::size_t wall) {
   bool any = false;
   for (; wall < set.size(); ++wall) any |= set[wall];
   return any;
 }
 
 /// Gaps at one time, as the vessel measures them.
-template <class V>
-struct GapSample {
+template <class V> struct GapSample {
   using Real = typename V::Scalar;
   Real offset;  ///< [s] from the start of the window's drive period
   typename V::template PerWall<Real> gap, rate;
 };
 
 /// A sample with second derivatives, where a search begins.
-template <class V>
-struct GapStart : GapSample<V> {
+template <class V> struct GapStart : GapSample<V> {
   typename V::template PerWall<typename V::Scalar> curvature;
 };
 
-template <class Real>
-struct SeenBall {
+template <class Real> struct SeenBall {
   Vec3<Real> velocity;                  ///< inertial [m/s]
   model::VesselFrameState<Real> state;  ///< in the vessel
 };
 
-template <class V>
-struct GapErrors {
+template <class V> struct GapErrors {
   typename V::template PerWall<typename V::Scalar> gap, rate, curvature;
 
   friend GapErrors operator+(GapErrors a, const GapErrors& b) {
@@ -64,19 +59,13 @@ struct GapErrors {
 };
 
 /// A vessel with its motion, and constants that all flights in it share.
-template <Motion M, Vessel V>
-struct MovingVessel {
+template <Motion M, Vessel V> struct MovingVessel {
   using Real = typename M::Scalar;
 
   MovingVessel(const M& its_motion, const V& its_vessel, const Vec3<Real>& acceleration)
-      : motion(its_motion),
-        vessel(its_vessel),
-        gravity(acceleration),
-        clock(its_motion.period()),
-        vessel_reach(its_vessel.reach()),
-        reach(its_motion.reach(vessel_reach)),
-        gravity_size(norm<Real>(acceleration)),
-        wall_speed(its_motion.wall_speed(vessel_reach)) {
+      : motion(its_motion), vessel(its_vessel), gravity(acceleration), clock(its_motion.period()),
+        vessel_reach(its_vessel.reach()), reach(its_motion.reach(vessel_reach)),
+        gravity_size(norm<Real>(acceleration)), wall_speed(its_motion.wall_speed(vessel_reach)) {
     if (const auto* pistons = model::pistons_of(vessel)) wall_speed += pistons->bound(1);
   }
 
@@ -91,8 +80,7 @@ struct MovingVessel {
 };
 
 /// The gap functions of one flight, over offsets of one drive period.
-template <Motion M, Vessel V>
-class GapFunctions {
+template <Motion M, Vessel V> class GapFunctions {
  public:
   using Real = typename M::Scalar;
   using Pose = typename M::Pose;
@@ -103,11 +91,8 @@ class GapFunctions {
 
   /// @param period  offsets count from the start of this drive period
   GapFunctions(const MovingVessel<M, V>& mill, const Flight<Real>& flight, const Real& radius,
-               std::int64_t period)
-      : mill_(mill),
-        flight_(flight),
-        room_(mill.vessel.inset(radius)),
-        period_(period),
+      std::int64_t period)
+      : mill_(mill), flight_(flight), room_(mill.vessel.inset(radius)), period_(period),
         lag_(Real(period - flight.start.period) * mill.clock.period()) {}
 
   /// Chooses the functions that are valid around a position seen from a body. @return their number
@@ -159,7 +144,8 @@ class GapFunctions {
   Start start(const Real& offset, const Pose& pose, const SeenBall<Real>& ball) const {
     const auto& [v, state] = ball;
     const auto second = mill_.motion.vessel_frame_acceleration(pose, state, v, mill_.gravity);
-    Start start{plain_sample(offset, state), room_.curvatures(state.position, state.velocity, second)};
+    Start start{
+        plain_sample(offset, state), room_.curvatures(state.position, state.velocity, second)};
     for_each_piston(offset, [&](int wall, const auto& moved) {
       start.gap[wall] -= moved.value;
       start.rate[wall] -= moved.rate;
@@ -181,7 +167,8 @@ class GapFunctions {
     return sample;
   }
 
-  /// Rounding bounds for samples up to `elapsed` [s] after the start of a flight at up to `speed` [m/s].
+  /// Rounding bounds for samples up to `elapsed` [s] after the start of a flight at up to `speed`
+  /// [m/s].
   /// @param walls  those whose bounds are needed; the other bounds are unspecified
   Errors errors(const Real& elapsed, const Real& speed, const Walls& walls) const {
     const Real u = epsilon<Real>() / 2;
@@ -199,30 +186,30 @@ class GapFunctions {
     const auto all = model::per_wall(mill_.vessel, true);
     return spread(u, mill_.motion.state_errors(u, flight), flight, all);
   }
-
  private:
   /// The sample without the displacement of pistons.
   Sample plain_sample(const Real& offset, const model::VesselFrameState<Real>& state) const {
     return {offset, room_.gaps(state.position), room_.rates(state.position, state.velocity)};
   }
   /// Calls f(wall, moved) for the walls that move in the vessel.
-  template <class F>
-  void for_each_piston(const Real& offset, F&& f) const {
+  template <class F> void for_each_piston(const Real& offset, F&& f) const {
     if (const auto* pistons = model::pistons_of(mill_.vessel))
-      for (std::size_t k = 0; k < pistons->count(); ++k) f(pistons->wall(k), pistons->at(k, instant(offset)));
+      for (std::size_t k = 0; k < pistons->count(); ++k)
+        f(pistons->wall(k), pistons->at(k, instant(offset)));
   }
 
   model::FlightBounds<Real> bounds(const Real& elapsed, const Real& speed) const {
-    model::FlightBounds<Real> flight{mill_.reach, mill_.gravity_size, speed, elapsed, magnitude(lag_)};
+    model::FlightBounds<Real> flight{
+        mill_.reach, mill_.gravity_size, speed, elapsed, magnitude(lag_)};
     flight.vessel_speed = mill_.motion.speed_in_vessel(flight);
     flight.vessel_acceleration = mill_.motion.acceleration_in_vessel(flight);
     return flight;
   }
 
-  /// Converts bounds on a coordinate in the vessel frame to bounds for each wall. A sample is inside the
-  /// vessel, or outside as far as a flight goes in an eighth of a period at most.
+  /// Converts bounds on a coordinate in the vessel frame to bounds for each wall. A sample is
+  /// inside the vessel, or outside as far as a flight goes in an eighth of a period at most.
   Errors spread(const Real& u, const model::ErrorBounds<Real>& coordinate,
-                const model::FlightBounds<Real>& flight, const Walls& walls) const {
+      const model::FlightBounds<Real>& flight, const Walls& walls) const {
     const auto none = model::per_wall(mill_.vessel, Real(0));
     Errors errors{none, none, none};
     for (int wall = 0; wall < model::function_count(mill_.vessel); ++wall) {
@@ -263,15 +250,16 @@ using DerivativeBounds = typename V::template PerKind<std::array<typename V::Sca
 
 /// Bounds for a ball with at most `speed` [m/s] in a window of `length` [s], inside when it begins.
 template <class M, class V, class Real = typename M::Scalar>
-DerivativeBounds<V> derivative_bounds(const MovingVessel<M, V>& mill, const Real& speed, const Real& length) {
+DerivativeBounds<V> derivative_bounds(
+    const MovingVessel<M, V>& mill, const Real& speed, const Real& length) {
   Real reach = mill.vessel_reach;
   // A body is searched where the ball is near.
   if constexpr (requires { mill.vessel.reach_near(length); }) {
     const Real way = (speed + mill.wall_speed) * length * (1 + rounding_margin<Real>());
     if (const Real near = mill.vessel.reach_near(way); near < reach) reach = near;
   }
-  const auto coordinates =
-      mill.motion.coordinate_bounds(mill.vessel.half_sizes(), reach, mill.gravity_size, speed, length);
+  const auto coordinates = mill.motion.coordinate_bounds(
+      mill.vessel.half_sizes(), reach, mill.gravity_size, speed, length);
   const Real margin = Real(1) + Real(1) / 65536;  // over the rounding of all this
   DerivativeBounds<V> bounds{};
   for (int k = 2; k <= 4; ++k) {
@@ -286,14 +274,14 @@ DerivativeBounds<V> derivative_bounds(const MovingVessel<M, V>& mill, const Real
 }
 
 /// The bounds tabulated over speed and window length, rounded up.
-template <class M, class V>
-class BoundsTable {
+template <class M, class V> class BoundsTable {
  public:
   using Real = typename M::Scalar;
   using Bounds = DerivativeBounds<V>;
   using Row = std::conditional_t<std::is_same_v<Real, double>, Bounds, std::optional<Bounds>>;
 
-  explicit BoundsTable(const MovingVessel<M, V>& mill) : mill_(mill), longest_(mill.motion.longest_window()) {
+  explicit BoundsTable(const MovingVessel<M, V>& mill)
+      : mill_(mill), longest_(mill.motion.longest_window()) {
     if (const auto* pistons = model::pistons_of(mill.vessel))
       if (const Real longest = pistons->longest_window(); longest < longest_) longest_ = longest;
     const Real wall_speed = mill.motion.speed_within(mill.motion.reach(mill.vessel.extent()));
@@ -320,7 +308,6 @@ class BoundsTable {
       return *bounds;
     }
   }
-
  private:
   static constexpr int speeds = 64, lengths = 5;
 

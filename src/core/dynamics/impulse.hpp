@@ -8,20 +8,19 @@
 
 namespace edmill::dynamics {
 
-template <class Real>
-struct ImpactOutcome {
+template <class Real> struct ImpactOutcome {
   Real approach_speed{};          ///< -g.n before the impact [m/s]
   Real separation_speed{};        ///< g.n after the impact [m/s]
   Real slip_speed{};              ///< |g_t| before the impact [m/s]
   Real restitution_tangential{};  ///< e_t
-  bool least_separation{};        ///< the least separation speed, and not the restitution, decided g.n
-  bool in_stall{};                ///< frictionless by the stall rule
-  Real normal_impulse{};          ///< [N s]
-  Real tangential_impulse{};      ///< [N s]
-  Real milling_dose{};            ///< [J], (2.30') or (2.36'); never negative
-  Real normal_dose{};             ///< the part of the dose that the motion along the normal gives up [J]
-  Real supplied_energy{};         ///< that the least separation speed adds to the motion [J]; >= 0
-  Real wall_work{};               ///< [J], (A.82); zero between balls
+  bool least_separation{};    ///< the least separation speed, and not the restitution, decided g.n
+  bool in_stall{};            ///< frictionless by the stall rule
+  Real normal_impulse{};      ///< [N s]
+  Real tangential_impulse{};  ///< [N s]
+  Real milling_dose{};        ///< [J], (2.30') or (2.36'); never negative
+  Real normal_dose{};      ///< the part of the dose that the motion along the normal gives up [J]
+  Real supplied_energy{};  ///< that the least separation speed adds to the motion [J]; >= 0
+  Real wall_work{};        ///< [J], (A.82); zero between balls
 
   /// M/2 g_n^2, the kinetic energy of the approach along the normal [J]; 0 without approach.
   Real impact_energy() const {
@@ -36,8 +35,7 @@ struct ImpactOutcome {
 
 namespace detail {
 
-template <class Real>
-struct ImpulseParts {
+template <class Real> struct ImpulseParts {
   Vec3<Real> per_mass;     ///< velocity change of a body i of the effective mass M
   Vec3<Real> spin_torque;  ///< n x B g_t
   ImpactOutcome<Real> outcome;
@@ -46,8 +44,8 @@ struct ImpulseParts {
 /// @param compliance  1 + M/(m_i J_i) + M/(m_j J_j); the last term is zero for a wall
 template <class Real>
 ImpulseParts<Real> impulse_parts(const Vec3<Real>& normal, const Vec3<Real>& contact_velocity,
-                                 const model::ContactBodies<Real>& bodies, const Real& compliance,
-                                 const model::ContactLaw<Real>& law, bool in_stall) {
+    const model::ContactBodies<Real>& bodies, const Real& compliance,
+    const model::ContactLaw<Real>& law, bool in_stall) {
   const Real& mass = bodies.effective_mass;
   const Real normal_speed = dot<Real>(contact_velocity, normal);  // negative while approaching
   const Vec3<Real> slip = contact_velocity - normal * normal_speed;
@@ -57,7 +55,8 @@ ImpulseParts<Real> impulse_parts(const Vec3<Real>& normal, const Vec3<Real>& con
   out.slip_speed = norm<Real>(slip);
   const Real approach = normal_speed < 0 ? Real(-normal_speed) : Real(0);
   const Real by_restitution = law.restitution(approach, bodies) * approach;
-  const Real separation = by_restitution < law.least_separation ? law.least_separation : by_restitution;
+  const Real separation =
+      by_restitution < law.least_separation ? law.least_separation : by_restitution;
   out.least_separation = separation > by_restitution && separation > normal_speed;
   // Bodies that already separate faster, because of rounding, keep their velocities.
   out.separation_speed = separation > normal_speed ? separation : normal_speed;
@@ -85,17 +84,18 @@ ImpulseParts<Real> impulse_parts(const Vec3<Real>& normal, const Vec3<Real>& con
 /// Impact of two balls. (2.28'), (2.30') @param normal  contact normal, unit, from ball j to ball i
 /// @param in_stall  the impact is frictionless (theory.md, section 6)
 template <class Real>
-ImpactOutcome<Real> collide_balls(const Vec3<Real>& normal, const model::BallProperties<Real>& ball_i,
-                                  const model::BallProperties<Real>& ball_j, Vec3<Real>& velocity_i,
-                                  Vec3<Real>& spin_i, Vec3<Real>& velocity_j, Vec3<Real>& spin_j,
-                                  const model::ContactLaw<Real>& law, bool in_stall = false) {
+ImpactOutcome<Real> collide_balls(const Vec3<Real>& normal,
+    const model::BallProperties<Real>& ball_i, const model::BallProperties<Real>& ball_j,
+    Vec3<Real>& velocity_i, Vec3<Real>& spin_i, Vec3<Real>& velocity_j, Vec3<Real>& spin_j,
+    const model::ContactLaw<Real>& law, bool in_stall = false) {
   const Real total = ball_i.mass + ball_j.mass;
   const Real share_i = ball_j.mass / total, share_j = ball_i.mass / total;  // M / m
   const Real compliance = 1 + share_i / ball_i.reduced_inertia + share_j / ball_j.reduced_inertia;
   const Vec3<Real> rolling = spin_i * ball_i.radius + spin_j * ball_j.radius;
   const Vec3<Real> contact_velocity = (velocity_i - velocity_j) - cross<Real>(rolling, normal);
   const model::ContactBodies<Real> bodies{ball_i.mass * share_i, ball_i.radius, ball_j.radius};
-  const auto parts = detail::impulse_parts<Real>(normal, contact_velocity, bodies, compliance, law, in_stall);
+  const auto parts =
+      detail::impulse_parts<Real>(normal, contact_velocity, bodies, compliance, law, in_stall);
   velocity_i += parts.per_mass * share_i;
   velocity_j -= parts.per_mass * share_j;
   spin_i += parts.spin_torque * (share_i / (ball_i.radius * ball_i.reduced_inertia));
@@ -106,14 +106,14 @@ ImpactOutcome<Real> collide_balls(const Vec3<Real>& normal, const model::BallPro
 /// Impact of a ball with a wall that moves with `wall_velocity` there. (2.34'), (2.35), (2.36')
 /// @param normal  unit, from the wall to the ball
 template <class Real>
-ImpactOutcome<Real> collide_with_wall(const Vec3<Real>& normal, const model::BallProperties<Real>& ball,
-                                      const Vec3<Real>& wall_velocity, Vec3<Real>& velocity, Vec3<Real>& spin,
-                                      const model::ContactLaw<Real>& law, bool in_stall = false) {
+ImpactOutcome<Real> collide_with_wall(const Vec3<Real>& normal,
+    const model::BallProperties<Real>& ball, const Vec3<Real>& wall_velocity, Vec3<Real>& velocity,
+    Vec3<Real>& spin, const model::ContactLaw<Real>& law, bool in_stall = false) {
   const Real compliance = 1 + 1 / ball.reduced_inertia;
   const Vec3<Real> rolling = spin * ball.radius;
   const Vec3<Real> contact_velocity = (velocity - wall_velocity) - cross<Real>(rolling, normal);
-  auto parts = detail::impulse_parts<Real>(normal, contact_velocity, {ball.mass, ball.radius}, compliance,
-                                           law, in_stall);
+  auto parts = detail::impulse_parts<Real>(
+      normal, contact_velocity, {ball.mass, ball.radius}, compliance, law, in_stall);
   velocity += parts.per_mass;
   spin += parts.spin_torque * (1 / (ball.radius * ball.reduced_inertia));
   parts.outcome.wall_work = ball.mass * dot<Real>(wall_velocity, parts.per_mass);

@@ -6,16 +6,14 @@
 
 namespace edmill::dynamics {
 
-template <class Real>
-struct PairAnswer {
+template <class Real> struct PairAnswer {
   Verdict verdict = Verdict::none;
   Real delay{0};       ///< of a contact: time from now [s], >= 0
   Real time_error{0};  ///< of a contact: bound on the rounding error of the delay [s]
 };
 
 /// Constants, for a whole run, of the filter that proves that nearly all pairs never meet.
-template <class Real>
-struct PairFilter {
+template <class Real> struct PairFilter {
   Vec3<Real> gravity;
   Real period;                               ///< of the drive [s]
   Real relative, slowest_squared, touching;  ///< see PairSearch::raise_top_speed
@@ -31,25 +29,19 @@ struct PairFilter {
   }
 };
 
-/// First contact of two balls in flight. Both have the same acceleration, so their relative motion is
-/// uniform: r = r_i - r_j, v = v_i - v_j, b = r.v < 0, c = r.r - R^2, dt = c / (-b + sqrt(b^2 - v.v c)).
-/// (3.1) Balls that overlap by rounding collide at once if they approach, else never.
-template <class Real>
-class PairSearch {
+/// First contact of two balls in flight. Both have the same acceleration, so their relative motion
+/// is uniform: r = r_i - r_j, v = v_i - v_j, b = r.v < 0, c = r.r - R^2, dt = c / (-b + sqrt(b^2 -
+/// v.v c)). (3.1) Balls that overlap by rounding collide at once if they approach, else never.
+template <class Real> class PairSearch {
  public:
   /// @param smallest_sum  least sum of two radii [m]
   /// @param reach         largest distance of a ball from the origin [m]
   /// @param top_speed     no ball is faster [m/s]; see `raise_top_speed`
   PairSearch(const model::Mill<Real>& mill, const Real& smallest_sum, const Real& reach,
-             const Real& top_speed)
-      : gravity_(mill.gravity),
-        clock_(mill.motion.period()),
-        smallest_sum_(smallest_sum),
-        reach_(reach),
-        widest_(2 * mill.vessel.reach()),
-        largest_sum_(mill.vessel.widest_ball()),
-        gravity_size_(norm<Real>(gravity_)),
-        least_separation_(mill.least_separations().first) {
+      const Real& top_speed)
+      : gravity_(mill.gravity), clock_(mill.motion.period()), smallest_sum_(smallest_sum),
+        reach_(reach), widest_(2 * mill.vessel.reach()), largest_sum_(mill.vessel.widest_ball()),
+        gravity_size_(norm<Real>(gravity_)), least_separation_(mill.least_separations().first) {
     filter_.gravity = gravity_;
     filter_.period = clock_.period();
     raise_top_speed(top_speed);
@@ -69,20 +61,20 @@ class PairSearch {
     filter_.slowest_squared = slowest * slowest;
     filter_.touching = 16 * position_error_ * smallest_sum_;
 
-    // Long enough to resolve contacts at the least separation speed, and so short that two balls of cells
-    // that are not adjacent cannot meet within it.
+    // Long enough to resolve contacts at the least separation speed, and so short that two balls of
+    // cells that are not adjacent cannot meet within it.
     using std::sqrt;
     tie_window_ = sqrt(epsilon<Real>()) * clock_.period();
     if (least_separation_ > 0 && 64 * position_error_ > tie_window_ * least_separation_)
       tie_window_ = 64 * position_error_ / least_separation_;
     const Real unseen = smallest_sum_ / (4096 * top_speed_);
     if (unseen < tie_window_) tie_window_ = unseen;
-    // An upper bound on `time_error` for any two balls in the vessel: a flight whose deflection is at most
-    // twice the reach gains at most this speed.
+    // An upper bound on `time_error` for any two balls in the vessel: a flight whose deflection is
+    // at most twice the reach gains at most this speed.
     const Real fall = 4 * sqrt(reach_ * gravity_size_);
     const Real displaced = position_error_ + u * (640 * reach_ + 12 * clock_.period() * fall);
-    const Real least_root =
-        4 * contact_error(widest_ * widest_, largest_sum_, displaced, widest_ * widest_) / tie_window_;
+    const Real least_root = 4 *
+        contact_error(widest_ * widest_, largest_sum_, displaced, widest_ * widest_) / tie_window_;
     filter_.grazing = least_root * least_root;
   }
 
@@ -99,7 +91,8 @@ class PairSearch {
   }
 
   /// The filter: false if the two balls provably never meet, as nearly all pairs. It has no branch.
-  bool may_meet(const State& i, const Flight<Real>& j, const Instant<Real>& now, const Real& sum) const {
+  bool may_meet(
+      const State& i, const Flight<Real>& j, const Instant<Real>& now, const Real& sum) const {
     const Relative s = relative(i, j, now, sum);
     return filter_.may_meet(s.b, s.c, s.v2, s.r2);
   }
@@ -107,7 +100,7 @@ class PairSearch {
 
   /// First contact from `now` on; both flights started before or at `now`.
   PairAnswer<Real> operator()(const State& i, const Flight<Real>& j, const Instant<Real>& now,
-                              const Real& radius_sum) const {
+      const Real& radius_sum) const {
     const Relative s = relative(i, j, now, radius_sum);
     const Real discriminant = s.b * s.b - s.v2 * s.c;
     if (!filter_.may_meet(s.b, s.c, s.v2, s.r2)) return {};
@@ -121,7 +114,6 @@ class PairSearch {
     }
     return close(s, age, radius_sum);
   }
-
  private:
   /// Relative motion of two balls now.
   struct Relative {
@@ -129,22 +121,22 @@ class PairSearch {
     Real dt, age;       ///< difference of the ages, age of j [s]
   };
   Relative relative(const State& i, const Flight<Real>& j, const Instant<Real>& now,
-                    const Real& radius_sum) const {
+      const Real& radius_sum) const {
     // Equals DriveClock::elapsed, without its branch.
-    const Real age =
-        static_cast<Real>(now.period - j.start.period) * clock_.period() + (now.offset - j.start.offset);
+    const Real age = static_cast<Real>(now.period - j.start.period) * clock_.period() +
+        (now.offset - j.start.offset);
     const Vec3<Real> r = i.position - position_after(j, gravity_, age);
     const Real dt = i.age - age;  // zero for balls that started together
     const Vec3<Real> v{(i.velocity[0] - j.velocity[0]) + gravity_[0] * dt,
-                       (i.velocity[1] - j.velocity[1]) + gravity_[1] * dt,
-                       (i.velocity[2] - j.velocity[2]) + gravity_[2] * dt};
+        (i.velocity[1] - j.velocity[1]) + gravity_[1] * dt,
+        (i.velocity[2] - j.velocity[2]) + gravity_[2] * dt};
     const Real r2 = dot<Real>(r, r);
     return {.b = dot<Real>(r, v),
-            .c = r2 - radius_sum * radius_sum,
-            .v2 = dot<Real>(v, v),
-            .r2 = r2,
-            .dt = dt,
-            .age = age};
+        .c = r2 - radius_sum * radius_sum,
+        .v2 = dot<Real>(v, v),
+        .r2 = r2,
+        .dt = dt,
+        .age = age};
   }
 
   /// Bounds on the rounding of the relative position now and of the relative velocity.
@@ -154,23 +146,24 @@ class PairSearch {
   }
   Real velocity_error(const Relative& s, const Real& speed, const Real& age) const {
     const Real u = epsilon<Real>() / 2;
-    return 4 * u * speed + (s.dt == 0 ? Real(0) : Real(12 * u * gravity_size_ * (age + clock_.period())));
+    return 4 * u * speed +
+        (s.dt == 0 ? Real(0) : Real(12 * u * gravity_size_ * (age + clock_.period())));
   }
 
-  /// Twice a bound on the rounding of (r.r - R^2)/2 at the computed time: the path is displaced, and the
-  /// sums of (3.1) are rounded. theory.md, section 4. @param b_delay  |r.v| times the delay
-  static Real contact_error(const Real& r2, const Real& radius_sum, const Real& displaced,
-                            const Real& b_delay) {
+  /// Twice a bound on the rounding of (r.r - R^2)/2 at the computed time: the path is displaced,
+  /// and the sums of (3.1) are rounded. theory.md, section 4. @param b_delay  |r.v| times the delay
+  static Real contact_error(
+      const Real& r2, const Real& radius_sum, const Real& displaced, const Real& b_delay) {
     const Real u = epsilon<Real>() / 2;
     return 2 * radius_sum * displaced + 16 * u * (r2 + radius_sum * radius_sum + b_delay);
   }
   /// Bound on the error of a delay [s]: `contact_error` over its rate, the discriminant's root.
   Real time_error(const Relative& s, const Real& delay, const Real& root, const Real& radius_sum,
-                  const Real& age) const {
+      const Real& age) const {
     using std::sqrt;
     const Real displaced = position_error(age) + velocity_error(s, sqrt(s.v2), age) * delay;
     return contact_error(s.r2, radius_sum, displaced, magnitude(s.b) * delay) / root +
-           4 * epsilon<Real>() * (delay + clock_.period());
+        4 * epsilon<Real>() * (delay + clock_.period());
   }
 
   /// Decides with bounds computed for this pair, if the balls touch, graze or move slowly.
@@ -178,7 +171,8 @@ class PairSearch {
     using std::sqrt;
     const Real u = epsilon<Real>() / 2;
     const auto& [b, c, v2, r2, dt, age_of_j] = s;
-    if (v2 == 0 && (dt == 0 || gravity_size_ == 0)) return {};  // exactly at rest relative to each other
+    if (v2 == 0 && (dt == 0 || gravity_size_ == 0))
+      return {};  // exactly at rest relative to each other
     const Real speed = sqrt(v2), distance = sqrt(r2);
     const Real dr = position_error(age), dv = velocity_error(s, speed, age);
     const Real c_error = 4 * distance * dr + 8 * u * (r2 + radius_sum * radius_sum);
@@ -191,7 +185,7 @@ class PairSearch {
     const Real discriminant = b * b - v2 * c;
     const Real absolute_b = magnitude(b), absolute_c = magnitude(c);
     const Real error = 3 * absolute_b * b_error + b_error * b_error + 2 * v2 * c_error +
-                       4 * speed * dv * (absolute_c + c_error) + 8 * u * (b * b + v2 * absolute_c);
+        4 * speed * dv * (absolute_c + c_error) + 8 * u * (b * b + v2 * absolute_c);
     if (discriminant < -error) return {};
     if (discriminant > error && b < -b_error) {
       const Real root = sqrt(discriminant);

@@ -19,10 +19,10 @@ namespace edmill::dynamics {
   return exact_gap(mill, WallQuery<Real>{{zero, zero, {}}, Real(0), {}, Real(0)}, wall).has_value();
 }
 
-/// Orders the contacts with two walls by exact arithmetic: negative if `one` is hit first, positive if
-/// `other` is, zero if both are hit at one time. Empty if an exact time is unknown.
-[[gnu::noinline]] std::optional<int> exact_order(const auto& mill, const auto& query, int one,
-                                                 bool one_at_once, int other, bool other_at_once) {
+/// Orders the contacts with two walls by exact arithmetic: negative if `one` is hit first, positive
+/// if `other` is, zero if both are hit at one time. Empty if an exact time is unknown.
+[[gnu::noinline]] std::optional<int> exact_order(
+    const auto& mill, const auto& query, int one, bool one_at_once, int other, bool other_at_once) {
   const auto time_of = [&](int wall, bool at_once) -> std::optional<ExactTime> {
     if (at_once) return ExactTime{};
     const auto gap = exact_gap(mill, query, wall);
@@ -36,15 +36,15 @@ namespace edmill::dynamics {
 
 template <Motion M, Vessel V>
 WallSearch<M, V>::WallSearch(const M& motion, const V& vessel, const Vec3<Real>& gravity)
-    : mill_(motion, vessel, gravity),
-      bounds_(mill_),
-      rough_(motion.template cast<double>(), vessel.template cast<double>(), vector_cast<double>(gravity)) {
+    : mill_(motion, vessel, gravity), bounds_(mill_),
+      rough_(motion.template cast<double>(), vessel.template cast<double>(),
+          vector_cast<double>(gravity)) {
   if constexpr (is_body) own_speed_ = motion.wall_speed(vessel.size());
 }
 
 template <Motion M, Vessel V>
-auto WallSearch<M, V>::within_reach(const Functions& functions, const Vec3<Real>& position, const Real& speed,
-                                    const Real& length) const -> Walls {
+auto WallSearch<M, V>::within_reach(const Functions& functions, const Vec3<Real>& position,
+    const Real& speed, const Real& length) const -> Walls {
   const Real margin = rounding_margin<Real>();
   const Real way = (speed + mill_.wall_speed) * length * (1 + margin) + mill_.reach * margin;
   auto near = functions.room().within(position, way);
@@ -53,11 +53,11 @@ auto WallSearch<M, V>::within_reach(const Functions& functions, const Vec3<Real>
   return near;
 }
 
-/// For so long a ball certainly does not reach a body [s]: their distance changes by no more than both
-/// move. 0 if that is short, compared with the `length` of the search.
+/// For so long a ball certainly does not reach a body [s]: their distance changes by no more than
+/// both move. 0 if that is short, compared with the `length` of the search.
 template <Motion M, Vessel V>
-auto WallSearch<M, V>::clear_time(const Functions& functions, const Vec3<Real>& position, const Real& speed,
-                                  const Real& length) const -> Real {
+auto WallSearch<M, V>::clear_time(const Functions& functions, const Vec3<Real>& position,
+    const Real& speed, const Real& length) const -> Real {
   if constexpr (is_body) {
     const Real margin = rounding_margin<Real>(), clearance = functions.room().clearance(position);
     const Real leap = (clearance - mill_.reach * margin) / ((speed + own_speed_) * (1 + margin));
@@ -66,15 +66,15 @@ auto WallSearch<M, V>::clear_time(const Functions& functions, const Vec3<Real>& 
   return Real(0);
 }
 
-template <Motion M, Vessel V>
-void WallSearch<M, V>::require_length(const Query& query) const {
-  EDMILL_REQUIRE(query.length > 0 && query.length <= longest_window() * (1 + rounding_margin<Real>()),
-                 "window length out of range");
+template <Motion M, Vessel V> void WallSearch<M, V>::require_length(const Query& query) const {
+  EDMILL_REQUIRE(
+      query.length > 0 && query.length <= longest_window() * (1 + rounding_margin<Real>()),
+      "window length out of range");
 }
 
 template <Motion M, Vessel V>
 decltype(auto) WallSearch<M, V>::smooth(const Query& query, const Functions& functions,
-                                        const Vec3<Real>& position, const Real& speed) const {
+    const Vec3<Real>& position, const Real& speed) const {
   if constexpr (model::HasRegions<V>) {
     auto shorter = query;
     const auto way = functions.room().smooth_way(position);
@@ -95,19 +95,20 @@ auto WallSearch<M, V>::search(const Pose& pose, const Query& query) const -> Ans
   functions.enter(ball.state.position);
   const Real speed = top_speed(ball.velocity, query.length);
   if constexpr (is_body)
-    if (const Real clear = clear_time(functions, ball.state.position, speed, query.length); clear > 0)
+    if (const Real clear = clear_time(functions, ball.state.position, speed, query.length);
+        clear > 0)
       return Answer::none(clear);
   const Walls reachable = within_reach(functions, ball.state.position, speed, query.length);
   if (!any_from(reachable, 0)) return Answer::none(query.length);
   return first_contact<false>(functions, functions.start(begin, pose, ball), reachable, speed,
-                              smooth(query, functions, ball.state.position, speed), nullptr);
+      smooth(query, functions, ball.state.position, speed), nullptr);
 }
 
 /// Removes the walls, most of them, that the start proves not to be hit within `length`.
 /// @return true if any wall is left; `length` is then shortened to the window that must be searched
 template <Motion M, Vessel V>
 bool WallSearch<M, V>::drop_clear(const auto& curve_of, Walls& reachable, Real& length,
-                                  const DerivativeBounds<V>& derivatives) const {
+    const DerivativeBounds<V>& derivatives) const {
   const Real whole = length;
   bool any = false;
   for (int wall = 0; wall < model::function_count(mill_.vessel); ++wall) {
@@ -117,8 +118,8 @@ bool WallSearch<M, V>::drop_clear(const auto& curve_of, Walls& reachable, Real& 
     reachable[wall] = !proven_clear(start, curve.curvature, whole, curve.bounds);
     if (!reachable[wall]) continue;
     any = true;
-    // The window can end a little after the first possible contact, but not so early that rounding hides the
-    // contact of a ball that touches the wall.
+    // The window can end a little after the first possible contact, but not so early that rounding
+    // hides the contact of a ball that touches the wall.
     Point hinted = start;
     const Real& error = curve.bounds.value_error;
     if (start.slope < 0 && start.value < 8 * error) hinted.value += 4 * error;
@@ -130,16 +131,16 @@ bool WallSearch<M, V>::drop_clear(const auto& curve_of, Walls& reachable, Real& 
 
 template <Motion M, Vessel V>
 template <bool rounded>
-auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& first, Walls reachable,
-                                     const Real& speed, const Query& query, RoughAnswer* rough) const
-    -> Answer {
+auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& first,
+    Walls reachable, const Real& speed, const Query& query, RoughAnswer* rough) const -> Answer {
   const Real begin = query.begin.offset, oldest = functions.elapsed(begin + query.length);
   const auto own_errors = functions.errors(oldest, speed, reachable);
   auto errors = own_errors;
   if constexpr (rounded) errors = errors + functions.state_errors(oldest, speed);
   const auto curve_of = [&](int wall, const DerivativeBounds<V>& derivatives) {
     const auto& d = derivatives[functions.room().kind_of(wall)];
-    const Bounds bounds{d[0], d[1], d[2], errors.gap[wall], errors.rate[wall], errors.curvature[wall]};
+    const Bounds bounds{
+        d[0], d[1], d[2], errors.gap[wall], errors.rate[wall], errors.curvature[wall]};
     const Point start{first.offset, first.gap[wall], first.rate[wall]};
     return Curve{functions, wall, bounds, start, first.curvature[wall]};
   };
@@ -181,10 +182,10 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
     answer = Answer::contact(wall, time, best.time_error);
     if constexpr (rounded)
       *rough = {.wall = wall,
-                .left = found.left.t,
-                .right = found.right.t,
-                .root = root->t,
-                .error = own_errors.gap[wall]};
+          .left = found.left.t,
+          .right = found.right.t,
+          .root = root->t,
+          .error = own_errors.gap[wall]};
     if (!any_from(reachable, wall + 1)) break;
     // Later walls matter up to a little past this root.
     const Real behind = root->t + root->time_error + longest_window() * rounding_margin<Real>();
@@ -201,11 +202,11 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
 }
 
 /// Samples the gaps at the end of a window. One that is zero within rounding there would leave the
-/// window undecided in every scalar: the end is moved towards `from`. One that is zero at two successive
-/// ends stays zero for long, so that a shorter window does not help.
+/// window undecided in every scalar: the end is moved towards `from`. One that is zero at two
+/// successive ends stays zero for long, so that a shorter window does not help.
 template <Motion M, Vessel V>
-auto WallSearch<M, V>::sample_of_end(const Functions& functions, const Walls& reachable, const Errors& errors,
-                                     const Real& from, Real& end) const -> Sample {
+auto WallSearch<M, V>::sample_of_end(const Functions& functions, const Walls& reachable,
+    const Errors& errors, const Real& from, Real& end) const -> Sample {
   const auto touches = [&](const Sample& sample, int wall) {
     const Real &gap = sample.gap[wall], &error = errors.gap[wall];
     return reachable[wall] & (gap <= error) & (gap >= -error);
@@ -247,8 +248,8 @@ auto WallSearch<M, V>::isolate_from_start(const Curve& curve, const Point& right
   return isolate(curve, start, right);
 }
 
-/// A rising gap keeps rising while its second derivative is positive: one long step suffices at first,
-/// also from an overlap; where the third derivative is zero, for the whole window.
+/// A rising gap keeps rising while its second derivative is positive: one long step suffices at
+/// first, also from an overlap; where the third derivative is zero, for the whole window.
 template <Motion M, Vessel V>
 auto WallSearch<M, V>::isolate_rising(const Curve& curve, const Point& right) const -> Bracket {
   const Bounds& b = curve.bounds;
@@ -256,16 +257,18 @@ auto WallSearch<M, V>::isolate_rising(const Curve& curve, const Point& right) co
   return t < right.t ? isolate(curve, curve.at(t), right) : Bracket{Verdict::none};
 }
 
-/// Isolates the root for a ball that has just left the wall and whose gap is provably concave throughout the
-/// window: the gap has one maximum and one root after it.
+/// Isolates the root for a ball that has just left the wall and whose gap is provably concave
+/// throughout the window: the gap has one maximum and one root after it.
 template <Motion M, Vessel V>
-auto WallSearch<M, V>::isolate_hop(const Curve& curve, const Point& right) const -> std::optional<Bracket> {
+auto WallSearch<M, V>::isolate_hop(const Curve& curve, const Point& right) const
+    -> std::optional<Bracket> {
   const Bounds& b = curve.bounds;
   const Point& left = curve.start;
   const Real length = right.t - left.t;
   const bool bends = curve.curvature + b.curvature_error + b.third * length < 0;
   const bool ends_below = right.value < -b.value_error && right.slope < -b.slope_error;
-  if (!(bends & ends_below) || left.value < -b.value_error || !can_depart(left, b)) return std::nullopt;
+  if (!(bends & ends_below) || left.value < -b.value_error || !can_depart(left, b))
+    return std::nullopt;
   const auto fraction = static_cast<Real>(last_root_hint(left, right, 1e-4));
   return Bracket{Verdict::contact, left, right, Real(0), left.t + fraction * length};
 }
@@ -292,11 +295,11 @@ auto WallSearch<M, V>::isolate(const Curve& curve, Point left, const Point& last
   return {proven_increasing(left, last, b) ? Verdict::none : Verdict::undecided};
 }
 
-/// Walks the window from the left over intervals that are proven free of contact, splitting where the proof
-/// fails, up to one that contains exactly one sign change.
+/// Walks the window from the left over intervals that are proven free of contact, splitting where
+/// the proof fails, up to one that contains exactly one sign change.
 template <Motion M, Vessel V>
-auto WallSearch<M, V>::isolate_outside(const Curve& curve, Point left, const Point& right,
-                                       bool departing) const -> Bracket {
+auto WallSearch<M, V>::isolate_outside(
+    const Curve& curve, Point left, const Point& right, bool departing) const -> Bracket {
   constexpr int deepest = 64;
   std::array<Point, deepest> ends;  // right ends of intervals still to be searched, nearest last
   int count = 0;
@@ -349,10 +352,11 @@ auto WallSearch<M, V>::isolate_outside(const Curve& curve, Point left, const Poi
   return {Verdict::none};
 }
 
-/// The gap is zero within rounding and falling at the start: the contact is at the start or within rounding
-/// after it, provided that the gap provably falls to a negative value.
+/// The gap is zero within rounding and falling at the start: the contact is at the start or within
+/// rounding after it, provided that the gap provably falls to a negative value.
 template <Motion M, Vessel V>
-auto WallSearch<M, V>::isolate_touching(const Curve& curve, const Point& left, Point right) const -> Bracket {
+auto WallSearch<M, V>::isolate_touching(const Curve& curve, const Point& left, Point right) const
+    -> Bracket {
   const Bounds& b = curve.bounds;
   // If another wall has shortened the window, extend it to where this gap is certainly negative.
   if (const Real s = 16 * resolution() - 8 * b.value_error / left.slope; right.t - left.t < s)
@@ -390,11 +394,11 @@ auto WallSearch<M, V>::isolate_resting(const Curve& curve, const Point& right) c
   return isolate_rising(curve, right);
 }
 
-/// Follows a ball that certainly overlaps the wall at the start, by rounding, and moves away: the gap
-/// opens, and the search goes on from outside, or the ball turns back: this is the contact.
+/// Follows a ball that certainly overlaps the wall at the start, by rounding, and moves away: the
+/// gap opens, and the search goes on from outside, or the ball turns back: this is the contact.
 template <Motion M, Vessel V>
-auto WallSearch<M, V>::follow_overlap(const Curve& curve, const Point& start, const Point& right) const
-    -> Bracket {
+auto WallSearch<M, V>::follow_overlap(
+    const Curve& curve, const Point& start, const Point& right) const -> Bracket {
   using std::sqrt;
   const Bounds& b = curve.bounds;
   // See PairSearch::tie_window.
@@ -426,16 +430,18 @@ auto WallSearch<M, V>::follow_overlap(const Curve& curve, const Point& start, co
     if (turned && step * 65536 < next.t - start.t && step < sharp)
       return {Verdict::contact, next, next, step + resolution()};
     if (step < resolution())
-      return turned ? Bracket{Verdict::contact, next, next, 2 * resolution()} : Bracket{Verdict::undecided};
+      return turned ? Bracket{Verdict::contact, next, next, 2 * resolution()}
+                    : Bracket{Verdict::undecided};
     step = step / 2;
   }
   return {Verdict::undecided};
 }
 
-/// Refines the root in the bracket to the last digit of the scalar; the result is the end of the final
-/// bracket at which the gap is not negative.
+/// Refines the root in the bracket to the last digit of the scalar; the result is the end of the
+/// final bracket at which the gap is not negative.
 template <Motion M, Vessel V>
-auto WallSearch<M, V>::polish(const Curve& curve, const Bracket& bracket) const -> std::optional<Root> {
+auto WallSearch<M, V>::polish(const Curve& curve, const Bracket& bracket) const
+    -> std::optional<Root> {
   const Point &left = bracket.left, &right = bracket.right;
   if (bracket.at_once) return Root{.t = left.t, .time_error = Real(0), .at_once = true};
   if (bracket.time_error > 0) return Root{.t = left.t, .time_error = bracket.time_error};
@@ -449,10 +455,10 @@ auto WallSearch<M, V>::polish(const Curve& curve, const Bracket& bracket) const 
     const Real width = right.t - left.t;
     const Real& third = curve.bounds.third;
     const Approach approach{hop ? bracket.guess : inverse_cubic_hint(left, right),
-                            static_cast<double>((right.slope - left.slope) / width),
-                            static_cast<double>(third * width), static_cast<double>(third)};
-    if (const auto root =
-            close_in(curve.functions, curve.wall, left.t, right.t, approach, curve.bounds.value_error))
+        static_cast<double>((right.slope - left.slope) / width), static_cast<double>(third * width),
+        static_cast<double>(third)};
+    if (const auto root = close_in(
+            curve.functions, curve.wall, left.t, right.t, approach, curve.bounds.value_error))
       return root;
   }
   if (hop) {  // the peak is so low that rounding hides it: cut it off
@@ -462,8 +468,8 @@ auto WallSearch<M, V>::polish(const Curve& curve, const Bracket& bracket) const 
   }
   const auto gap = [&](const Real& t) { return Real(curve.at(t).value); };
   std::uintmax_t iterations = 500;
-  const auto root =
-      boost::math::tools::toms748_solve(gap, left.t, right.t, left.value, right.value, closed(), iterations);
+  const auto root = boost::math::tools::toms748_solve(
+      gap, left.t, right.t, left.value, right.value, closed(), iterations);
   EDMILL_REQUIRE(iterations < 500, "root polishing ran out of iterations");
   const Point end = curve.at(root.first);
   EDMILL_REQUIRE(end.value >= 0, "root polishing lost the sign change");
@@ -471,8 +477,7 @@ auto WallSearch<M, V>::polish(const Curve& curve, const Bracket& bracket) const 
 }
 
 /// Sets the digits, where a scalar has many, for a step of Newton's iteration from a double root.
-template <class Real>
-auto digits_of_step(int step) {
+template <class Real> auto digits_of_step(int step) {
   ChosenDigits<Real> digits;
   if constexpr (requires { digits.digits; }) {
     constexpr unsigned first = 64;  // of the step from 16 to 45 right digits
@@ -481,12 +486,12 @@ auto digits_of_step(int step) {
   return digits.use();
 }
 
-/// Finds the root of a gap that provably falls through zero in (from, to): by Newton's iteration with the
-/// curvature until another step would change nothing, then by toms748 in a bracket of a few units of the
-/// clock. Empty if rounding hides the signs at the ends of such a bracket.
+/// Finds the root of a gap that provably falls through zero in (from, to): by Newton's iteration
+/// with the curvature until another step would change nothing, then by toms748 in a bracket of a
+/// few units of the clock. Empty if rounding hides the signs at the ends of such a bracket.
 template <Motion M, Vessel V>
-auto WallSearch<M, V>::close_in(const Functions& functions, int wall, const Real& from, const Real& to,
-                                const Approach& approach, const Real& value_error) const
+auto WallSearch<M, V>::close_in(const Functions& functions, int wall, const Real& from,
+    const Real& to, const Approach& approach, const Real& value_error) const
     -> std::optional<Root> {
   const Real unit = epsilon<Real>() * mill_.clock.period();
   const bool few_digits = double_hints<Real>();
@@ -553,8 +558,7 @@ auto WallSearch<M, V>::close_in(const Functions& functions, int wall, const Real
   return std::nullopt;
 }
 
-template <Motion M, Vessel V>
-RoughAnswer WallSearch<M, V>::rough(const Query& query) const {
+template <Motion M, Vessel V> RoughAnswer WallSearch<M, V>::rough(const Query& query) const {
   if constexpr (is_wide) {
     return {};
   } else {
@@ -569,15 +573,17 @@ RoughAnswer WallSearch<M, V>::rough(const Query& query) const {
     auto reachable = model::active_functions(functions.room(), ball.state.position);
     if constexpr (is_body) {
       const Real clear = clear_time(functions, ball.state.position, speed, query.length);
-      if (clear > 0) return {.verdict = Verdict::none, .until = (begin + clear) * (1 - epsilon<Real>())};
+      if (clear > 0)
+        return {.verdict = Verdict::none, .until = (begin + clear) * (1 - epsilon<Real>())};
       reachable = within_reach(functions, ball.state.position, speed, query.length);
     }
-    const auto answer = first_contact<true>(functions, functions.start(begin, pose, ball), reachable, speed,
-                                            smooth(query, functions, ball.state.position, speed), &rough);
+    const auto answer = first_contact<true>(functions, functions.start(begin, pose, ball),
+        reachable, speed, smooth(query, functions, ball.state.position, speed), &rough);
     rough.region = region;
     rough.verdict = answer.verdict;
     // The sum is rounded, and the window was proven up to its exact or its rounded end.
-    if (answer.verdict == Verdict::none) rough.until = (begin + answer.searched) * (1 - epsilon<Real>());
+    if (answer.verdict == Verdict::none)
+      rough.until = (begin + answer.searched) * (1 - epsilon<Real>());
     if (answer.verdict == Verdict::contact) {
       const auto derivatives = bounds_.at(speed, query.length);
       const auto errors = functions.errors(functions.elapsed(begin + query.length), speed);
@@ -589,9 +595,9 @@ RoughAnswer WallSearch<M, V>::rough(const Query& query) const {
   }
 }
 
-/// Evaluates the wide gap at the root found in double, whose error is of the order of double's rounding:
-/// one step of Newton's iteration with the curvature in double yields nearly three times the digits. The
-/// result is the root in the bracket, because the gap falls throughout it.
+/// Evaluates the wide gap at the root found in double, whose error is of the order of double's
+/// rounding: one step of Newton's iteration with the curvature in double yields nearly three times
+/// the digits. The result is the root in the bracket, because the gap falls throughout it.
 template <Motion M, Vessel V>
 auto WallSearch<M, V>::search_by_double(const Query& query) const -> Answer {
   if constexpr (!is_wide) {
@@ -612,15 +618,17 @@ auto WallSearch<M, V>::search_by_double(const Query& query) const -> Answer {
     if (rough.verdict != Verdict::contact) return {Verdict::undecided};
 
     Functions functions(mill_, query.flight, query.radius, query.begin.period);
-    const auto place = [&](const Real& t) { return functions.seen(t, functions.pose(t)).state.position; };
+    const auto place = [&](const Real& t) {
+      return functions.seen(t, functions.pose(t)).state.position;
+    };
     if constexpr (is_body)
       if (functions.enter(place(Real(rough.root))) != rough.region) return {Verdict::undecided};
     const Real left(rough.left);
     const auto unit = static_cast<Hint<Real>>(epsilon<Real>()) / epsilon<double>();
     const Real error(rough.error * unit);  // bounds are proportional to epsilon
     const Approach approach{Real(rough.root), rough.curvature, rough.curvature_error, rough.third};
-    const auto root =
-        close_in(functions, rough.wall, left > begin ? left : begin, Real(rough.right), approach, error);
+    const auto root = close_in(
+        functions, rough.wall, left > begin ? left : begin, Real(rough.right), approach, error);
     if (!root) return {Verdict::undecided};
     if constexpr (model::HasRegions<V>)  // this scalar's regions are sharper
       if (!functions.room().is_valid(rough.wall, place(root->t))) return {Verdict::undecided};
@@ -633,11 +641,11 @@ auto WallSearch<M, V>::search_by_double(const Query& query) const -> Answer {
 
 // Decisions that bounds cannot make: by exact arithmetic or by a rule.
 
-/// Finds the first contact with one wall up to `end` where the bounds do not decide, or, in the widest
-/// scalar, the ball touches: exactly, where possible, or by a rule. @param found  by bounds
+/// Finds the first contact with one wall up to `end` where the bounds do not decide, or, in the
+/// widest scalar, the ball touches: exactly, where possible, or by a rule. @param found  by bounds
 template <Motion M, Vessel V>
 auto WallSearch<M, V>::isolate_further(const Curve& curve, const Point& right, const Query& query,
-                                       const Real& end, const Bracket& found) const -> Bracket {
+    const Real& end, const Bracket& found) const -> Bracket {
   const bool undecided = found.verdict == Verdict::undecided;
   // Exact arithmetic needs no rule for values that are zero within rounding.
   if (undecided || curve.start.value <= curve.bounds.value_error)
@@ -654,27 +662,28 @@ auto WallSearch<M, V>::isolate_further(const Curve& curve, const Point& right, c
   return found;
 }
 
-/// True if `wall` is hit before `other`. If the times agree within rounding, exact arithmetic decides; if it
-/// does not apply, the result is empty and a wider scalar must decide. If the times are equal, or the widest
-/// scalar does not separate them, the rule puts `other` first.
+/// True if `wall` is hit before `other`. If the times agree within rounding, exact arithmetic
+/// decides; if it does not apply, the result is empty and a wider scalar must decide. If the times
+/// are equal, or the widest scalar does not separate them, the rule puts `other` first.
 template <Motion M, Vessel V>
 template <bool rounded>
-std::optional<bool> WallSearch<M, V>::comes_first(const Query& query, int wall, const Root& root, int other,
-                                                  const Root& other_root, bool& by_rule) const {
+std::optional<bool> WallSearch<M, V>::comes_first(const Query& query, int wall, const Root& root,
+    int other, const Root& other_root, bool& by_rule) const {
   const Real later = root.t - other_root.t, error = root.time_error + other_root.time_error;
   if (later > error) return false;
   if (later < -error) return true;
   std::optional<int> order;
-  if constexpr (!rounded) order = exact_order(mill_, query, wall, root.at_once, other, other_root.at_once);
+  if constexpr (!rounded)
+    order = exact_order(mill_, query, wall, root.at_once, other, other_root.at_once);
   if (!order && !is_widest) return std::nullopt;
   by_rule |= (!order || *order == 0) && wall < mill_.vessel.wall_count();
   return order && *order < 0;
 }
 
-/// For gaps that neither the widest scalar nor, since they are no polynomials, exact arithmetic decides:
-/// they are zero within rounding, or change too slowly. By the rule a gap which does not measurably fall
-/// does not fall. It is evaluated at times after the start that grow by factors of 16; if it falls
-/// before it has opened, the contact is at the evaluation before.
+/// For gaps that neither the widest scalar nor, since they are no polynomials, exact arithmetic
+/// decides: they are zero within rounding, or change too slowly. By the rule a gap which does not
+/// measurably fall does not fall. It is evaluated at times after the start that grow by factors of
+/// 16; if it falls before it has opened, the contact is at the evaluation before.
 template <Motion M, Vessel V>
 auto WallSearch<M, V>::isolate_by_rule(const Curve& curve, const Point& right) const -> Bracket {
   const Bounds& b = curve.bounds;
@@ -692,7 +701,10 @@ auto WallSearch<M, V>::isolate_by_rule(const Curve& curve, const Point& right) c
       Bracket found{Verdict::undecided};
       if (last.value > b.value_error) found = isolate(curve, last, next);
       if (found.verdict == Verdict::undecided)
-        found = {.verdict = Verdict::contact, .left = last, .right = last, .time_error = next.t - last.t};
+        found = {.verdict = Verdict::contact,
+            .left = last,
+            .right = last,
+            .time_error = next.t - last.t};
       found.by_rule = true;
       return found;
     }
@@ -706,9 +718,9 @@ auto WallSearch<M, V>::isolate_by_rule(const Curve& curve, const Point& right) c
   return {.verdict = Verdict::none, .by_rule = true};
 }
 
-/// The first contact with the vessel or a body. Each body is searched window by window as far as the others
-/// have been. Where the times of two contacts are closer than their errors a wider scalar decides; in the
-/// widest, the lower id goes first by a rule.
+/// The first contact with the vessel or a body. Each body is searched window by window as far as
+/// the others have been. Where the times of two contacts are closer than their errors a wider
+/// scalar decides; in the widest, the lower id goes first by a rule.
 /// @param first  answer for the vessel
 template <class Real>
 auto AnyWallSearch<Real>::with_bodies(const Query& query, Answer first) const -> Answer {
@@ -718,8 +730,8 @@ auto AnyWallSearch<Real>::with_bodies(const Query& query, Answer first) const ->
   const Real speed =
       norm<Real>(velocity_after(query.flight, mill.gravity, dt)) + mill.gravity_size * query.length;
   const auto clear = groups_.clear_times(instant_cast<double>(query.begin),
-                                         vector_cast<double>(position_after(query.flight, mill.gravity, dt)),
-                                         static_cast<double>(query.radius), static_cast<double>(speed));
+      vector_cast<double>(position_after(query.flight, mill.gravity, dt)),
+      static_cast<double>(query.radius), static_cast<double>(speed));
   for (std::size_t k = 0; k < bodies_.size() && first.verdict != Verdict::undecided; ++k) {
     // Contacts up to a little past the first one matter.
     const bool none_yet = first.verdict == Verdict::none;
@@ -736,7 +748,8 @@ auto AnyWallSearch<Real>::with_bodies(const Query& query, Answer first) const ->
     } else if (none_yet) {
       first = found;
     } else {
-      const Real later = clock.elapsed(first.time, found.time), error = found.time_error + first.time_error;
+      const Real later = clock.elapsed(first.time, found.time),
+                 error = found.time_error + first.time_error;
       const bool tied = !(later > error) && !(later < -error);
       if (tied && !std::is_void_v<Wider<Real>>) return {Verdict::undecided};
       if (later < -error) first = found;
@@ -748,11 +761,11 @@ auto AnyWallSearch<Real>::with_bodies(const Query& query, Answer first) const ->
   return first;
 }
 
-/// The first contact with a body within `length` of the begin of a query. None, too, if it takes too many
-/// windows to find. @param clear  so long it is out of reach [s]
+/// The first contact with a body within `length` of the begin of a query. None, too, if it takes
+/// too many windows to find. @param clear  so long it is out of reach [s]
 template <class Real>
-auto AnyWallSearch<Real>::first_with_body(std::size_t body, const Query& query, const Real& length,
-                                          const Real& clear) const -> Answer {
+auto AnyWallSearch<Real>::first_with_body(
+    std::size_t body, const Query& query, const Real& length, const Real& clear) const -> Answer {
   constexpr int most_windows = 64;
   const DriveClock<Real>& clock = bodies_.front().mill().clock;
   auto rest = query;

@@ -16,11 +16,10 @@ namespace edmill::engine {
 /// Entries of an agenda: the wall, the next cell, and the pair contacts from here on.
 inline constexpr int wall_entry = 0, crossing_entry = 1, first_pair = 2;
 
-/// The predicted events of one ball. Its own pair contacts are in any order; one becomes void when the
-/// partner has an impact, and of predictions by both balls the later one is valid. The processor cannot
-/// predict which entry is the earliest: it is found without branches.
-template <class Real>
-struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Agenda {
+/// The predicted events of one ball. Its own pair contacts are in any order; one becomes void when
+/// the partner has an impact, and of predictions by both balls the later one is valid. The
+/// processor cannot predict which entry is the earliest: it is found without branches.
+template <class Real> struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Agenda {
   static constexpr int capacity = 3;                            ///< of pair contacts
   std::array<Instant<Real>, first_pair + capacity> times;       ///< by entry; never() where free
   [[no_unique_address]] dynamics::ContactPose<Real> wall_pose;  ///< at the wall's time
@@ -84,8 +83,8 @@ struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Agenda {
   /// True if its values are possible in a run with this many balls and walls.
   bool is_sound(int balls, int walls, std::uint32_t latest_impact) const {
     const bool known_wall = wall >= -1 && (wall < walls || (wall >= tied && wall < tied + walls));
-    bool sound = pair_count >= 0 && pair_count <= capacity && crossing_face >= 0 && crossing_face < 6 &&
-                 known_wall && last_impact <= latest_impact && latest_impact <= 1 << 20;
+    bool sound = pair_count >= 0 && pair_count <= capacity && crossing_face >= 0 &&
+        crossing_face < 6 && known_wall && last_impact <= latest_impact && latest_impact <= 1 << 20;
     for (int k = 0; sound && k < capacity; ++k)
       sound = k < pair_count ? partners[k] >= 0 && partners[k] < balls
                              : times[first_pair + k] == Instant<Real>::never();
@@ -93,9 +92,9 @@ struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Agenda {
   }
 
   void archive(Archive& a) {
-    a(times, wall_pose, forgotten_from, partners, known, last_impact, pair_count, wall, crossing_face);
+    a(times, wall_pose, forgotten_from, partners, known, last_impact, pair_count, wall,
+        crossing_face);
   }
-
  private:
   static int select(bool condition, int yes, int no) {
     return no ^ ((yes ^ no) & -static_cast<int>(condition));
@@ -103,8 +102,7 @@ struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Agenda {
 };
 
 /// The agendas of all balls. Impacts are numbered, by which pair contacts are known to be void.
-template <class Real>
-class Agendas {
+template <class Real> class Agendas {
  public:
   explicit Agendas(std::size_t balls) : agendas_(balls) {}
 
@@ -132,15 +130,13 @@ class Agendas {
   }
 
   void archive(Archive& a) { a(agendas_, latest_impact_); }
-
  private:
   LargeVector<Agenda<Real>> agendas_;
   std::uint32_t latest_impact_ = 0;
 };
 
 /// Further data of a ball that events need. In double it is one cache line.
-template <class Real>
-struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Body {
+template <class Real> struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Body {
   Vec3<Real> spin;  ///< [rad/s]
   RecentImpacts<Real> recent;
   std::int16_t unmoved = 0;  ///< impacts in a row without time to move, up to the rule's limit

@@ -12,12 +12,10 @@
 
 namespace edmill::engine {
 
-template <class Real>
-using Balls = std::vector<model::BallProperties<Real>>;
+template <class Real> using Balls = std::vector<model::BallProperties<Real>>;
 
 /// Pairs are filtered, and cells crossed, in double: bounds and margins cover the rounding.
-template <class Real>
-class Candidates {
+template <class Real> class Candidates {
  public:
   /// A ball's flight as seen now, in double.
   using DoubleState = dynamics::PairSearch<double>::State;
@@ -25,7 +23,7 @@ class Candidates {
   /// @param flights           of all balls; must outlive this
   /// @param reach, top_speed  largest distance of a ball from the origin [m], and speed [m/s]
   Candidates(const model::Mill<Real>& mill, const Balls<Real>& balls,
-             const LargeVector<dynamics::Flight<Real>>& flights, const Real& reach, const Real& top_speed);
+      const LargeVector<dynamics::Flight<Real>>& flights, const Real& reach, const Real& top_speed);
 
   bool uses_cells() const { return !columns_; }
   const CellGrid& grid() const { return grid_; }
@@ -35,7 +33,8 @@ class Candidates {
   CellOfBall insert(int ball);
   /// Must be called when a ball has a new flight.
   void update(int ball) {
-    if constexpr (!is_double) double_flights_[ball] = dynamics::flight_cast<double>((*flights_)[ball]);
+    if constexpr (!is_double)
+      double_flights_[ball] = dynamics::flight_cast<double>((*flights_)[ball]);
     if (columns_) columns_->set(ball, flights()[ball], radii_[ball * stride_]);
   }
   void raise_top_speed(const Real& speed) { pairs_.raise_top_speed(static_cast<double>(speed)); }
@@ -58,12 +57,14 @@ class Candidates {
   /// Finds candidates among the balls of `near` alone.
   int find_among(int ball, const DoubleState& state, const Instant<Real>& now, FoundBalls& near) {
     result_.make_room(near.count);
-    return filter_pairs(flights(), radii_.data(), stride_, query(ball, state, now), ball, near.balls.data(),
-                        near.count, result_);
+    return filter_pairs(flights(), radii_.data(), stride_, query(ball, state, now), ball,
+        near.balls.data(), near.count, result_);
   }
   /// Places of the candidates found among the balls filtered.
   const int* places() { return result_.candidates(); }
-  int ball_at(int place, const FoundBalls& near) const { return columns_ ? place : near.balls[place]; }
+  int ball_at(int place, const FoundBalls& near) const {
+    return columns_ ? place : near.balls[place];
+  }
   double delay(int place) const { return result_.delay(place); }
 
   const dynamics::Flight<double>* flights() const {
@@ -74,7 +75,6 @@ class Candidates {
   }
 
   void archive(Archive& a) { a(grid_); }
-
  private:
   static constexpr bool is_double = std::is_same_v<Real, double>;
 

@@ -38,17 +38,18 @@ struct FoundBalls {
   int count = 0;
 };
 
-/// The balls of each cell. The cell of each ball is stored by the owner, next to its other data, where
-/// it costs no cache line of its own. Cells are thicker than the largest ball, by far more than the
-/// rounding of crossing times: no late crossing hides a contact, and double suffices. The outermost ones
-/// are unbounded, and surrounded by a layer of empty cells: all have neighbours.
+/// The balls of each cell. The cell of each ball is stored by the owner, next to its other data,
+/// where it costs no cache line of its own. Cells are thicker than the largest ball, by far more
+/// than the rounding of crossing times: no late crossing hides a contact, and double suffices. The
+/// outermost ones are unbounded, and surrounded by a layer of empty cells: all have neighbours.
 class CellGrid {
  public:
   /// @param low, high  corners of the region that the balls' centres sweep [m]
   /// @param edge       least edge of a cell [m]
-  CellGrid(const Vec3<double>& low, const Vec3<double>& high, double edge, int balls) : next_(balls, none) {
+  CellGrid(const Vec3<double>& low, const Vec3<double>& high, double edge, int balls)
+      : next_(balls, none) {
     EDMILL_REQUIRE(balls < static_cast<int>(Cell::crowded ^ Cell::empty),
-                   "numbers of balls that a cell can hold");
+        "numbers of balls that a cell can hold");
     std::size_t total = 1;
     for (int k = 0; k < 3; ++k) {
       const double extent = high[k] - low[k], count = std::floor(extent / edge);
@@ -92,8 +93,8 @@ class CellGrid {
   }
 
   /// When, and through which face, a ball in `cell`, now at `position`, leaves it.
-  Crossing crossing(const CellOfBall& cell, const Vec3<double>& position, const Vec3<double>& velocity,
-                    const Vec3<double>& gravity) const {
+  Crossing crossing(const CellOfBall& cell, const Vec3<double>& position,
+      const Vec3<double>& velocity, const Vec3<double>& gravity) const {
     std::array<Passage, 3> by_axis;
     for (int k = 0; k < 3; ++k) {
       const Faces& faces = faces_[k][cell.at[k]];
@@ -101,8 +102,8 @@ class CellGrid {
       if (g == 0)
         by_axis[k] = drift(faces, p, v);
       else
-        by_axis[k] =
-            g > 0 ? fall(1, faces[1] - p, p - faces[0], v, g) : fall(-1, p - faces[0], faces[1] - p, -v, -g);
+        by_axis[k] = g > 0 ? fall(1, faces[1] - p, p - faces[0], v, g)
+                           : fall(-1, p - faces[0], faces[1] - p, -v, -g);
     }
     int first = by_axis[1].delay < by_axis[0].delay;
     first = by_axis[2].delay < by_axis[first].delay ? 2 : first;
@@ -150,7 +151,8 @@ class CellGrid {
     if (!a.loading()) return;
     std::fill(content_.begin(), content_.end(), Cell());
     for (const auto& [at, cell] : occupied) {
-      if (at >= content_.size()) throw InputError("the saved state contains a cell outside of the grid");
+      if (at >= content_.size())
+        throw InputError("the saved state contains a cell outside of the grid");
       content_[at] = cell;
     }
   }
@@ -180,7 +182,6 @@ class CellGrid {
     }
     return count == seen.size();
   }
-
  private:
   using Faces = std::array<double, 2>;     ///< lower and upper of a cell along an axis [m]
   static constexpr double far_off = 1e30;  ///< of the outermost faces [m]; as a delay [s]: never
@@ -204,8 +205,8 @@ class CellGrid {
     return {speed == 0 ? far_off : delay, 2 * up - 1};
   }
 
-  /// Along an axis with gravity, which points to `step`: a ball that moves against it may reach the far face
-  /// first, and falls to the near one otherwise.
+  /// Along an axis with gravity, which points to `step`: a ball that moves against it may reach the
+  /// far face first, and falls to the near one otherwise.
   static Passage fall(int step, double ahead, double behind, double speed, double gravity) {
     const double far = std::max(behind, 0.0), near = std::max(ahead, 0.0);
     const double square = speed * speed, turning = square - 2 * (gravity * far);
@@ -220,8 +221,8 @@ class CellGrid {
     return {denominator > 0 ? delay : far_off, back ? -step : step};
   }
 
-  /// A cell stores up to two balls; in a crowded cell, which is rare, they form a list from its first one.
-  /// The two highest bits of `second` are a signed number, that of the balls less two.
+  /// A cell stores up to two balls; in a crowded cell, which is rare, they form a list from its
+  /// first one. The two highest bits of `second` are a signed number, that of the balls less two.
   struct Cell {
     static constexpr std::uint32_t single = 3u << 30, empty = 2u << 30, crowded = empty | 1u << 29;
     std::uint32_t first = 0, second = empty;
@@ -238,10 +239,9 @@ class CellGrid {
     return at_[0][cell.at[0] + 1] + at_[1][cell.at[1] + 1] + at_[2][cell.at[2] + 1];
   }
 
-  /// Finds the balls in a block of cells, three in y and z, given by the parts of their index along each
-  /// axis. Copies whole cells, for a branch for each of 27 mostly empty ones would cost more.
-  template <int nx>
-  void collect(const int* x, const int* y, const int* z, FoundBalls& near) const {
+  /// Finds the balls in a block of cells, three in y and z, given by the parts of their index along
+  /// each axis. Copies whole cells, for a branch for each of 27 mostly empty ones would cost more.
+  template <int nx> void collect(const int* x, const int* y, const int* z, FoundBalls& near) const {
     constexpr int rows = 9, cells = nx * rows;
     constexpr std::size_t room = 2 * cells + 4;
     if (near.balls.size() < room) near.balls.resize(room);
@@ -325,8 +325,8 @@ class CellGrid {
 
   std::array<int, 3> cells_;
   std::array<std::vector<Faces>, 3> faces_;  ///< of the cells along each axis
-  /// Parts of a cell's index in `content_` by its number along each axis, where 0 is the layer that stays
-  /// empty. Two by two by two cells are a brick that fills a cache line.
+  /// Parts of a cell's index in `content_` by its number along each axis, where 0 is the layer that
+  /// stays empty. Two by two by two cells are a brick that fills a cache line.
   std::array<std::vector<int>, 3> at_;
   LargeVector<Cell> content_;
   LargeVector<int> next_;  ///< for each ball: the next one in the same crowded cell

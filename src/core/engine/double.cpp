@@ -3,4 +3,4 @@
 template class edmill::engine::Simulation<double>;
 template class edmill::dynamics::DecisionLadder<double>;
 template class edmill::dynamics::WallSearch<edmill::model::SpexMotion<double>,
-                                            edmill::model::CylinderVessel<double>>;
+    edmill::model::CylinderVessel<double>>;

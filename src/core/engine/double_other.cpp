@@ -4,4 +4,4 @@
 EDMILL_GENERAL_SEARCH(template, double)
 
 template class edmill::dynamics::WallSearch<edmill::model::ChainMotion<double>,
-                                            edmill::model::CylinderVessel<double>>;
+    edmill::model::CylinderVessel<double>>;

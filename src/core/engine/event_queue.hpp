@@ -21,8 +21,7 @@ enum class EventKind {
   wall_horizon,   ///< end of the window proven free of walls; the search continues here
 };
 
-template <class Real>
-struct Event {
+template <class Real> struct Event {
   EventKind kind;
   Instant<Real> time;
   int ball;
@@ -34,12 +33,13 @@ struct Event {
   bool shares_ball(const Event& other) const {
     return involves(other.ball) || (other.is_pair() && involves(other.partner));
   }
-  bool same_bodies(const Event& other) const { return kind == other.kind && bodies() == other.bodies(); }
+  bool same_bodies(const Event& other) const {
+    return kind == other.kind && bodies() == other.bodies();
+  }
   /// The order of simultaneous contacts: walls before balls, then lower numbers first.
   bool goes_before(const Event& other) const {
     return std::pair(is_pair(), bodies()) < std::pair(other.is_pair(), other.bodies());
   }
-
  private:
   std::pair<int, int> bodies() const {
     return is_pair() ? std::minmax({ball, partner}) : std::pair(ball, partner);
@@ -47,21 +47,17 @@ struct Event {
 };
 
 /// A calendar queue: each drive period is divided into days so short that few contain more than one
-/// event. Days up to the horizon, three to four weeks ahead, have a list each. Later events are noted
-/// for their week, without order, and put into lists when the horizon reaches it. So events cost the
-/// same for any number of balls, and the lists fit into the near caches. A day of many events, since
-/// balls share an instant, becomes a heap when it comes. Equal times are ordered by the ball's number,
-/// whatever the history. (Brown 1988; Tang, Goh and Thng 2005)
-template <class Real>
-class EventQueue {
+/// event. Days up to the horizon, three to four weeks ahead, have a list each. Later events are
+/// noted for their week, without order, and put into lists when the horizon reaches it. So events
+/// cost the same for any number of balls, and the lists fit into the near caches. A day of many
+/// events, since balls share an instant, becomes a heap when it comes. Equal times are ordered by
+/// the ball's number, whatever the history. (Brown 1988; Tang, Goh and Thng 2005)
+template <class Real> class EventQueue {
  public:
   /// @param period  of the drive [s]
   EventQueue(int balls, const Real& period)
-      : entries_(balls),
-        heads_(list_count(entries_.size())),
-        marks_(heads_.size() / 64),
-        notes_(weeks),
-        days_per_week_(static_cast<std::int64_t>(heads_.size() / 4)),
+      : entries_(balls), heads_(list_count(entries_.size())), marks_(heads_.size() / 64),
+        notes_(weeks), days_per_week_(static_cast<std::int64_t>(heads_.size() / 4)),
         days_per_second_(static_cast<double>(days_per_period_) / static_cast<double>(period)) {
     start_over(0);
   }
@@ -70,7 +66,8 @@ class EventQueue {
   int top() {
     const std::int64_t begin = today_;
     today_ = next_occupied(today_);
-    for (int opened = 0; horizon_ - today_ <= 3 * days_per_week_; ++opened, today_ = next_occupied(today_)) {
+    for (int opened = 0; horizon_ - today_ <= 3 * days_per_week_;
+         ++opened, today_ = next_occupied(today_)) {
       if (opened < weeks)
         open_week();
       else
@@ -93,7 +90,8 @@ class EventQueue {
       balls[found++] = heap_[1];
     else if (const int same_day = entries_[top_].next; same_day >= 0)
       balls[found++] = same_day;
-    while (found < balls.size() && (day = next_occupied(day + 1)) < horizon_) balls[found++] = head(day);
+    while (found < balls.size() && (day = next_occupied(day + 1)) < horizon_)
+      balls[found++] = head(day);
     return balls;
   }
 
@@ -112,18 +110,18 @@ class EventQueue {
     const bool alone = !heap_.empty() || (head(today_) == top_ && entries_[top_].next == none);
     if (alone && day_of(limit) <= today_) return false;
     const std::int64_t last = std::max(day_of(limit), today_);
-    for (auto day = next_occupied(today_); day <= last && day < horizon_; day = next_occupied(day + 1))
+    for (auto day = next_occupied(today_); day <= last && day < horizon_;
+         day = next_occupied(day + 1))
       for (int i = head(day); i != none; i = entries_[i].next)
         if (is_due(i)) return true;
     for (int i = 0; last >= horizon_ && i < static_cast<int>(entries_.size()); ++i)
       if (is_due(i)) return true;
     return false;
   }
-
  private:
-  static constexpr int none = -1, put_off = -2, in_heap = -3;     ///< special values of `Entry::next`
-  static constexpr int crowd = 32;                                ///< a day with more events becomes a heap
-  static constexpr int weeks = 256;                               ///< for which notes are kept
+  static constexpr int none = -1, put_off = -2, in_heap = -3;  ///< special values of `Entry::next`
+  static constexpr int crowd = 32;   ///< a day with more events becomes a heap
+  static constexpr int weeks = 256;  ///< for which notes are kept
   static constexpr std::int64_t far_off = std::int64_t{1} << 30;  ///< [periods], in no run
   static constexpr std::int64_t no_day = std::int64_t{1} << 62;
   static constexpr std::int64_t most_days = std::int64_t{1} << 31;  ///< of a period
@@ -132,8 +130,8 @@ class EventQueue {
     Instant<Real> time = Instant<Real>::never();
     std::int64_t day = no_day;
     int next = put_off;
-    /// The previous ball of the list. Of a postponed ball: the place of the week whose note is valid; older
-    /// ones are void. Of a ball in the heap: its place there.
+    /// The previous ball of the list. Of a postponed ball: the place of the week whose note is
+    /// valid; older ones are void. Of a ball in the heap: its place there.
     int previous = none;
   };
 
@@ -151,11 +149,13 @@ class EventQueue {
   }
   std::int64_t week_of(std::int64_t day) const { return day >> week_shift_; }
   static int place_of(std::int64_t week) { return static_cast<int>(week & (weeks - 1)); }
-  std::size_t list_of(std::int64_t day) const { return static_cast<std::size_t>(day) & (heads_.size() - 1); }
+  std::size_t list_of(std::int64_t day) const {
+    return static_cast<std::size_t>(day) & (heads_.size() - 1);
+  }
   int head(std::int64_t day) const { return heads_[list_of(day)]; }
 
-  /// The first day from `day` on whose list is not empty, or the horizon. Tests a word of marks at a time:
-  /// the end of a loop over empty lists would always be mispredicted.
+  /// The first day from `day` on whose list is not empty, or the horizon. Tests a word of marks at
+  /// a time: the end of a loop over empty lists would always be mispredicted.
   std::int64_t next_occupied(std::int64_t day) const {
     for (; day < horizon_; day = (day | 63) + 1) {
       const std::size_t at = list_of(day);
@@ -255,7 +255,8 @@ class EventQueue {
   }
   /// @return the new place of the ball
   std::size_t rise(std::size_t at, int ball) {
-    for (; at > 0 && before(ball, heap_[(at - 1) / 2]); at = (at - 1) / 2) set_place(at, heap_[(at - 1) / 2]);
+    for (; at > 0 && before(ball, heap_[(at - 1) / 2]); at = (at - 1) / 2)
+      set_place(at, heap_[(at - 1) / 2]);
     set_place(at, ball);
     return at;
   }
@@ -309,7 +310,8 @@ class EventQueue {
     if (days > 6 * events) {
       for (auto d = days; d > 3 * events && days_per_period_ > 1; d /= 2) days_per_period_ /= 2;
     } else if (events > days) {
-      for (auto d = days + 1; d < 2 * events && days_per_period_ < most_days; d *= 2) days_per_period_ *= 2;
+      for (auto d = days + 1; d < 2 * events && days_per_period_ < most_days; d *= 2)
+        days_per_period_ *= 2;
     }
     if (days_per_period_ == before) return;
     days_per_second_ *= static_cast<double>(days_per_period_) / static_cast<double>(before);
@@ -317,9 +319,9 @@ class EventQueue {
   }
 
   LargeVector<Entry> entries_;
-  std::vector<int> heads_;               ///< of the lists of days
-  std::vector<std::uint64_t> marks_;     ///< one for each list that is not empty
-  std::vector<int> heap_;                ///< balls of today, in place of its list, when they are many
+  std::vector<int> heads_;            ///< of the lists of days
+  std::vector<std::uint64_t> marks_;  ///< one for each list that is not empty
+  std::vector<int> heap_;             ///< balls of today, in place of its list, when they are many
   std::vector<std::vector<int>> notes_;  ///< balls postponed to the weeks from the horizon on
   std::int64_t days_per_week_;           ///< a power of two
   int week_shift_ = std::countr_zero(static_cast<std::uint64_t>(days_per_week_));

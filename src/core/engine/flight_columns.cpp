@@ -11,8 +11,8 @@ namespace edmill::engine {
 #else
 #define EDMILL_FOR_SEVERAL_CPUS
 #endif
-// For functions that the clones call: compiled alone, they would be for the oldest CPU. Clones must not end
-// in a call: GCC 12 then omits vzeroupper, and all SSE code after it is slow.
+// For functions that the clones call: compiled alone, they would be for the oldest CPU. Clones must
+// not end in a call: GCC 12 then omits vzeroupper, and all SSE code after it is slow.
 #define EDMILL_INTO_CLONES [[gnu::always_inline]] static inline
 
 namespace {
@@ -24,13 +24,15 @@ using Column = double[FlightBatch::capacity];
 
 static_assert(sizeof(dynamics::Flight<double>) == 2 * sizeof(Four));
 
-EDMILL_INTO_CLONES void load(const double* from, Four& four) { std::memcpy(&four, from, sizeof four); }
+EDMILL_INTO_CLONES void load(const double* from, Four& four) {
+  std::memcpy(&four, from, sizeof four);
+}
 EDMILL_INTO_CLONES void store(double* to, const Four& four) { std::memcpy(to, &four, sizeof four); }
 
 /// Transposes flights into columns, four at a time: each flight is two vectors of four doubles.
 /// @param balls  with room for a multiple of four
-EDMILL_INTO_CLONES void gather(const dynamics::Flight<double>* flights, const double* radii, int stride,
-                               const int* balls, int count, FlightBatch& batch) {
+EDMILL_INTO_CLONES void gather(const dynamics::Flight<double>* flights, const double* radii,
+    int stride, const int* balls, int count, FlightBatch& batch) {
   batch.radius[0] = radii[0];
   for (int k = 0; k < count; k += 4) {
     const int i0 = balls[k], i1 = balls[k + 1], i2 = balls[k + 2], i3 = balls[k + 3];
@@ -66,8 +68,8 @@ EDMILL_INTO_CLONES void gather(const dynamics::Flight<double>* flights, const do
 }
 
 /// Computes the times since the starts of the flights [s].
-EDMILL_INTO_CLONES void find_ages(const FlightBatch& batch, const PairFilterQuery& query, int count,
-                                  Column& ages) {
+EDMILL_INTO_CLONES void find_ages(
+    const FlightBatch& batch, const PairFilterQuery& query, int count, Column& ages) {
   // Whole periods are below 2^51: as the low bits of a double they need no conversion.
   constexpr double shift = 6755399441055744.0;  // 1.5 x 2^52
   constexpr std::int64_t bits_of_shift = 0x4338000000000000;
@@ -84,8 +86,8 @@ EDMILL_INTO_CLONES void find_ages(const FlightBatch& batch, const PairFilterQuer
 }
 
 /// One coordinate of the motion of the query's ball relative to each of the batch.
-EDMILL_INTO_CLONES void find_motion(const FlightBatch& batch, const PairFilterQuery& query, int axis,
-                                    int count, const Column& ages, Column& r, Column& v) {
+EDMILL_INTO_CLONES void find_motion(const FlightBatch& batch, const PairFilterQuery& query,
+    int axis, int count, const Column& ages, Column& r, Column& v) {
   const double position = query.state.position[axis], velocity = query.state.velocity[axis];
   const double gravity = query.filter.gravity[axis];
   Four x, u, age;
@@ -109,8 +111,8 @@ EDMILL_INTO_CLONES void find_motion(const FlightBatch& batch, const PairFilterQu
 }
 
 /// Computes the squared contact distances; only the first four if all balls are alike.
-EDMILL_INTO_CLONES void find_squares(const FlightBatch& batch, double radius, bool alike, int count,
-                                     Column& squares) {
+EDMILL_INTO_CLONES void find_squares(
+    const FlightBatch& batch, double radius, bool alike, int count, Column& squares) {
   if (alike) {
     const double sum = radius + batch.radius[0];
     return std::fill(squares, squares + 4, sum * sum);
@@ -146,12 +148,13 @@ constexpr auto lanes_by_bits = [] {
 }();
 constexpr std::uint64_t counts_by_bits = 0x4332322132212110;
 
-/// Applies PairFilter to a batch whose first ball has the place `first`. Each step is a short chain of
-/// operations: the processor overlaps several vectors. A ball at exactly the same place is the query's.
+/// Applies PairFilter to a batch whose first ball has the place `first`. Each step is a short chain
+/// of operations: the processor overlaps several vectors. A ball at exactly the same place is the
+/// query's.
 /// @param found  number of candidates so far
 /// @return the number including this batch
-EDMILL_INTO_CLONES int filter_batch(const FlightBatch& batch, const PairFilterQuery& query, bool alike,
-                                    int first, int count, PairFilterResult& result, int found) {
+EDMILL_INTO_CLONES int filter_batch(const FlightBatch& batch, const PairFilterQuery& query,
+    bool alike, int first, int count, PairFilterResult& result, int found) {
   alignas(64) Column ages, rx, ry, rz, vx, vy, vz, squares;
   find_ages(batch, query, count, ages);
   find_motion(batch, query, 0, count, ages, rx, vx);
@@ -199,9 +202,9 @@ EDMILL_INTO_CLONES int filter_batch(const FlightBatch& batch, const PairFilterQu
 
 }  // namespace
 
-EDMILL_FOR_SEVERAL_CPUS int filter_pairs(const dynamics::Flight<double>* flights, const double* radii,
-                                         int stride, const PairFilterQuery& query, int self, int* balls,
-                                         int count, PairFilterResult& result) {
+EDMILL_FOR_SEVERAL_CPUS int filter_pairs(const dynamics::Flight<double>* flights,
+    const double* radii, int stride, const PairFilterQuery& query, int self, int* balls, int count,
+    PairFilterResult& result) {
   balls[count] = balls[count + 1] = balls[count + 2] = self;
   FlightBatch batch;
   int found = 0;
@@ -214,7 +217,7 @@ EDMILL_FOR_SEVERAL_CPUS int filter_pairs(const dynamics::Flight<double>* flights
 }
 
 EDMILL_FOR_SEVERAL_CPUS int filter_all_pairs(const FlightBatch* batches, int balls, bool alike,
-                                             const PairFilterQuery& query, PairFilterResult& result) {
+    const PairFilterQuery& query, PairFilterResult& result) {
   int found = 0;
   for (int first = 0; first < balls; first += FlightBatch::capacity) {
     const int here = std::min(balls - first, FlightBatch::capacity);

@@ -23,7 +23,7 @@ struct alignas(64) FlightBatch {
   double position[3][capacity], velocity[3][capacity];  ///< at the start, by axis
   std::int64_t period[capacity];                        ///< of the start
   double offset[capacity];                              ///< of the start
-  double radius[capacity];                              ///< only the first is used if all balls are alike
+  double radius[capacity];  ///< only the first is used if all balls are alike
 };
 
 /// The results of the filter for each ball, and the list of candidates. The capacity only grows.
@@ -40,11 +40,14 @@ class PairFilterResult {
     return discriminant_[k] < 0 ? -1.0 : gap_[k] / (std::sqrt(discriminant_[k]) - approach_[k]);
   }
 
-  int* candidates() { return candidates_.data(); }  ///< places of the candidates among the balls filtered
-  double* approach() { return approach_.data(); }   ///< b = r.v of (3.1)
-  double* gap() { return gap_.data(); }             ///< c = r.r - R^2
-  double* discriminant() { return discriminant_.data(); }  ///< b^2 - v.v c; -1 if its sign is uncertain
-
+  int* candidates() {
+    return candidates_.data();
+  }  ///< places of the candidates among the balls filtered
+  double* approach() { return approach_.data(); }  ///< b = r.v of (3.1)
+  double* gap() { return gap_.data(); }            ///< c = r.r - R^2
+  double* discriminant() {
+    return discriminant_.data();
+  }  ///< b^2 - v.v c; -1 if its sign is uncertain
  private:
   void grow(int count);
 
@@ -53,17 +56,17 @@ class PairFilterResult {
   std::vector<double> approach_, gap_, discriminant_;
 };
 
-/// Finds the candidates in a list of balls, and returns their number. Compiled for several instruction
-/// sets, which all give the same bits since no operations are contracted.
+/// Finds the candidates in a list of balls, and returns their number. Compiled for several
+/// instruction sets, which all give the same bits since no operations are contracted.
 /// @param flights, radii  of all balls; ball i has radius radii[i * stride]
 /// @param self            the ball of the query, which is never a candidate
 /// @param balls, result   with room for three more than `count`
 int filter_pairs(const dynamics::Flight<double>* flights, const double* radii, int stride,
-                 const PairFilterQuery& query, int self, int* balls, int count, PairFilterResult& result);
+    const PairFilterQuery& query, int self, int* balls, int count, PairFilterResult& result);
 
 /// Filters the first `balls` of `batches`, rounded up to a multiple of four, in the same way.
-int filter_all_pairs(const FlightBatch* batches, int balls, bool alike, const PairFilterQuery& query,
-                     PairFilterResult& result);
+int filter_all_pairs(const FlightBatch* batches, int balls, bool alike,
+    const PairFilterQuery& query, PairFilterResult& result);
 
 /// The flights of all balls, for the filter to test every ball where cells do not help.
 class FlightColumns {
@@ -84,7 +87,6 @@ class FlightColumns {
 
   /// Finds the candidates among all balls; the k-th ball filtered is ball k. @return their number
   int filter(const PairFilterQuery& query, PairFilterResult& result) const;
-
  private:
   int balls_;
   bool alike_;

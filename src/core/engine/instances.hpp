@@ -7,10 +7,11 @@
 #include "engine/simulation_impl.hpp"
 
 /// `prefix` is `extern template` to declare and `template` to define.
-#define EDMILL_GENERAL_SEARCH(prefix, Real)                                                                  \
-  prefix class edmill::dynamics::WallSearch<edmill::model::AnyMotion<Real>, edmill::model::AnyVessel<Real>>; \
-  prefix class edmill::dynamics::WallSearch<edmill::model::ChainMotion<Real>,                                \
-                                            edmill::model::RoundedBody<Real>>;                               \
+#define EDMILL_GENERAL_SEARCH(prefix, Real)                                   \
+  prefix class edmill::dynamics::WallSearch<edmill::model::AnyMotion<Real>,   \
+      edmill::model::AnyVessel<Real>>;                                        \
+  prefix class edmill::dynamics::WallSearch<edmill::model::ChainMotion<Real>, \
+      edmill::model::RoundedBody<Real>>;                                      \
   prefix class edmill::dynamics::AnyWallSearch<Real>;
 #define EDMILL_LADDER(prefix, Real) \
   EDMILL_GENERAL_SEARCH(prefix, Real) prefix class edmill::dynamics::DecisionLadder<Real>;

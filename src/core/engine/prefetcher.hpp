@@ -11,18 +11,18 @@
 namespace edmill::engine {
 
 /// Prefetches data for the next events, without which a run has the same bits and takes longer. The
-/// memory system handles about ten cache lines at a time, so there is other work between two portions. A
-/// ball is prefetched three events ahead; two events ahead its agenda shows what else is needed, and one
-/// event ahead the partner's agenda shows whether the contact is void.
-template <class Real>
-class Prefetcher {
+/// memory system handles about ten cache lines at a time, so there is other work between two
+/// portions. A ball is prefetched three events ahead; two events ahead its agenda shows what else
+/// is needed, and one event ahead the partner's agenda shows whether the contact is void.
+template <class Real> class Prefetcher {
  public:
   static constexpr int worthwhile = 1024;  ///< more balls do not fit into the near caches
 
   Prefetcher(const EventQueue<Real>& queue, const Agendas<Real>& agendas,
-             const LargeVector<dynamics::Flight<Real>>& flights, const LargeVector<Body<Real>>& bodies,
-             const Candidates<Real>& candidates)
-      : queue_(queue), agendas_(agendas), flights_(flights), bodies_(bodies), candidates_(candidates) {}
+      const LargeVector<dynamics::Flight<Real>>& flights, const LargeVector<Body<Real>>& bodies,
+      const Candidates<Real>& candidates)
+      : queue_(queue), agendas_(agendas), flights_(flights), bodies_(bodies),
+        candidates_(candidates) {}
 
   void enable(bool yes) { enabled_ = yes; }
 
@@ -44,7 +44,6 @@ class Prefetcher {
     if (!enabled_) return;
     for (int k = 0; k < near.count; ++k) fetch(&candidates_.flights()[near.balls[k]]);
   }
-
  private:
   static constexpr int portions = 4;
 
@@ -54,8 +53,7 @@ class Prefetcher {
     const auto partner = [&](int ball) { return agendas_[ball].partner_at(agendas_[ball].next); };
     const CellGrid& grid = candidates_.grid();
     switch (portion_++) {
-      case 0:
-        return fetch_ball(third);
+      case 0: return fetch_ball(third);
       case 1:
         if (pair_comes(next) && agendas_.still_holds(agendas_[next], agendas_[next].next))
           grid.fetch_cells(bodies_[partner(next)].cell);

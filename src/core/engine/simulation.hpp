@@ -21,8 +21,7 @@ namespace edmill::engine {
 
 using model::EndReason;
 
-template <class Real>
-struct EngineCounts {
+template <class Real> struct EngineCounts {
   std::uint64_t impacts = 0;
   std::uint64_t stale_events = 0;
   std::uint64_t cell_crossings = 0;
@@ -35,12 +34,10 @@ struct EngineCounts {
   }
 };
 
-template <class Real>
-using States = std::vector<model::BallState<Real>>;
+template <class Real> using States = std::vector<model::BallState<Real>>;
 
 /// A run of one case. Balls are advanced only when they collide; every contact is certified.
-template <class Real>
-class Simulation {
+template <class Real> class Simulation {
   using Instant = edmill::Instant<Real>;
   using Event = engine::Event<Real>;
   using Agenda = engine::Agenda<Real>;
@@ -48,21 +45,20 @@ class Simulation {
   using Pose = model::AnyPose<Real>;
   using DoubleState = typename Candidates<Real>::DoubleState;
   static constexpr bool is_double = std::is_same_v<Real, double>;
-
  public:
   /// @param states  of the case's balls, in order, at `start`
   /// @pre no two balls overlap and all are inside the vessel, up to rounding
   /// @throws InterruptedError when `interrupt` becomes true meanwhile
   Simulation(const model::Case<Real>& the_case, const States<Real>& states, const Instant& start,
-             const std::atomic<bool>* interrupt = nullptr);
+      const std::atomic<bool>* interrupt = nullptr);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
   /// Observers get every impact, in the order of attachment; they must outlive the run.
   void attach(Observer<Real>& observer) { observers_.push_back(&observer); }
 
-  /// Processes every event up to `end`, inclusive; returns early when an observer asks for it, on collapse
-  /// and stalls, or when `interrupt` becomes true. Can be called again with a later end.
+  /// Processes every event up to `end`, inclusive; returns early when an observer asks for it, on
+  /// collapse and stalls, or when `interrupt` becomes true. Can be called again with a later end.
   EndReason run_until(const Instant& end, const std::atomic<bool>* interrupt = nullptr);
 
   /// Enables or disables prefetching, which changes no result (default: enabled with many balls).
@@ -80,7 +76,8 @@ class Simulation {
     if (!stop_) stop_ = EndReason::paused;
   }
 
-  /// Saves or loads everything that changes, so that another simulation of the case has the same bits.
+  /// Saves or loads everything that changes, so that another simulation of the case has the same
+  /// bits.
   /// @pre no event is being processed
   /// @throws InputError when the loaded data cannot be a state of this case
   void archive(Archive& a);
@@ -104,7 +101,6 @@ class Simulation {
   std::vector<model::Escalations> escalations() const { return ladder_.escalations(); }
   const std::optional<model::InelasticCollapse<Real>>& collapse() const { return collapse_; }
   const std::optional<model::Stall<Real>>& stall() const { return stall_; }
-
  private:
   bool is_sound() const;
   Event event_of(int ball);
@@ -138,7 +134,8 @@ class Simulation {
     candidates_.grid().neighbours(bodies_[ball].cell, near);
     prefetcher_.flights_of(near);
   }
-  void predict_pairs(int ball, int already_done, const DoubleState& state, int found, const FoundBalls& near);
+  void predict_pairs(
+      int ball, int already_done, const DoubleState& state, int found, const FoundBalls& near);
   void expect_pair(int ball, int other, const Real& delay);
   void predict_crossing(int ball, const DoubleState& state);
   void predict_wall(int ball, const Pose& pose);
@@ -159,7 +156,7 @@ class Simulation {
   Prefetcher<Real> prefetcher_;
   CollapseWatch<Real> collapse_watch_;
   bool may_collapse_;  ///< a law lets bodies separate at any speed
-  Real slow_;          ///< largest approach speed that acceleration gives over the smallest path [m/s]
+  Real slow_;  ///< largest approach speed that acceleration gives over the smallest path [m/s]
   StallWatch<Real> stall_watch_;
   std::vector<Observer<Real>*> observers_;
   EngineCounts<Real> counts_;

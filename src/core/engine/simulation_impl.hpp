@@ -13,29 +13,25 @@ namespace edmill::engine {
 
 // Bounds that are valid for every ball of a run.
 
-template <class Real>
-bool all_alike(const Balls<Real>& balls) {
+template <class Real> bool all_alike(const Balls<Real>& balls) {
   return std::all_of(balls.begin(), balls.end(), [&](const auto& b) { return b == balls.front(); });
 }
 
-template <class Real>
-Real smallest_radius(const Balls<Real>& balls) {
+template <class Real> Real smallest_radius(const Balls<Real>& balls) {
   const auto smaller = [](const auto& a, const auto& b) { return a.radius < b.radius; };
   return std::min_element(balls.begin(), balls.end(), smaller)->radius;
 }
 
-/// The most that gravity adds to a ball's speed in one flight [m/s]: the deflection g t^2/8 of a flight that
-/// stays within `reach` of the origin is below 2 reach.
-template <class Real>
-Real largest_fall(const model::Mill<Real>& mill) {
+/// The most that gravity adds to a ball's speed in one flight [m/s]: the deflection g t^2/8 of a
+/// flight that stays within `reach` of the origin is below 2 reach.
+template <class Real> Real largest_fall(const model::Mill<Real>& mill) {
   using std::sqrt;
   const Real reach = mill.motion.reach(mill.vessel.reach());
   return 4 * sqrt(reach * norm<Real>(mill.gravity));
 }
 
 /// Relative speed that two bodies gain over a path by the accelerations of walls and gravity [m/s].
-template <class Real>
-Real speed_over(const Real& path, const model::Mill<Real>& mill) {
+template <class Real> Real speed_over(const Real& path, const model::Mill<Real>& mill) {
   using std::sqrt;
   const Real reach = mill.motion.reach(mill.vessel.extent());
   Real acceleration = mill.motion.acceleration_within(reach) + norm<Real>(mill.gravity);
@@ -45,26 +41,24 @@ Real speed_over(const Real& path, const model::Mill<Real>& mill) {
 }
 
 /// Shortest significant advance of the clock [s]: less moves no ball, or is mere rounding.
-template <class Real>
-Real shortest_advance(const model::Mill<Real>& mill) {
+template <class Real> Real shortest_advance(const model::Mill<Real>& mill) {
   const Real by_rule = mill.least_separations().second / mill.stall.acceleration;
   return std::max(by_rule, Real(1000000 * epsilon<Real>() * mill.motion.period()));
 }
 
 /// Bound on the speed of all balls [m/s], until one has twice that of the fastest at the start.
-template <class Real>
-Real top_speed_of(const States<Real>& states, const model::Mill<Real>& mill) {
+template <class Real> Real top_speed_of(const States<Real>& states, const model::Mill<Real>& mill) {
   Real largest{1};
   for (const auto& s : states) largest = std::max(largest, norm<Real>(s.velocity));
   Real wall = mill.motion.speed_within(mill.motion.reach(mill.vessel.extent()));
   if (const auto* pistons = mill.vessel.pistons()) wall += pistons->bound(1);
-  for (const auto& body : mill.bodies) wall = std::max(wall, body.motion.wall_speed(body.shape.size()));
+  for (const auto& body : mill.bodies)
+    wall = std::max(wall, body.motion.wall_speed(body.shape.size()));
   return 2 * (largest + wall) + largest_fall(mill);
 }
 
 /// Divides the region that the vessel sweeps into cells of about one ball, thicker than any.
-template <class Real>
-CellGrid make_grid(const model::Mill<Real>& mill, const Balls<Real>& balls) {
+template <class Real> CellGrid make_grid(const model::Mill<Real>& mill, const Balls<Real>& balls) {
   const auto region = mill.motion.swept(mill.vessel.half_sizes(), mill.vessel.reach());
   Real largest{0};
   for (const auto& b : balls) largest = std::max(largest, b.radius);
@@ -72,30 +66,28 @@ CellGrid make_grid(const model::Mill<Real>& mill, const Balls<Real>& balls) {
   using boost::math::policies::promote_double;
   constexpr boost::math::policies::policy<promote_double<false>> portable;
   const auto volume = static_cast<double>(mill.vessel.volume());
-  const double spacing = 0.45 * boost::math::cbrt(volume / static_cast<double>(balls.size()), portable);
+  const double spacing =
+      0.45 * boost::math::cbrt(volume / static_cast<double>(balls.size()), portable);
   Real edge = 2 * largest * (1 + Real(1) / 1024);
   if (balls.size() <= 32) edge = 2 * (region.high - region.low).maxCoeff();
   if (edge < spacing) edge = Real(spacing);
   return CellGrid(vector_cast<double>(region.low), vector_cast<double>(region.high),
-                  static_cast<double>(edge), static_cast<int>(balls.size()));
+      static_cast<double>(edge), static_cast<int>(balls.size()));
 }
 
 template <class Real>
 Candidates<Real>::Candidates(const model::Mill<Real>& mill, const Balls<Real>& balls,
-                             const LargeVector<dynamics::Flight<Real>>& flights, const Real& reach,
-                             const Real& top_speed)
+    const LargeVector<dynamics::Flight<Real>>& flights, const Real& reach, const Real& top_speed)
     : flights_(&flights),
       pairs_(model::mill_cast<double>(mill), 2 * static_cast<double>(smallest_radius(balls)),
-             static_cast<double>(reach), static_cast<double>(top_speed)),
-      stride_(all_alike(balls) ? 0 : 1),
-      grid_(make_grid(mill, balls)) {
+          static_cast<double>(reach), static_cast<double>(top_speed)),
+      stride_(all_alike(balls) ? 0 : 1), grid_(make_grid(mill, balls)) {
   for (const auto& ball : balls) radii_.push_back(static_cast<double>(ball.radius));
   if constexpr (!is_double) double_flights_.resize(balls.size());
   if (grid_.single_cell()) columns_.emplace(static_cast<int>(balls.size()), stride_ == 0);
 }
 
-template <class Real>
-CellOfBall Candidates<Real>::insert(int ball) {
+template <class Real> CellOfBall Candidates<Real>::insert(int ball) {
   const CellOfBall cell = grid_.insert(ball, vector_cast<double>((*flights_)[ball].position));
   update(ball);
   return cell;
@@ -103,12 +95,9 @@ CellOfBall Candidates<Real>::insert(int ball) {
 
 template <class Real>
 Simulation<Real>::Simulation(const model::Case<Real>& the_case, const States<Real>& states,
-                             const Instant& start, const std::atomic<bool>* interrupt)
-    : mill_(the_case.mill),
-      clock_(mill_.motion.period()),
-      balls_(the_case.balls),
-      stride_(all_alike(balls_) ? 0 : 1),
-      agendas_(states.size()),
+    const Instant& start, const std::atomic<bool>* interrupt)
+    : mill_(the_case.mill), clock_(mill_.motion.period()), balls_(the_case.balls),
+      stride_(all_alike(balls_) ? 0 : 1), agendas_(states.size()),
       top_speed_(top_speed_of(states, mill_)),
       ladder_(mill_, 2 * smallest_radius(balls_), top_speed_),
       candidates_(mill_, balls_, flights_, ladder_.walls().reach(), top_speed_),
@@ -117,10 +106,8 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case, const States<Rea
       collapse_watch_(Real(1000000) * epsilon<Real>() / 2 * ladder_.walls().reach()),
       may_collapse_(!(mill_.least_separations().first > 0)),
       slow_(speed_over(collapse_watch_.smallest_path(), mill_)),
-      stall_watch_(states.size(), start, shortest_advance(mill_)),
-      now_(start),
-      tolerated_overlap_(2 * smallest_radius(balls_) / 1000000),
-      fall_(largest_fall(mill_)) {
+      stall_watch_(states.size(), start, shortest_advance(mill_)), now_(start),
+      tolerated_overlap_(2 * smallest_radius(balls_) / 1000000), fall_(largest_fall(mill_)) {
   EDMILL_REQUIRE(!balls_.empty() && balls_.size() == states.size(), "one state for each ball");
   for (const auto& s : states) {
     flights_.push_back({s.position, s.velocity, start});
@@ -137,13 +124,14 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case, const States<Rea
   }
 }
 
-template <class Real>
-void Simulation<Real>::archive(Archive& a) {
+template <class Real> void Simulation<Real>::archive(Archive& a) {
   const auto balls = flights_.size();
-  if (!a.loading()) agendas_.renumber_impacts();  // often enough for tests to see that it changes nothing
+  if (!a.loading())
+    agendas_.renumber_impacts();  // often enough for tests to see that it changes nothing
   a(flights_, bodies_, agendas_, ladder_, candidates_, counts_, stall_watch_, now_, top_speed_);
   if (!a.loading()) return;
-  EDMILL_REQUIRE(flights_.size() == balls && agendas_.size() == balls, "a saved state of the same case");
+  EDMILL_REQUIRE(
+      flights_.size() == balls && agendas_.size() == balls, "a saved state of the same case");
   if (!is_sound()) throw InputError("the saved state is not one of a run of this case");
   ladder_.raise_top_speed(top_speed_);
   candidates_.raise_top_speed(top_speed_);
@@ -154,26 +142,29 @@ void Simulation<Real>::archive(Archive& a) {
 }
 
 /// True if a loaded state, which can come from elsewhere, has all that the loop relies on.
-template <class Real>
-bool Simulation<Real>::is_sound() const {
+template <class Real> bool Simulation<Real>::is_sound() const {
   using std::isfinite;
   const std::int64_t most = Instant::never().period;
   const auto timed = [&](const Instant& t) {
     return t.period >= -most && t.period <= most && t.offset >= 0 && t.offset <= clock_.period();
   };
-  const auto finite = [](const Vec3<Real>& v) { return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]); };
+  const auto finite = [](const Vec3<Real>& v) {
+    return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
+  };
   const auto cell_of = [this](int ball) -> const CellOfBall& { return bodies_[ball].cell; };
-  bool sound = timed(now_) && stall_watch_.is_sound(ball_count(), mill_.wall_count()) && now_.period < most &&
-               isfinite(top_speed_) && top_speed_ >= 0 && candidates_.grid().holds_all(cell_of);
+  bool sound = timed(now_) && stall_watch_.is_sound(ball_count(), mill_.wall_count()) &&
+      now_.period < most && isfinite(top_speed_) && top_speed_ >= 0 &&
+      candidates_.grid().holds_all(cell_of);
   for (int i = 0; sound && i < ball_count(); ++i) {
     const auto& [position, velocity, start] = flights_[i];
     const auto& [spin, recent, unmoved, cell] = bodies_[i];
     const auto& agenda = agendas_[i];
-    sound = finite(position) && finite(velocity) && finite(spin) && timed(start) && !(now_ < start) &&
-            timed(recent.last) && recent.burst >= 0 && recent.burst <= CollapseWatch<Real>::enough &&
-            unmoved >= 0 && unmoved <= mill_.stall.impacts && timed(agenda.forgotten_from) &&
-            agenda.is_sound(ball_count(), mill_.wall_count(), agendas_.latest_impact()) &&
-            !(top_speed_ * top_speed_ < squared_norm<Real>(velocity));
+    sound = finite(position) && finite(velocity) && finite(spin) && timed(start) &&
+        !(now_ < start) && timed(recent.last) && recent.burst >= 0 &&
+        recent.burst <= CollapseWatch<Real>::enough && unmoved >= 0 &&
+        unmoved <= mill_.stall.impacts && timed(agenda.forgotten_from) &&
+        agenda.is_sound(ball_count(), mill_.wall_count(), agendas_.latest_impact()) &&
+        !(top_speed_ * top_speed_ < squared_norm<Real>(velocity));
     for (const auto& time : agenda.times) sound = sound && timed(time) && !(time < now_);
   }
   return sound;
@@ -183,11 +174,10 @@ template <class Real>
 model::BallState<Real> Simulation<Real>::state_at(int i, const Instant& when) const {
   const Real dt = clock_.elapsed(flights_[i].start, when);
   return {dynamics::position_after(flights_[i], mill_.gravity, dt),
-          dynamics::velocity_after(flights_[i], mill_.gravity, dt), bodies_[i].spin};
+      dynamics::velocity_after(flights_[i], mill_.gravity, dt), bodies_[i].spin};
 }
 
-template <class Real>
-model::Energy<Real> Simulation<Real>::energy_at(const Instant& when) const {
+template <class Real> model::Energy<Real> Simulation<Real>::energy_at(const Instant& when) const {
   model::Energy<Real> energy;
   for (int i = 0; i < ball_count(); ++i)
     energy += model::energy_of<Real>(properties(i), state_at(i, when), mill_.gravity);
@@ -206,15 +196,9 @@ EndReason Simulation<Real>::run_until(const Instant& end, const std::atomic<bool
     prefetcher_.begin();
     now_ = event.time;
     switch (event.kind) {
-      case EventKind::void_contact:
-        drop_void_contact(event.ball);
-        break;
-      case EventKind::cell_crossing:
-        cross_cell(event.ball);
-        break;
-      case EventKind::wall_horizon:
-        continue_wall_search(event.ball, now_);
-        break;
+      case EventKind::void_contact: drop_void_contact(event.ball); break;
+      case EventKind::cell_crossing: cross_cell(event.ball); break;
+      case EventKind::wall_horizon: continue_wall_search(event.ball, now_); break;
       case EventKind::wall_contact:
       case EventKind::pair_contact: {
         const auto impact = collide(event);
@@ -231,10 +215,9 @@ EndReason Simulation<Real>::run_until(const Instant& end, const std::atomic<bool
   return EndReason::interrupted;
 }
 
-/// The next event, where `ball` is the first in the queue: the queued event of this ball, unless that is a
-/// contact and another one is simultaneous within rounding.
-template <class Real>
-auto Simulation<Real>::event_of(int ball) -> Event {
+/// The next event, where `ball` is the first in the queue: the queued event of this ball, unless
+/// that is a contact and another one is simultaneous within rounding.
+template <class Real> auto Simulation<Real>::event_of(int ball) -> Event {
   auto event = queued_event(ball);
   const bool with_wall = event.kind == EventKind::wall_contact;
   if ((with_wall || event.is_pair()) && has_rivals(event)) event = settle_ties(event);
@@ -243,27 +226,26 @@ auto Simulation<Real>::event_of(int ball) -> Event {
   return event;
 }
 
-template <class Real>
-auto Simulation<Real>::queued_event(int ball) const -> Event {
+template <class Real> auto Simulation<Real>::queued_event(int ball) const -> Event {
   const Agenda& a = agendas_[ball];
   const Instant& time = a.times[a.next];
   if (a.next == crossing_entry) return {EventKind::cell_crossing, time, ball};
   if (a.next == wall_entry && !a.hits_wall()) return {EventKind::wall_horizon, time, ball};
-  if (a.next == wall_entry) return {EventKind::wall_contact, time, ball, a.wall_id(), a.wall_is_tied()};
+  if (a.next == wall_entry)
+    return {EventKind::wall_contact, time, ball, a.wall_id(), a.wall_is_tied()};
   const bool holds = agendas_.still_holds(a, a.next);
-  return {holds ? EventKind::pair_contact : EventKind::void_contact, time, ball, a.partner_at(a.next)};
+  return {
+      holds ? EventKind::pair_contact : EventKind::void_contact, time, ball, a.partner_at(a.next)};
 }
 
-template <class Real>
-void Simulation<Real>::requeue(int ball) {
+template <class Real> void Simulation<Real>::requeue(int ball) {
   Agenda& a = agendas_[ball];
   a.next = static_cast<std::int8_t>(a.earliest());
   queue_.set(ball, a.times[a.next]);
 }
 
 /// Drops the nearest pair contact of a ball, which is void; the next one takes its place.
-template <class Real>
-void Simulation<Real>::drop_void_contact(int ball) {
+template <class Real> void Simulation<Real>::drop_void_contact(int ball) {
   ++counts_.stale_events;
   Agenda& a = agendas_[ball];
   a.drop_nearest();
@@ -277,8 +259,7 @@ void Simulation<Real>::drop_void_contact(int ball) {
 }
 
 /// Moves a ball to the next cell and predicts its contacts with the balls of new neighbours.
-template <class Real>
-void Simulation<Real>::cross_cell(int ball) {
+template <class Real> void Simulation<Real>::cross_cell(int ball) {
   ++counts_.cell_crossings;
   const int axis = agendas_[ball].crossing_axis(), step = agendas_[ball].crossing_step();
   candidates_.cross(ball, bodies_[ball].cell, axis, step, near_);
@@ -291,8 +272,7 @@ void Simulation<Real>::cross_cell(int ball) {
 }
 
 /// True if another event follows a contact so soon that it may be first, which is rare.
-template <class Real>
-bool Simulation<Real>::has_rivals(const Event& event) const {
+template <class Real> bool Simulation<Real>::has_rivals(const Event& event) const {
   const Instant limit = clock_.after(event.time, ladder_.tie_window());
   const Agenda& a = agendas_[event.ball];
   int due = (a.times[wall_entry] <= limit) + (a.forgotten_from <= limit);
@@ -302,8 +282,7 @@ bool Simulation<Real>::has_rivals(const Event& event) const {
 
 /// Finds the first of contacts that share a ball and are so close in time that rounding may have
 /// reversed them: wider scalars recompute the times. A rule orders and marks the inseparable ones.
-template <class Real>
-auto Simulation<Real>::settle_ties(Event event) -> Event {
+template <class Real> auto Simulation<Real>::settle_ties(Event event) -> Event {
   // Continues wall searches whose windows end before `limit`: a contact may follow immediately.
   const auto finish = [&](int ball, const Instant& limit) {
     const Agenda& a = agendas_[ball];
@@ -334,8 +313,7 @@ auto Simulation<Real>::settle_ties(Event event) -> Event {
 }
 
 /// Fills `rivals_` with the contacts up to `limit` that share a ball with the event.
-template <class Real>
-void Simulation<Real>::find_rivals(const Event& event, const Instant& limit) {
+template <class Real> void Simulation<Real>::find_rivals(const Event& event, const Instant& limit) {
   rivals_.clear();
   std::vector<int> near;  // and no others, however many have events at the same time
   add_near(event.ball, near);
@@ -359,8 +337,7 @@ void Simulation<Real>::find_rivals(const Event& event, const Instant& limit) {
 }
 
 /// Adds the balls of the adjacent cells and the ball itself.
-template <class Real>
-void Simulation<Real>::add_near(int ball, std::vector<int>& balls) {
+template <class Real> void Simulation<Real>::add_near(int ball, std::vector<int>& balls) {
   FoundBalls found;
   candidates_.grid().neighbours(bodies_[ball].cell, found);
   balls.insert(balls.end(), found.balls.begin(), found.balls.begin() + found.count);
@@ -368,7 +345,8 @@ void Simulation<Real>::add_near(int ball, std::vector<int>& balls) {
 
 /// Adds the contacts that did not fit into the ball's agenda, by predicting them again.
 template <class Real>
-void Simulation<Real>::add_rivals_of_full_agenda(int ball, const Event& event, const Instant& limit) {
+void Simulation<Real>::add_rivals_of_full_agenda(
+    int ball, const Event& event, const Instant& limit) {
   std::vector<int> others;
   if (event.involves(ball)) {
     add_near(ball, others);
@@ -395,11 +373,11 @@ auto Simulation<Real>::contact_of(const Event& event) const -> dynamics::Contact
   const auto& flight = flights_[event.ball];
   if (event.kind == EventKind::wall_contact)
     return {.with_wall = true,
-            .flight = flight,
-            .partner = flight,
-            .radius = properties(event.ball).radius,
-            .time = event.time,
-            .wall = event.partner};
+        .flight = flight,
+        .partner = flight,
+        .radius = properties(event.ball).radius,
+        .time = event.time,
+        .wall = event.partner};
   const auto& partner = flights_[event.partner];
   const Real sum = properties(event.ball).radius + properties(event.partner).radius;
   if (flight.start < partner.start) return {false, partner, flight, sum, event.time};
@@ -407,8 +385,7 @@ auto Simulation<Real>::contact_of(const Event& event) const -> dynamics::Contact
 }
 
 /// Advances the balls of a contact to it and applies the impulse.
-template <class Real>
-auto Simulation<Real>::collide(const Event& event) -> Impact {
+template <class Real> auto Simulation<Real>::collide(const Event& event) -> Impact {
   if (event.by_rule) ++counts_.simultaneous_contacts;
   const bool with_wall = event.kind == EventKind::wall_contact;
   auto impact = with_wall ? collide_with_wall(event) : collide_pair(event);
@@ -420,21 +397,19 @@ auto Simulation<Real>::collide(const Event& event) -> Impact {
   impact.by_rule = event.by_rule;
   if (impact.overlap > counts_.deepest_overlap) counts_.deepest_overlap = impact.overlap;
   EDMILL_REQUIRE(impact.overlap < tolerated_overlap_,
-                 "an impact was missed: bodies overlap by " + to_text(impact.overlap) + " m");
+      "an impact was missed: bodies overlap by " + to_text(impact.overlap) + " m");
   raise_top_speed(event.ball);
   if (!impact.with_wall) raise_top_speed(event.partner);
   return impact;
 }
 
-template <class Real>
-void Simulation<Real>::update_pose() {
+template <class Real> void Simulation<Real>::update_pose() {
   const auto update = [&](const auto& motion, const auto&) { pose_ = motion.pose(now_); };
   model::with_parts<Real>(mill_.motion, mill_.vessel, update);
 }
 
 /// The contact of a ball with a body: normal, overlap, and velocity of the body's surface.
-template <class Real>
-auto Simulation<Real>::collide_with_wall(const Event& event) -> Impact {
+template <class Real> auto Simulation<Real>::collide_with_wall(const Event& event) -> Impact {
   const int ball = event.ball, wall = event.partner;
   find_neighbours(ball, near_);
   auto& flight = flights_[ball];
@@ -452,7 +427,8 @@ auto Simulation<Real>::collide_with_wall(const Event& event) -> Impact {
   const auto* body = mill_.body_of(wall);
   if (body) [[unlikely]] {
     const auto touch = model::touch_of(mill_, wall, radius, now_, flight.position);
-    impact.normal = touch.normal, impact.overlap = touch.overlap, impact.wall_velocity = touch.wall_velocity;
+    impact.normal = touch.normal, impact.overlap = touch.overlap,
+    impact.wall_velocity = touch.wall_velocity;
   } else {
     const auto touch = [&]<class M, class V>(const M& motion, const V& vessel) {
       const auto& pose = model::pose_of<M>(pose_);
@@ -474,15 +450,14 @@ auto Simulation<Real>::collide_with_wall(const Event& event) -> Impact {
   impact.flight_time[0] = flight_time;
   const auto& law = mill_.law_with_wall(properties(ball), wall);
   const bool rests = friction_rests(ball, flight_time, law);
-  impact.outcome = dynamics::collide_with_wall<Real>(impact.normal, properties(ball), impact.wall_velocity,
-                                                     flight.velocity, bodies_[ball].spin, law, rests);
+  impact.outcome = dynamics::collide_with_wall<Real>(impact.normal, properties(ball),
+      impact.wall_velocity, flight.velocity, bodies_[ball].spin, law, rests);
   agendas_.number_impact(ball, ball);
   candidates_.update(ball);
   return impact;
 }
 
-template <class Real>
-auto Simulation<Real>::collide_pair(const Event& event) -> Impact {
+template <class Real> auto Simulation<Real>::collide_pair(const Event& event) -> Impact {
   const int ball = event.ball, partner = event.partner;
   find_neighbours(ball, near_);
   auto &one = flights_[ball], &two = flights_[partner];
@@ -501,8 +476,8 @@ auto Simulation<Real>::collide_pair(const Event& event) -> Impact {
   const bool rests_for_one = friction_rests(ball, impact.flight_time[0], law);
   const bool rests = friction_rests(partner, impact.flight_time[1], law) || rests_for_one;
   impact.outcome =
-      dynamics::collide_balls<Real>(impact.normal, properties(ball), properties(partner), one.velocity,
-                                    bodies_[ball].spin, two.velocity, bodies_[partner].spin, law, rests);
+      dynamics::collide_balls<Real>(impact.normal, properties(ball), properties(partner),
+          one.velocity, bodies_[ball].spin, two.velocity, bodies_[partner].spin, law, rests);
   agendas_.number_impact(ball, partner);
   candidates_.update(ball);
   candidates_.update(partner);
@@ -512,7 +487,8 @@ auto Simulation<Real>::collide_pair(const Event& event) -> Impact {
 
 /// Counts the ball's impacts in a row without time to move. @return true if this is frictionless
 template <class Real>
-bool Simulation<Real>::friction_rests(int ball, const Real& flight_time, const model::ContactLaw<Real>& law) {
+bool Simulation<Real>::friction_rests(
+    int ball, const Real& flight_time, const model::ContactLaw<Real>& law) {
   auto& unmoved = bodies_[ball].unmoved;
   if (mill_.stall.has_moved(flight_time, law.least_separation)) [[likely]] {
     unmoved = 0;
@@ -524,8 +500,7 @@ bool Simulation<Real>::friction_rests(int ball, const Real& flight_time, const m
 }
 
 /// Raises the bounds that depend on the fastest ball if the ball's new velocity requires it.
-template <class Real>
-void Simulation<Real>::raise_top_speed(int ball) {
+template <class Real> void Simulation<Real>::raise_top_speed(int ball) {
   using std::sqrt;
   const Real fastest = top_speed_ - fall_;
   const Real speed_squared = squared_norm<Real>(flights_[ball].velocity);
@@ -536,8 +511,7 @@ void Simulation<Real>::raise_top_speed(int ball) {
 }
 
 /// Tests whether the impact is one of infinitely many in finite time, or at one time; notifies.
-template <class Real>
-void Simulation<Real>::notify(const Impact& impact) {
+template <class Real> void Simulation<Real>::notify(const Impact& impact) {
   if (may_collapse_) {
     note_collapse(impact, impact.ball, impact.partner);
     if (!impact.with_wall) note_collapse(impact, impact.partner, impact.ball);
@@ -565,8 +539,7 @@ void Simulation<Real>::note_collapse(const Impact& hit, int ball, int partner) {
   stop_ = EndReason::inelastic_collapse;
 }
 
-template <class Real>
-void Simulation<Real>::predict(const Impact& impact) {
+template <class Real> void Simulation<Real>::predict(const Impact& impact) {
   if (impact.with_wall) return predict_all(impact.ball, -1, pose_, near_);
   // Wide scalars begin their wall searches in double.
   if constexpr (is_double) update_pose();
@@ -590,8 +563,8 @@ void Simulation<Real>::predict_all(int ball, int already_done, const Pose& pose,
 }
 
 template <class Real>
-void Simulation<Real>::predict_pairs(int ball, int already_done, const DoubleState& state, int found,
-                                     const FoundBalls& near) {
+void Simulation<Real>::predict_pairs(
+    int ball, int already_done, const DoubleState& state, int found, const FoundBalls& near) {
   const int* places = candidates_.places();
   for (int k = 0; k < found; ++k) {
     const int other = candidates_.ball_at(places[k], near);
@@ -613,8 +586,7 @@ void Simulation<Real>::predict_pairs(int ball, int already_done, const DoubleSta
   }
 }
 
-template <class Real>
-void Simulation<Real>::expect_pair(int ball, int other, const Real& delay) {
+template <class Real> void Simulation<Real>::expect_pair(int ball, int other, const Real& delay) {
   Agenda& a = agendas_[ball];
   const Instant time = clock_.after(now_, delay);
   if (time >= a.forgotten_from) return;
@@ -627,8 +599,7 @@ void Simulation<Real>::expect_pair(int ball, int other, const Real& delay) {
   if (time < a.times[last]) a.put_pair(last, time, other, agendas_.latest_impact());
 }
 
-template <class Real>
-void Simulation<Real>::predict_crossing(int ball, const DoubleState& state) {
+template <class Real> void Simulation<Real>::predict_crossing(int ball, const DoubleState& state) {
   if (!candidates_.uses_cells()) return;
   Agenda& a = agendas_[ball];
   const auto& gravity = candidates_.filter().gravity;
@@ -640,10 +611,9 @@ void Simulation<Real>::predict_crossing(int ball, const DoubleState& state) {
   a.times[crossing_entry] = leaves ? clock_.after(now_, Real(crossing.delay)) : Instant::never();
 }
 
-/// Length of the window for a wall search from `begin` [s]: up to a little after the ball's nearest pair
-/// contact, so that every wall contact that may come first is found.
-template <class Real>
-Real Simulation<Real>::search_length(int ball, const Instant& begin) const {
+/// Length of the window for a wall search from `begin` [s]: up to a little after the ball's nearest
+/// pair contact, so that every wall contact that may come first is found.
+template <class Real> Real Simulation<Real>::search_length(int ball, const Instant& begin) const {
   const Real& longest = ladder_.walls().longest_window();
   const Agenda& a = agendas_[ball];
   if (a.pair_count == 0) return longest;
@@ -651,8 +621,7 @@ Real Simulation<Real>::search_length(int ball, const Instant& begin) const {
   return std::min(longest, std::max(Real(longest / 4096), until_pair));
 }
 
-template <class Real>
-void Simulation<Real>::predict_wall(int ball, const Pose& pose) {
+template <class Real> void Simulation<Real>::predict_wall(int ball, const Pose& pose) {
   ++counts_.wall_searches;
   const Real length = search_length(ball, now_);
   const dynamics::WallQuery<Real> query{flights_[ball], properties(ball).radius, now_, length};
@@ -668,8 +637,7 @@ void Simulation<Real>::predict_wall(int ball, const Pose& pose) {
   }
 }
 
-template <class Real>
-void Simulation<Real>::continue_wall_search(int ball, const Instant& begin) {
+template <class Real> void Simulation<Real>::continue_wall_search(int ball, const Instant& begin) {
   ++counts_.wall_searches;
   const Real length = search_length(ball, begin), &radius = properties(ball).radius;
   take_wall_answer(ball, ladder_.wall({flights_[ball], radius, begin, length}), begin);
@@ -677,8 +645,8 @@ void Simulation<Real>::continue_wall_search(int ball, const Instant& begin) {
 }
 
 template <class Real>
-void Simulation<Real>::take_wall_answer(int ball, const dynamics::WallAnswer<Real>& answer,
-                                        const Instant& begin) {
+void Simulation<Real>::take_wall_answer(
+    int ball, const dynamics::WallAnswer<Real>& answer, const Instant& begin) {
   Agenda& a = agendas_[ball];
   if (answer.verdict == dynamics::Verdict::contact) {
     a.wall = static_cast<std::int8_t>(answer.wall + (answer.by_rule ? Agenda::tied : 0));

@@ -5,8 +5,7 @@
 
 namespace edmill::model {
 
-template <class Real>
-struct BallProperties {
+template <class Real> struct BallProperties {
   Real radius;           ///< [m]
   Real mass;             ///< [kg]
   Real reduced_inertia;  ///< J / (m R^2) [1]; 2/5 for a solid sphere
@@ -16,16 +15,14 @@ struct BallProperties {
 };
 
 /// Position, velocity and spin of a ball at one instant, in the inertial frame.
-template <class Real>
-struct BallState {
+template <class Real> struct BallState {
   Vec3<Real> position;  ///< [m]
   Vec3<Real> velocity;  ///< [m/s]
   Vec3<Real> spin;      ///< [rad/s]
 };
 
 /// Data of the two bodies of an impact that a contact law can use: two balls, or a ball and a wall.
-template <class Real>
-struct ContactBodies {
+template <class Real> struct ContactBodies {
   Real effective_mass;    ///< M = m_i m_j / (m_i + m_j), for a wall m_i [kg]
   Real radius;            ///< of the ball [m]
   Real other_radius{-1};  ///< of the other ball [m]; negative for a wall
@@ -36,7 +33,9 @@ struct ContactBodies {
     return with_wall() ? radius : Real(radius * other_radius / (radius + other_radius));
   }
   /// Mean of the balls' diameters [m].
-  Real mean_diameter() const { return with_wall() ? Real(2 * radius) : Real(radius + other_radius); }
+  Real mean_diameter() const {
+    return with_wall() ? Real(2 * radius) : Real(radius + other_radius);
+  }
 };
 
 }  // namespace edmill::model

@@ -11,10 +11,9 @@
 
 namespace edmill::model {
 
-/// Which part of the dose counts. Gentle impacts may not work the powder (thesis, section 6), so counting can
-/// be restricted to doses from a limit on, and to the part along the normal.
-template <class Number>
-struct CountedDose {
+/// Which part of the dose counts. Gentle impacts may not work the powder (thesis, section 6), so
+/// counting can be restricted to doses from a limit on, and to the part along the normal.
+template <class Number> struct CountedDose {
   bool normal_only = false;
   Number least{0};  ///< smallest dose of an impact, or of its normal part, that counts [J]
 
@@ -27,14 +26,12 @@ struct CountedDose {
 };
 
 /// The first rule that is met ends the run; at least one is set.
-template <class Real>
-struct StopRules {
+template <class Real> struct StopRules {
   std::optional<Instant<Real>> end_time;
   StopLimits<Real> limits;
 };
 
-template <class Real>
-struct Case {
+template <class Real> struct Case {
   Mill<Real> mill;
   std::vector<BallProperties<Real>> balls;
   StopRules<Real> stop;

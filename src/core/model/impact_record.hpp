@@ -1,4 +1,5 @@
-// Impacts in logs: the one list of their quantities, that of their vectors, and one impact of a log.
+// Impacts in logs: the one list of their quantities, that of their vectors, and one impact of a
+// log.
 #pragma once
 
 #include <array>
@@ -11,7 +12,14 @@
 namespace edmill::model {
 
 /// Quantities of an impact that logs contain and comparisons use; SI.
-enum Logged : std::size_t { time, approach_speed, slip_speed, milling_dose, wall_work, logged_count };
+enum Logged : std::size_t {
+  time,
+  approach_speed,
+  slip_speed,
+  milling_dose,
+  wall_work,
+  logged_count
+};
 
 struct LoggedQuantity {
   std::string_view name, unit, meaning;
@@ -28,7 +36,8 @@ inline constexpr std::array<LoggedQuantity, logged_count> logged_quantities{{
 /// A logged vector of one body of an impact, in the inertial frame. A wall as partner has none.
 struct LoggedVector {
   std::string_view name, unit;
-  std::string_view letter, when;  ///< of its columns in a CSV file: "v" and "_before" of "vx_before"
+  std::string_view letter,
+      when;  ///< of its columns in a CSV file: "v" and "_before" of "vx_before"
 };
 inline constexpr std::array<LoggedVector, 5> logged_vectors{{
     {"position", "m", "", ""},
@@ -38,8 +47,8 @@ inline constexpr std::array<LoggedVector, 5> logged_vectors{{
     {"spin_after", "rad/s", "w", "_after"},
 }};
 
-/// Calls `use` with the names "x" to "wz_after" and "partner_x" to "partner_wz_after", in the order of the
-/// columns.
+/// Calls `use` with the names "x" to "wz_after" and "partner_x" to "partner_wz_after", in the order
+/// of the columns.
 void for_logged_vectors(auto&& use) {
   for (const std::string body : {"", "partner_"})
     for (const auto& vector : logged_vectors)
@@ -48,12 +57,12 @@ void for_logged_vectors(auto&& use) {
 }
 
 /// One impact of a log, or of a run that is compared with a log.
-template <class Number>
-struct ImpactRecord {
+template <class Number> struct ImpactRecord {
   int ball = 0;
   bool with_wall = false;
-  int partner = 0;                                                             ///< ball or wall id
-  Number time{}, approach_speed{}, slip_speed{}, milling_dose{}, wall_work{};  ///< nan where a log has none
+  int partner = 0;  ///< ball or wall id
+  Number time{}, approach_speed{}, slip_speed{}, milling_dose{},
+      wall_work{};         ///< nan where a log has none
   std::uint64_t line = 0;  ///< in the file, from 1; 0 for an impact of a run
   bool by_rule = false;    ///< another contact has the same time, and a rule put this one first
 
@@ -67,13 +76,12 @@ struct ImpactRecord {
   bool same_bodies(const ImpactRecord& other) const {
     if (with_wall != other.with_wall) return false;
     return (ball == other.ball && partner == other.partner) ||
-           (!with_wall && ball == other.partner && partner == other.ball);
+        (!with_wall && ball == other.partner && partner == other.ball);
   }
-
  private:
-  static constexpr std::array<Number ImpactRecord::*, logged_count> members{
-      &ImpactRecord::time, &ImpactRecord::approach_speed, &ImpactRecord::slip_speed,
-      &ImpactRecord::milling_dose, &ImpactRecord::wall_work};
+  static constexpr std::array<Number ImpactRecord::*, logged_count> members{&ImpactRecord::time,
+      &ImpactRecord::approach_speed, &ImpactRecord::slip_speed, &ImpactRecord::milling_dose,
+      &ImpactRecord::wall_work};
 };
 
 }  // namespace edmill::model

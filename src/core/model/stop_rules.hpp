@@ -16,11 +16,10 @@ namespace edmill::model {
 
 /// Ends a run after a number of impacts.
 struct MaxCollisions {
-  static constexpr Parameter key{"max_collisions", Dimension::none, "the run ends after this many impacts",
-                                 Range::count};
+  static constexpr Parameter key{
+      "max_collisions", Dimension::none, "the run ends after this many impacts", Range::count};
 
-  template <class Real>
-  struct Watch {
+  template <class Real> struct Watch {
     Real limit;
 
     bool is_met(const auto& impact, const auto&) const { return Real(impact.index + 1) >= limit; }
@@ -31,11 +30,9 @@ struct MaxCollisions {
 /// Ends a run at a milling dose since its start.
 struct MaxMillingDose {
   static constexpr Parameter key{"max_milling_dose", Dimension::energy,
-                                 "the run ends when this energy has been dissipated since it began",
-                                 Range::positive};
+      "the run ends when this energy has been dissipated since it began", Range::positive};
 
-  template <class Real>
-  struct Watch {
+  template <class Real> struct Watch {
     Real limit;  ///< [J]
     numerics::CompensatedSum<Real> dose{};
 
@@ -50,11 +47,9 @@ struct MaxMillingDose {
 /// Ends a run when a ball exceeds a speed just after an impact.
 struct MaxBallSpeed {
   static constexpr Parameter key{"max_ball_speed", Dimension::speed,
-                                 "the run ends when a ball is faster than this after an impact",
-                                 Range::positive};
+      "the run ends when a ball is faster than this after an impact", Range::positive};
 
-  template <class Real>
-  struct Watch {
+  template <class Real> struct Watch {
     Real limit;  ///< [m/s]
 
     bool is_met(const auto& impact, const auto& simulation) const {
@@ -69,16 +64,15 @@ struct MaxBallSpeed {
 
 /// Ends a run when the dose rate is known precisely enough.
 struct DoseRatePrecision {
-  static constexpr Parameter key{
-      "dose_rate_precision", Dimension::none,
-      "the run ends when the half-width of the 95 % interval of the dose rate is at most this fraction of "
+  static constexpr Parameter key{"dose_rate_precision", Dimension::none,
+      "the run ends when the half-width of the 95 % interval of the dose rate is at most this "
+      "fraction of "
       "the rate; first tested after 40 drive periods of statistics",
       Range(0.0001, 1)};
 
-  /// Tests the interval only a few times, each after a time that the previous test predicts, so that a run
-  /// does not end because its interval is narrow by chance. (docs/theory.md, section 8)
-  template <class Real>
-  struct Watch {
+  /// Tests the interval only a few times, each after a time that the previous test predicts, so
+  /// that a run does not end because its interval is narrow by chance. (docs/theory.md, section 8)
+  template <class Real> struct Watch {
     Real limit;
     numerics::Batches<Real> batches{};
     numerics::CompensatedSum<Real> dose{};
@@ -101,7 +95,6 @@ struct DoseRatePrecision {
       return met;
     }
     void archive(Archive& a) { a(batches, dose, next_look); }
-
    private:
     bool is_precise() {
       const auto elapsed = static_cast<std::int64_t>(batches.count()) * batches.periods();
@@ -110,17 +103,17 @@ struct DoseRatePrecision {
       const double wanted = static_cast<double>(limit) * *e.mean;
       if (*e.half_width <= wanted) return true;
       const double ratio = wanted > 0 ? *e.half_width / wanted : 2;
-      next_look =
-          static_cast<std::int64_t>(static_cast<double>(elapsed) * std::clamp(ratio * ratio, 1.2, 2.0));
+      next_look = static_cast<std::int64_t>(
+          static_cast<double>(elapsed) * std::clamp(ratio * ratio, 1.2, 2.0));
       return false;
     }
   };
 };
 
-/// All stop rules. A rule has a key of [run], whose value is its limit and whose name is the end reason, and
-/// a Watch: the limit in the run's scalar, `is_met(impact, simulation)`, called after each impact, `archive`
-/// for its state, and `begin(case)` if it needs the case. To add a rule, write a class above and list it
-/// here.
+/// All stop rules. A rule has a key of [run], whose value is its limit and whose name is the end
+/// reason, and a Watch: the limit in the run's scalar, `is_met(impact, simulation)`, called after
+/// each impact, `archive` for its state, and `begin(case)` if it needs the case. To add a rule,
+/// write a class above and list it here.
 using StopRuleList = std::tuple<MaxCollisions, MaxMillingDose, MaxBallSpeed, DoseRatePrecision>;
 
 inline constexpr std::size_t stop_rule_count = std::tuple_size_v<StopRuleList>;
@@ -134,8 +127,7 @@ constexpr void for_each_stop_rule(auto&& f) {
 }
 
 /// Limits in the order of the list; empty for rules that the case does not set.
-template <class Number>
-using StopLimits = std::array<std::optional<Number>, stop_rule_count>;
+template <class Number> using StopLimits = std::array<std::optional<Number>, stop_rule_count>;
 
 /// The place of a rule in the list.
 template <class Rule>

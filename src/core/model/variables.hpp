@@ -1,5 +1,5 @@
-// Names, units and meanings of the variables of an impact, and of those of a ball with their values; see
-// impact_variables.def and ball_variables.def.
+// Names, units and meanings of the variables of an impact, and of those of a ball with their
+// values; see impact_variables.def and ball_variables.def.
 #pragma once
 
 #include <array>
@@ -40,23 +40,27 @@ std::optional<int> find_in(const auto& variables, std::string_view name) {
     if (!name.empty() && (variables[k].name == name || variables[k].thesis == name)) return k;
   return std::nullopt;
 }
-inline std::optional<int> find_variable(std::string_view name) { return find_in(impact_variables, name); }
+inline std::optional<int> find_variable(std::string_view name) {
+  return find_in(impact_variables, name);
+}
 
 struct BallVariable {
   std::string_view name, thesis, unit, meaning;
 };
 
-#define EDMILL_BALL_VARIABLE(name, thesis, unit, meaning, formula) BallVariable{#name, thesis, unit, meaning},
+#define EDMILL_BALL_VARIABLE(name, thesis, unit, meaning, formula) \
+  BallVariable{#name, thesis, unit, meaning},
 inline constexpr std::array ball_variables{
 #include "model/ball_variables.def"
 };
 #undef EDMILL_BALL_VARIABLE
 
-inline std::optional<int> find_ball_variable(std::string_view name) { return find_in(ball_variables, name); }
+inline std::optional<int> find_ball_variable(std::string_view name) {
+  return find_in(ball_variables, name);
+}
 
 /// One ball, for the formulas in ball_variables.def.
-template <class Real>
-struct BallFacts {
+template <class Real> struct BallFacts {
   const BallProperties<Real>& ball;
   const BallState<Real>& state;
   const Real& pi;  ///< of the scalar
@@ -69,7 +73,8 @@ struct BallFacts {
 /// Value of a row of `ball_variables`.
 /// @param pi  of the scalar
 template <class Real>
-Real ball_variable(int row, const BallProperties<Real>& ball, const BallState<Real>& state, const Real& pi) {
+Real ball_variable(
+    int row, const BallProperties<Real>& ball, const BallState<Real>& state, const Real& pi) {
   using Facts = BallFacts<Real>;
 #define EDMILL_BALL_VARIABLE(name, thesis, unit, meaning, formula) \
   [](const Facts& b) -> Real { return Real(formula); },

@@ -15,34 +15,44 @@
 
 namespace edmill::model {
 
-/// A closed convex shape in the vessel frame, its walls numbered from 0. Gaps are smooth functions of the
-/// position of a ball's centre: positive inside, zero at contact. They need not be lengths. The region of the
-/// centre of a ball of radius R is the vessel `inset(R)`, whose gaps are those of the ball.
+/// A closed convex shape in the vessel frame, its walls numbered from 0. Gaps are smooth functions
+/// of the position of a ball's centre: positive inside, zero at contact. They need not be lengths.
+/// The region of the centre of a ball of radius R is the vessel `inset(R)`, whose gaps are those of
+/// the ball.
 ///
-/// - `wall_count()`; `walls()`: their names; `surfaces()`: for maps and pictures, empty if they have no
+/// - `wall_count()`; `walls()`: their names; `surfaces()`: for maps and pictures, empty if they
+/// have no
 ///   coordinates; `PerWall<T>`: one T for each
 /// - `reach()` [m]: from the centre to the farthest point; `extent()`, no less and without a root;
-///   `half_sizes()`: bounds on the coordinates; `volume()` [m3]; `widest_ball()`: diameter of the largest
-///   ball that fits [m]
+///   `half_sizes()`: bounds on the coordinates; `volume()` [m3]; `widest_ball()`: diameter of the
+///   largest ball that fits [m]
 /// - `inset(R)`; `is_empty()`, also if a ball just fits and cannot move; `contains(p)`; optionally
-///   `place(drawn)`: a uniform position in the vessel from three numbers that are uniform in [-1, 1], or
-///   nothing if new ones must be drawn (default: by rejection from the box of `half_sizes()`)
-/// - `gaps(p)`, `gap(wall, p)`; `rates(p, u)` and `curvatures(p, u, a)`, their derivatives where p' = u, u' =
+///   `place(drawn)`: a uniform position in the vessel from three numbers that are uniform in [-1,
+///   1], or nothing if new ones must be drawn (default: by rejection from the box of
+///   `half_sizes()`)
+/// - `gaps(p)`, `gap(wall, p)`; `rates(p, u)` and `curvatures(p, u, a)`, their derivatives where p'
+/// = u, u' =
 ///   a
-/// - `within(p, way)`: for each wall, whether it may be within `way` [m] of p; `way` includes all rounding
-/// - `kind_of(wall)`: walls of one kind have the same `derivative_bounds(coordinates, k)`, on the k-th
+/// - `within(p, way)`: for each wall, whether it may be within `way` [m] of p; `way` includes all
+/// rounding
+/// - `kind_of(wall)`: walls of one kind have the same `derivative_bounds(coordinates, k)`, on the
+/// k-th
 ///   derivatives of their gaps
-/// - `is_flat(wall)`: the gap is a coordinate up to sign and offset, and as accurate as one; for other walls
-///   `curved_errors` bounds the rounding, from that of a coordinate, the speed and acceleration in the vessel
-///   frame, and how far outside the ball may be [m]
-/// - only if the gap functions of walls are valid in regions: `function_count()`: the functions after those
-///   of the walls are the borders of the regions; `active(p)`: those that must be searched from p on;
-///   `is_valid(wall, p)`: whether that wall's gap is valid at p, to within rounding; `smooth_way(p)`: how far
-///   a ball at p may move while all active functions are smooth [m], or nothing if there is no limit
-/// - `normal(wall, p)`: of a contact, unit, into the vessel; `overlap(wall, p)` [m], negative for a gap
+/// - `is_flat(wall)`: the gap is a coordinate up to sign and offset, and as accurate as one; for
+/// other walls
+///   `curved_errors` bounds the rounding, from that of a coordinate, the speed and acceleration in
+///   the vessel frame, and how far outside the ball may be [m]
+/// - only if the gap functions of walls are valid in regions: `function_count()`: the functions
+/// after those
+///   of the walls are the borders of the regions; `active(p)`: those that must be searched from p
+///   on; `is_valid(wall, p)`: whether that wall's gap is valid at p, to within rounding;
+///   `smooth_way(p)`: how far a ball at p may move while all active functions are smooth [m], or
+///   nothing if there is no limit
+/// - `normal(wall, p)`: of a contact, unit, into the vessel; `overlap(wall, p)` [m], negative for a
+/// gap
 template <class V, class Real = typename V::Scalar>
 concept Vessel = requires(const V& vessel, int wall, const Vec3<Real>& p, const Real& x,
-                          const CoordinateBounds<Real>& coordinates, const ErrorBounds<Real>& errors) {
+    const CoordinateBounds<Real>& coordinates, const ErrorBounds<Real>& errors) {
   typename V::template PerWall<bool>;
   typename V::template PerKind<bool>;
   { vessel.wall_count() } -> std::same_as<int>;
@@ -62,30 +72,33 @@ concept Vessel = requires(const V& vessel, int wall, const Vec3<Real>& p, const 
   { vessel.curvatures(p, p, p) } -> std::same_as<typename V::template PerWall<Real>>;
   { vessel.within(p, x) } -> std::same_as<typename V::template PerWall<bool>>;
   { vessel.kind_of(wall) } -> std::same_as<int>;
-  { vessel.derivative_bounds(coordinates, wall) } -> std::same_as<typename V::template PerKind<Real>>;
+  {
+    vessel.derivative_bounds(coordinates, wall)
+    } -> std::same_as<typename V::template PerKind<Real>>;
   { vessel.is_flat(wall) } -> std::same_as<bool>;
   { vessel.curved_errors(wall, errors, x, x, x, x) } -> std::same_as<ErrorBounds<Real>>;
   { vessel.normal(wall, p) } -> std::same_as<Vec3<Real>>;
   { vessel.overlap(wall, p) } -> std::same_as<Real>;
 };
 
-/// The vessels that a case file can name, the default first. A new one is a file in model/vessels/ and a line
-/// here and in VesselVariant: it is read, described and passed to every scalar by its list of parameters.
+/// The vessels that a case file can name, the default first. A new one is a file in model/vessels/
+/// and a line here and in VesselVariant: it is read, described and passed to every scalar by its
+/// list of parameters.
 template <class Number>
-using NamedVessels = std::variant<Cylinder<Number>,         //
-                                  Box<Number>,              //
-                                  Sphere<Number>,           //
-                                  Capsule<Number>,          //
-                                  RoundedCylinder<Number>,  //
-                                  Polyhedron<Number>>;
+using NamedVessels = std::variant<Cylinder<Number>,  //
+    Box<Number>,                                     //
+    Sphere<Number>,                                  //
+    Capsule<Number>,                                 //
+    RoundedCylinder<Number>,                         //
+    Polyhedron<Number>>;
 
 template <class Real>
-using VesselVariant = std::variant<CylinderVessel<Real>,    //
-                                   BoxVessel<Real>,         //
-                                   SphereVessel<Real>,      //
-                                   RoundedVessel<Real>,     //
-                                   PolyhedronVessel<Real>,  //
-                                   AlgebraicVessel<Real>>;
+using VesselVariant = std::variant<CylinderVessel<Real>,  //
+    BoxVessel<Real>,                                      //
+    SphereVessel<Real>,                                   //
+    RoundedVessel<Real>,                                  //
+    PolyhedronVessel<Real>,                               //
+    AlgebraicVessel<Real>>;
 
 /// A vessel whose gap functions are valid only in regions.
 template <class V>
@@ -93,8 +106,7 @@ concept HasRegions = requires(const V& vessel) {
   vessel.function_count();
 };
 
-template <class V>
-int function_count(const V& vessel) {
+template <class V> int function_count(const V& vessel) {
   if constexpr (HasRegions<V>)
     return vessel.function_count();
   else
@@ -112,8 +124,7 @@ typename V::template PerWall<Value> per_wall(const V& vessel, const Value& value
     return all;
   }
 }
-template <class V>
-auto active_functions(const V& vessel, const Vec3<typename V::Scalar>& p) {
+template <class V> auto active_functions(const V& vessel, const Vec3<typename V::Scalar>& p) {
   if constexpr (HasRegions<V>)
     return vessel.active(p);
   else
@@ -121,22 +132,19 @@ auto active_functions(const V& vessel, const Vec3<typename V::Scalar>& p) {
 }
 
 /// Any vessel, chosen when the case is read.
-template <class Real>
-class AnyVessel {
+template <class Real> class AnyVessel {
  public:
   using Scalar = Real;
   static constexpr int most_walls = 32;
-  template <class Value>
-  using PerWall = boost::container::static_vector<Value, most_walls>;
-  template <class Value>
-  using PerKind = PerWall<Value>;
+  template <class Value> using PerWall = boost::container::static_vector<Value, most_walls>;
+  template <class Value> using PerKind = PerWall<Value>;
 
   AnyVessel() = default;
   template <class V>
-  requires(!std::same_as<V, AnyVessel>) && std::constructible_from<VesselVariant<Real>, V> AnyVessel(V vessel)
+  requires(!std::same_as<V, AnyVessel>) &&
+      std::constructible_from<VesselVariant<Real>, V> AnyVessel(V vessel)
       : vessel_(std::move(vessel)) {}
-  template <class To>
-  AnyVessel<To> cast() const {
+  template <class To> AnyVessel<To> cast() const {
     auto to = visit([](const auto& v) { return AnyVessel<To>(v.template cast<To>()); });
     if (pistons_) to.set(pistons_->template cast<To>());
     return to;
@@ -144,15 +152,13 @@ class AnyVessel {
 
   /// Walls that move; null if there are none. An inset does not include them.
   const Pistons<Real>* pistons() const { return pistons_.get(); }
-  void set(Pistons<Real> pistons) { pistons_ = std::make_shared<const Pistons<Real>>(std::move(pistons)); }
+  void set(Pistons<Real> pistons) {
+    pistons_ = std::make_shared<const Pistons<Real>>(std::move(pistons));
+  }
 
   /// The vessel if it is a V, otherwise null.
-  template <class V>
-  const V* get_if() const {
-    return std::get_if<V>(&vessel_);
-  }
-  template <class F>
-  decltype(auto) visit(F&& f) const {
+  template <class V> const V* get_if() const { return std::get_if<V>(&vessel_); }
+  template <class F> decltype(auto) visit(F&& f) const {
     return std::visit(std::forward<F>(f), vessel_);
   }
 
@@ -189,8 +195,8 @@ class AnyVessel {
     return visit([&](const auto& v) { return AnyVessel(v.inset(by)); });
   }
 
-// The concept documents the parameters. Return types are explicit, as in AnyMotion. First single values, then
-// one for each wall or kind of wall.
+// The concept documents the parameters. Return types are explicit, as in AnyMotion. First single
+// values, then one for each wall or kind of wall.
 #define EDMILL_OF_VESSEL(Result, name)                         \
   Result name(const auto&... a) const {                        \
     return visit([&](const auto& v) { return v.name(a...); }); \
@@ -222,7 +228,6 @@ class AnyVessel {
   EDMILL_OF_WALLS(PerKind<Real>, derivative_bounds)
 #undef EDMILL_OF_VESSEL
 #undef EDMILL_OF_WALLS
-
  private:
   static auto listed(const auto& values) {
     return PerWall<std::decay_t<decltype(values[0])>>(values.begin(), values.end());
@@ -232,8 +237,9 @@ class AnyVessel {
   std::shared_ptr<const Pistons<Real>> pistons_;
 };
 
-static_assert(Vessel<CylinderVessel<double>> && Vessel<BoxVessel<double>> && Vessel<SphereVessel<double>> &&
-              Vessel<RoundedVessel<double>> && Vessel<PolyhedronVessel<double>> &&
-              Vessel<AlgebraicVessel<double>> && Vessel<AnyVessel<double>>);
+static_assert(Vessel<CylinderVessel<double>> && Vessel<BoxVessel<double>> &&
+    Vessel<SphereVessel<double>> && Vessel<RoundedVessel<double>> &&
+    Vessel<PolyhedronVessel<double>> && Vessel<AlgebraicVessel<double>> &&
+    Vessel<AnyVessel<double>>);
 
 }  // namespace edmill::model

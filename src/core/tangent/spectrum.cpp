@@ -10,9 +10,9 @@
 
 namespace edmill::tangent {
 
-/// A dual number value + slope e with e^2 = 0, for forward-mode differentiation along one direction of code
-/// that is a template of its scalar. Comparisons use the values, so that branches are those of the motion
-/// itself.
+/// A dual number value + slope e with e^2 = 0, for forward-mode differentiation along one direction
+/// of code that is a template of its scalar. Comparisons use the values, so that branches are those
+/// of the motion itself.
 struct Dual {
   double value = 0, slope = 0;
 
@@ -27,8 +27,12 @@ struct Dual {
   explicit operator int() const { return static_cast<int>(value); }
   explicit operator std::int64_t() const { return static_cast<std::int64_t>(value); }
 
-  friend Dual operator+(const Dual& a, const Dual& b) { return {a.value + b.value, a.slope + b.slope}; }
-  friend Dual operator-(const Dual& a, const Dual& b) { return {a.value - b.value, a.slope - b.slope}; }
+  friend Dual operator+(const Dual& a, const Dual& b) {
+    return {a.value + b.value, a.slope + b.slope};
+  }
+  friend Dual operator-(const Dual& a, const Dual& b) {
+    return {a.value - b.value, a.slope - b.slope};
+  }
   friend Dual operator*(const Dual& a, const Dual& b) {
     return {a.value * b.value, a.slope * b.value + a.value * b.slope};
   }
@@ -46,8 +50,8 @@ struct Dual {
   friend bool operator==(const Dual& a, const Dual& b) { return a.value == b.value; }
 };
 
-/// The root has no derivative at zero, and the slope is 0 there. edmill takes it only for a slip, whose
-/// factor is zero, too.
+/// The root has no derivative at zero, and the slope is 0 there. edmill takes it only for a slip,
+/// whose factor is zero, too.
 inline Dual sqrt(const Dual& x) {
   const double root = std::sqrt(x.value);
   return {root, root > 0 ? x.slope / (2 * root) : 0};
@@ -72,8 +76,7 @@ class std::numeric_limits<edmill::tangent::Dual> : public std::numeric_limits<do
 template <>
 struct Eigen::NumTraits<edmill::tangent::Dual> : Eigen::GenericNumTraits<edmill::tangent::Dual> {};
 
-template <>
-struct edmill::numerics::Trigonometry<edmill::tangent::Dual> {
+template <> struct edmill::numerics::Trigonometry<edmill::tangent::Dual> {
   using Dual = tangent::Dual;
   static Dual pi() { return {numerics::pi<double>()}; }
   static SinCos<Dual> sin_cos(const Dual& angle) {
@@ -83,8 +86,7 @@ struct edmill::numerics::Trigonometry<edmill::tangent::Dual> {
 };
 
 /// The value as text, for messages.
-template <>
-std::string edmill::to_text<edmill::tangent::Dual>(const tangent::Dual& number) {
+template <> std::string edmill::to_text<edmill::tangent::Dual>(const tangent::Dual& number) {
   return to_text(number.value);
 }
 
@@ -97,8 +99,8 @@ Vec3<Dual> with_slopes(const Vec3<double>& value, const Vec3<double>& slope) {
 }
 Vec3<double> slopes_of(const Vec3<Dual>& v) { return {v[0].slope, v[1].slope, v[2].slope}; }
 
-/// Derivative of the time of an impact: how much later the neighbouring motion has it; zero for bodies that
-/// do not approach each other.
+/// Derivative of the time of an impact: how much later the neighbouring motion has it; zero for
+/// bodies that do not approach each other.
 double delay(const Vec3<double>& normal, const Vec3<double>& gap, double approach_speed) {
   return approach_speed > 0 ? dot<double>(normal, gap) / approach_speed : 0;
 }
@@ -114,18 +116,19 @@ struct Nearby {
         spin(with_slopes(body.spin, t.spin)) {}
   /// Derivative after its impact, taken back to the time of the run's impact.
   Tangent<double> back(const Struck& body, const Vec3<double>& gravity, double delay) const {
-    return {slopes_of(position) - body.velocity_after * delay, slopes_of(velocity) - gravity * delay,
-            slopes_of(spin)};
+    return {slopes_of(position) - body.velocity_after * delay,
+        slopes_of(velocity) - gravity * delay, slopes_of(spin)};
   }
 };
 
 /// The natural logarithm, with the same bits on every machine.
 double logarithm(double x) {
-  return x >= 1 ? numerics::log_of_one_plus<double>(x - 1) : -numerics::log_of_one_plus<double>(1 / x - 1);
+  return x >= 1 ? numerics::log_of_one_plus<double>(x - 1)
+                : -numerics::log_of_one_plus<double>(1 / x - 1);
 }
 
-/// Pseudo-random numbers for the initial directions, the same in every run (splitmix64). Any start is
-/// suitable, since all directions turn towards those that grow.
+/// Pseudo-random numbers for the initial directions, the same in every run (splitmix64). Any start
+/// is suitable, since all directions turn towards those that grow.
 class Mixer {
  public:
   double next() {
@@ -139,7 +142,6 @@ class Mixer {
     const double x = next(), y = next(), z = next();
     return Vec3<double>(x, y, z) * size;
   }
-
  private:
   std::uint64_t state_ = 1;
 };
@@ -154,12 +156,13 @@ struct TangentMap::InDuals {
 
 TangentMap::TangentMap(const model::Mill<double>& mill, const Balls& balls)
     : mill_(new InDuals{model::mill_cast<Dual>(mill), {}, mill.gravity}) {
-  for (const auto& b : balls) mill_->balls.push_back({b.radius, b.mass, b.reduced_inertia, b.material});
+  for (const auto& b : balls)
+    mill_->balls.push_back({b.radius, b.mass, b.reduced_inertia, b.material});
 }
 TangentMap::~TangentMap() = default;
 
 void TangentMap::with_wall(const ImpactAt& impact, int wall, const Struck& struck,
-                           std::span<Tangent<double>> directions) const {
+    std::span<Tangent<double>> directions) const {
   const auto& mill = mill_->mill;
   const auto& ball = mill_->balls[struck.ball];
   const auto& law = mill.law_with_wall(ball, wall);
@@ -168,41 +171,41 @@ void TangentMap::with_wall(const ImpactAt& impact, int wall, const Struck& struc
     Nearby body(struck, direction, mill_->gravity, later);
     const Instant<Dual> time{impact.time.period, Dual(impact.time.offset, later)};
     const auto touch = model::touch_of(mill, wall, ball.radius, time, body.position);
-    dynamics::collide_with_wall<Dual>(touch.normal, ball, touch.wall_velocity, body.velocity, body.spin, law,
-                                      impact.in_stall);
+    dynamics::collide_with_wall<Dual>(
+        touch.normal, ball, touch.wall_velocity, body.velocity, body.spin, law, impact.in_stall);
     direction = body.back(struck, mill_->gravity, later);
   }
 }
 
 void TangentMap::of_pair(const ImpactAt& impact, const Struck& one, const Struck& two,
-                         std::span<Tangent<double>> of_one, std::span<Tangent<double>> of_two) const {
+    std::span<Tangent<double>> of_one, std::span<Tangent<double>> of_two) const {
   const auto &ball = mill_->balls[one.ball], &partner = mill_->balls[two.ball];
   const auto& law = mill_->mill.law_between(ball, partner);
   for (std::size_t k = 0; k < of_one.size(); ++k) {
-    const double later = delay(impact.normal, of_one[k].position - of_two[k].position, impact.approach_speed);
+    const double later =
+        delay(impact.normal, of_one[k].position - of_two[k].position, impact.approach_speed);
     Nearby a(one, of_one[k], mill_->gravity, later), b(two, of_two[k], mill_->gravity, later);
     const Vec3<Dual> between = a.position - b.position;
     const Vec3<Dual> normal = between * (Dual(1) / norm<Dual>(between));
-    dynamics::collide_balls<Dual>(normal, ball, partner, a.velocity, a.spin, b.velocity, b.spin, law,
-                                  impact.in_stall);
+    dynamics::collide_balls<Dual>(
+        normal, ball, partner, a.velocity, a.spin, b.velocity, b.spin, law, impact.in_stall);
     of_one[k] = a.back(one, mill_->gravity, later);
     of_two[k] = b.back(two, mill_->gravity, later);
   }
 }
 
-Spectrum::Spectrum(const model::Mill<double>& mill, const Balls& balls, const Instant<double>& start,
-                   std::size_t directions)
-    : map_(mill, balls),
-      clock_(mill.motion.period()),
-      balls_(balls.size()),
-      count_(std::min(directions, 9 * balls_)),
-      length_(balls.at(0).radius),
+Spectrum::Spectrum(const model::Mill<double>& mill, const Balls& balls,
+    const Instant<double>& start, std::size_t directions)
+    : map_(mill, balls), clock_(mill.motion.period()), balls_(balls.size()),
+      count_(std::min(directions, 9 * balls_)), length_(balls.at(0).radius),
       speed_(length_ / clock_.period()),
-      spin_(1 / clock_.period()),
-      state_{std::vector<Tangent<double>>(count_ * balls_), std::vector<Instant<double>>(balls_, start),
-             std::vector<double>(count_, 0.0), 0, std::vector<std::int64_t>(balls_, 0)} {
+      spin_(1 / clock_.period()), state_{std::vector<Tangent<double>>(count_ * balls_),
+                                      std::vector<Instant<double>>(balls_, start),
+                                      std::vector<double>(count_, 0.0), 0,
+                                      std::vector<std::int64_t>(balls_, 0)} {
   Mixer mixer;
-  for (auto& t : state_.tangents) t = {mixer.vector(length_), mixer.vector(speed_), mixer.vector(spin_)};
+  for (auto& t : state_.tangents)
+    t = {mixer.vector(length_), mixer.vector(speed_), mixer.vector(spin_)};
   orthonormalise(start);
   state_.growth.assign(count_, 0.0);
 }
@@ -227,15 +230,17 @@ void Spectrum::of_pair(const ImpactAt& impact, const Struck& one, const Struck& 
   count_impact(impact.time, one.ball, two.ball);
 }
 
-/// Counts an impact and orthonormalises the directions before they lose their digits. All directions approach
-/// the first one, by a factor of about e per collision of a ball, and those that impacts damp shrink by the
-/// restitution. Sixteen digits suffice for many such collisions, but not for a ball that hops.
+/// Counts an impact and orthonormalises the directions before they lose their digits. All
+/// directions approach the first one, by a factor of about e per collision of a ball, and those
+/// that impacts damp shrink by the restitution. Sixteen digits suffice for many such collisions,
+/// but not for a ball that hops.
 void Spectrum::count_impact(const Instant<double>& now, int ball, int partner) {
   constexpr std::int64_t most_of_ball = 8;
   auto& of_one = ++state_.of_ball[ball];
   auto& of_other = state_.of_ball[partner];
   if (partner != ball) ++of_other;
-  if (++state_.since_orthonormal >= balls_ || std::max(of_one, of_other) >= most_of_ball) orthonormalise(now);
+  if (++state_.since_orthonormal >= balls_ || std::max(of_one, of_other) >= most_of_ball)
+    orthonormalise(now);
 }
 
 double Spectrum::product(std::size_t a, std::size_t b) const {

@@ -1,6 +1,6 @@
-// The effect of impacts on motions infinitesimally close to a run, and Lyapunov exponents: the rates at which
-// these diverge from the run, direction by direction (Benettin et al. 1980). docs/theory.md, "Tangent
-// dynamics"
+// The effect of impacts on motions infinitesimally close to a run, and Lyapunov exponents: the
+// rates at which these diverge from the run, direction by direction (Benettin et al. 1980).
+// docs/theory.md, "Tangent dynamics"
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,9 @@
 
 namespace edmill::tangent {
 
-/// Derivative of a ball's state: its difference in a neighbouring motion over the infinitesimal distance of
-/// that motion.
-template <class Real>
-struct Tangent {
+/// Derivative of a ball's state: its difference in a neighbouring motion over the infinitesimal
+/// distance of that motion.
+template <class Real> struct Tangent {
   Vec3<Real> position{0, 0, 0}, velocity{0, 0, 0}, spin{0, 0, 0};
 
   /// Free flight for a time [s].
@@ -42,9 +41,9 @@ struct ImpactAt {
 
 using Balls = std::vector<model::BallProperties<double>>;
 
-/// The derivative of impacts in a mill. In the neighbouring motion the impact is a little earlier or later:
-/// its state is moved to its own impact, through it, and back to the time of the run's impact (the saltation
-/// of piecewise smooth systems).
+/// The derivative of impacts in a mill. In the neighbouring motion the impact is a little earlier
+/// or later: its state is moved to its own impact, through it, and back to the time of the run's
+/// impact (the saltation of piecewise smooth systems).
 class TangentMap {
  public:
   TangentMap(const model::Mill<double>& mill, const Balls& balls);
@@ -52,31 +51,33 @@ class TangentMap {
 
   /// @param directions  of the ball at the impact; they become those after it
   void with_wall(const ImpactAt& impact, int wall, const Struck& struck,
-                 std::span<Tangent<double>> directions) const;
+      std::span<Tangent<double>> directions) const;
   /// @param of_one, of_two  directions of either ball, in the same order
   void of_pair(const ImpactAt& impact, const Struck& one, const Struck& two,
-               std::span<Tangent<double>> of_one, std::span<Tangent<double>> of_two) const;
-
+      std::span<Tangent<double>> of_one, std::span<Tangent<double>> of_two) const;
  private:
   struct InDuals;  // heavy
   std::unique_ptr<InDuals> mill_;
 };
 
-/// A set of directions that evolves with a run and is kept orthonormal. The growth of each direction
-/// orthogonal to the previous ones is summed; the sums over the time tend to the largest exponents, in order.
+/// A set of directions that evolves with a run and is kept orthonormal. The growth of each
+/// direction orthogonal to the previous ones is summed; the sums over the time tend to the largest
+/// exponents, in order.
 class Spectrum {
  public:
   /// @param directions  how many; at most nine for each ball
   Spectrum(const model::Mill<double>& mill, const Balls& balls, const Instant<double>& start,
-           std::size_t directions);
+      std::size_t directions);
 
   void with_wall(const ImpactAt& impact, int wall, const Struck& struck);
   void of_pair(const ImpactAt& impact, const Struck& one, const Struck& two);
 
-  /// Makes the directions orthonormal at this instant, and adds the logarithms of their growth to the sums.
+  /// Makes the directions orthonormal at this instant, and adds the logarithms of their growth to
+  /// the sums.
   void orthonormalise(const Instant<double>& now);
-  /// Natural logarithms of the growth, direction by direction, up to the last call of `orthonormalise`; minus
-  /// infinity for a direction that impacts at the least separation speed have annihilated.
+  /// Natural logarithms of the growth, direction by direction, up to the last call of
+  /// `orthonormalise`; minus infinity for a direction that impacts at the least separation speed
+  /// have annihilated.
   const std::vector<double>& growth() const { return state_.growth; }
 
   std::size_t directions() const { return count_; }
@@ -93,7 +94,6 @@ class Spectrum {
   };
   const State& state() const { return state_; }
   void restore(State state) { state_ = std::move(state); }
-
  private:
   std::span<Tangent<double>> of_ball(int ball) {
     return {state_.tangents.data() + static_cast<std::size_t>(ball) * count_, count_};

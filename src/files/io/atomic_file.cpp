@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 namespace {
 
 bool all_digits(const std::string& text) {
-  return !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string::npos;
+  return !text.empty() && text.size() < 10 &&
+      text.find_first_not_of("0123456789") == std::string::npos;
 }
 
 /// Calls visit(path) for a path and the target of each symbolic link, until it returns true.
@@ -53,8 +54,8 @@ int open_for_writing(const fs::path& file, int more_flags) {
 
 /// The digest of `size` bytes of a file from `begin` on; nothing if the file is shorter.
 /// @param copy  to which the bytes are copied; none when empty @throws std::runtime_error
-std::optional<Sha256> digest_of(const fs::path& file, std::uint64_t begin, std::uint64_t size,
-                                const fs::path& copy = {}) {
+std::optional<Sha256> digest_of(
+    const fs::path& file, std::uint64_t begin, std::uint64_t size, const fs::path& copy = {}) {
   std::ifstream in(file, std::ios::binary);
   in.seekg(static_cast<std::streamoff>(begin));
   std::ofstream out;
@@ -144,8 +145,9 @@ std::optional<int> descriptor_named([[maybe_unused]] const fs::path& path) {
   const auto own = "/proc/" + std::to_string(::getpid()) + "/fd";
   follow(path, [&](const fs::path& p) {
     const auto folder = p.parent_path(), name = p.filename();
-    if (all_digits(name.string()) && (folder == "/dev/fd" || folder == "/proc/self/fd" ||
-                                      folder == "/proc/thread-self/fd" || folder == own))
+    if (all_digits(name.string()) &&
+        (folder == "/dev/fd" || folder == "/proc/self/fd" || folder == "/proc/thread-self/fd" ||
+            folder == own))
       number = std::stoi(name.string());
     return number.has_value();
   });
@@ -165,14 +167,14 @@ bool is_device(const fs::path& path) {
   std::error_code ignored;
   const auto status = fs::status(path, ignored);
   return descriptor_named(path) ||
-         (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status));
+      (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status));
 }
 
 bool is_temporary(const std::string& name) {
   const auto mark = name.rfind(partial);
   const auto number = mark + partial.size();
   return mark != std::string::npos && mark > 0 && number < name.size() &&
-         name.find_first_not_of("0123456789-", number) == std::string::npos;
+      name.find_first_not_of("0123456789-", number) == std::string::npos;
 }
 
 Destination::Destination(fs::path given, fs::path beside)
@@ -186,7 +188,9 @@ Destination::Destination(fs::path given, fs::path beside)
   };
   if (!through && !follow(named, note))
     throw InputError(named.string() + ": found a circle of symbolic links, expected a file");
-  beside_ = through ? fs::temp_directory_path(error) / "edmill" : beside.empty() ? place : std::move(beside);
+  beside_ = through    ? fs::temp_directory_path(error) / "edmill"
+      : beside.empty() ? place
+                       : std::move(beside);
   temporary = temporary_name(beside_);
 }
 
@@ -222,8 +226,8 @@ void Destination::commit() const {
 
 void Destination::require_file() const {
   if (through)
-    throw InputError(named.string() +
-                     ": found a device or a pipe, expected a file: a resumed run continues it");
+    throw InputError(
+        named.string() + ": found a device or a pipe, expected a file: a resumed run continues it");
 }
 
 fs::path Destination::archive(Archive& a) {
@@ -233,7 +237,7 @@ fs::path Destination::archive(Archive& a) {
   const std::string begin = beside_.filename().string() + partial;
   if (!name.starts_with(begin) || !is_temporary(name))
     throw InputError(beside_.string() + ": found '" + name +
-                     "' as the name of its temporary file, expected " + begin + "...");
+        "' as the name of its temporary file, expected " + begin + "...");
   return temporary.parent_path() / name;
 }
 
@@ -245,15 +249,16 @@ void Destination::continue_with(const fs::path& left, bool is_kept) {
 }
 
 InputError Destination::another_file() const {
-  return InputError(
-      named.string() +
-      ": the file has changed since the checkpoint was saved: restore the files as the run left them");
+  return InputError(named.string() +
+      ": the file has changed since the checkpoint was saved: restore the files as the run left "
+      "them");
 }
 
 AtomicFile::AtomicFile(const fs::path& place, bool append, const fs::path& beside)
     : destination_(place, beside), append_(append) {
-  const int descriptor = destination_.through ? destination_.open_through()
-                                              : open_for_writing(destination_.temporary, O_CREAT | O_TRUNC);
+  const int descriptor = destination_.through
+      ? destination_.open_through()
+      : open_for_writing(destination_.temporary, O_CREAT | O_TRUNC);
   if (descriptor < 0)
     throw InputError(destination_.named.string() + ": this file cannot be written: name another");
   buffer_.open(descriptor);
@@ -290,7 +295,8 @@ void AtomicFile::commit() {
   const auto& own = destination_.temporary;
   std::error_code no_links;
   fs::create_hard_link(own, second.temporary, no_links);
-  if (no_links && !digest_of(own, 0, fs::file_size(own), second.temporary)) throw not_written(second.place);
+  if (no_links && !digest_of(own, 0, fs::file_size(own), second.temporary))
+    throw not_written(second.place);
   second.commit();
 }
 
@@ -313,8 +319,8 @@ void AtomicFile::archive(Archive& a) {
 
 /// Finds the first `size` bytes that the ended process wrote, and makes sure that `left` has them.
 /// @return their digest; nothing if they are not found
-std::optional<Sha256> AtomicFile::found_beginning(const fs::path& left, std::uint64_t size,
-                                                  const std::string& digest) const {
+std::optional<Sha256> AtomicFile::found_beginning(
+    const fs::path& left, std::uint64_t size, const std::string& digest) const {
   const auto is = [](const std::optional<Sha256>& found, const std::string& expected) {
     return found && found->hex() == expected;
   };
@@ -328,7 +334,8 @@ std::optional<Sha256> AtomicFile::found_beginning(const fs::path& left, std::uin
     const auto others = digest_of(place, 0, before);
     if (!others || !is(digest_of(left, 0, before), others->hex())) return std::nullopt;
   }
-  const auto found = digest_of(append_ ? left : place, append_ ? before : 0, size, destination_.temporary);
+  const auto found =
+      digest_of(append_ ? left : place, append_ ? before : 0, size, destination_.temporary);
   if (!is(found, digest)) return std::nullopt;
   fs::rename(destination_.temporary, left);
   return found;

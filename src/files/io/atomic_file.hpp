@@ -47,11 +47,9 @@ class FileBuffer : public std::streambuf {
   /// Number of bytes flushed so far, including those that preceded `open`.
   std::uint64_t size() const { return size_; }
   std::string digest() const { return digest_.hex(); }
-
  protected:
   int_type overflow(int_type c) override;
   int sync() override;
-
  private:
   static constexpr std::size_t size_of_buffer = 1 << 16;
 
@@ -78,7 +76,7 @@ struct Destination {
   std::filesystem::path named, place;  ///< as given; with links followed
   bool through = false;
   std::filesystem::path temporary;  ///< beside the place, or among the system's temporary files
-  bool kept = false;                ///< a checkpoint names the temporary file; else it is removed at the end
+  bool kept = false;  ///< a checkpoint names the temporary file; else it is removed at the end
 
   /// @param beside  where the temporary file is made, if not beside the place
   /// @throws InputError for a folder and for links that lead nowhere
@@ -101,7 +99,6 @@ struct Destination {
   void continue_with(const std::filesystem::path& left, bool is_kept);
   /// The error for a file whose bytes differ from those in the checkpoint of its run.
   InputError another_file() const;
-
  private:
   std::filesystem::path beside_;
 };
@@ -122,7 +119,7 @@ class AtomicFile : public WholeFile {
   /// @param append  the content of the old file is kept before the new one
   /// @param beside  as of Destination @throws InputError when the temporary file cannot be opened
   explicit AtomicFile(const std::filesystem::path& place, bool append = false,
-                      const std::filesystem::path& beside = {});
+      const std::filesystem::path& beside = {});
 
   /// @throws std::runtime_error when anything was not written: a long run must not continue in vain
   std::ostream& stream() {
@@ -145,13 +142,12 @@ class AtomicFile : public WholeFile {
   /// even without `commit`. Loading continues that file, or a copy of the committed one.
   /// @throws InputError when neither begins with exactly the bytes that were written
   void archive(Archive& a);
-
  private:
   [[noreturn]] void fail() const { throw_not_written(destination_.named, buffer_.error()); }
   void prepend_others();
   void go_on_from(const std::filesystem::path& left, std::uint64_t size, const std::string& digest);
-  std::optional<Sha256> found_beginning(const std::filesystem::path& left, std::uint64_t size,
-                                        const std::string& digest) const;
+  std::optional<Sha256> found_beginning(
+      const std::filesystem::path& left, std::uint64_t size, const std::string& digest) const;
 
   Destination destination_;
   FileBuffer buffer_;

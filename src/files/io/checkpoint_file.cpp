@@ -21,8 +21,9 @@ fs::path checkpoint_place(const fs::path& folder) { return folder / "checkpoint"
 
 void require_no_checkpoint(const fs::path& folder) {
   if (const auto found = checkpoint_place(folder); fs::exists(found))
-    throw InputError(found.string() + ": this folder has an unfinished run: continue with `edmill resume " +
-                     folder.string() + "`, or remove this file");
+    throw InputError(found.string() +
+        ": this folder has an unfinished run: continue with `edmill resume " + folder.string() +
+        "`, or remove this file");
 }
 
 void write_checkpoint(const fs::path& folder, Checkpoint checkpoint) {
@@ -38,7 +39,9 @@ void write_checkpoint(const fs::path& folder, Checkpoint checkpoint) {
 
 Checkpoint read_checkpoint(const fs::path& folder) {
   const auto place = checkpoint_place(folder);
-  const auto fail = [&](const std::string& problem) { throw InputError(place.string() + ": " + problem); };
+  const auto fail = [&](const std::string& problem) {
+    throw InputError(place.string() + ": " + problem);
+  };
   std::error_code ignored;
   if (!std::ifstream(place) || !fs::is_regular_file(place, ignored))
     fail("no such file: the folder has no unfinished run");
@@ -47,14 +50,15 @@ Checkpoint read_checkpoint(const fs::path& folder) {
   if (text.size() < begin || text.substr(0, magic.size()) != magic)
     fail("this file is not a checkpoint of a run");
   const std::string_view body = std::string_view(text).substr(begin);
-  if (sha256(body) + '\n' != text.substr(magic.size(), digest_size + 1)) fail("the checkpoint is damaged");
+  if (sha256(body) + '\n' != text.substr(magic.size(), digest_size + 1))
+    fail("the checkpoint is damaged");
 
   Archive archive(body);
   std::string program, program_commit;
   archive(program, program_commit);
   if (program != version() || program_commit != commit())
-    throw InputError(place.string() + ": found a checkpoint of edmill " + program + " (" + program_commit +
-                     "), expected one of this program, " + version() + " (" + commit() + ")");
+    throw InputError(place.string() + ": found a checkpoint of edmill " + program + " (" +
+        program_commit + "), expected one of this program, " + version() + " (" + commit() + ")");
   Checkpoint checkpoint;
   archive(checkpoint);
   archive.finish();

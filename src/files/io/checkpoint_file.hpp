@@ -12,8 +12,9 @@
 namespace edmill::io {
 
 struct Checkpoint {
-  std::string case_file, case_text, initial_state;  ///< of the case: name, text, path of its initial state
-  std::vector<std::string> overrides;               ///< "section.key=value"
+  std::string case_file, case_text,
+      initial_state;                   ///< of the case: name, text, path of its initial state
+  std::vector<std::string> overrides;  ///< "section.key=value"
   std::string case_digest, precision;
   std::optional<std::uint64_t> right_digits;  ///< of a run in digits that were asked for
   bool report = false;                        ///< whether the page was requested
@@ -22,8 +23,8 @@ struct Checkpoint {
   std::string result;  ///< of a run in place: only its temporary files are left to remove
 
   void archive(Archive& a) {
-    a(case_file, case_text, initial_state, overrides, case_digest, precision, right_digits, report, interval,
-      state, result);
+    a(case_file, case_text, initial_state, overrides, case_digest, precision, right_digits, report,
+        interval, state, result);
   }
 };
 

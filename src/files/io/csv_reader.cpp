@@ -33,7 +33,8 @@ std::from_chars_result read_number(std::string_view text, double& value) {
   errno = 0;
   value = std::strtod(copy.c_str(), &end);
   if (end == copy.c_str()) return {text.data(), std::errc::invalid_argument};
-  return {text.data() + (end - copy.c_str()), errno == ERANGE ? std::errc::result_out_of_range : std::errc()};
+  return {text.data() + (end - copy.c_str()),
+      errno == ERANGE ? std::errc::result_out_of_range : std::errc()};
 }
 #endif
 
@@ -42,7 +43,8 @@ std::optional<double> usual_number(std::string_view text) {
   const auto [end, error] = read_number(text, value);
   if (error == std::errc::invalid_argument || end != text.data() + text.size()) return std::nullopt;
   // Too small counts as 0, too large is infinite.
-  return error == std::errc::result_out_of_range ? std::strtod(std::string(text).c_str(), nullptr) : value;
+  return error == std::errc::result_out_of_range ? std::strtod(std::string(text).c_str(), nullptr)
+                                                 : value;
 }
 
 /// The separator of a header: the most frequent of comma, semicolon and tab; blanks without any.
@@ -77,24 +79,26 @@ std::optional<double> number_in(std::string_view text) {
 
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t longest = 40;
-  return text.size() <= longest ? fmt::format("'{}'", text) : fmt::format("'{}...'", text.substr(0, longest));
+  return text.size() <= longest ? fmt::format("'{}'", text)
+                                : fmt::format("'{}...'", text.substr(0, longest));
 }
 
 CsvReader::CsvReader(const std::filesystem::path& file, const std::string& expected)
     : file_(file.string()), in_(file_, expected) {
   do {
     if (!std::getline(in_, line_))
-      throw InputError(
-          fmt::format("{}:{}: found the end of the file, expected a header", file_, line_number_ + 1));
-    if (++line_number_ == 1 && line_.starts_with("\xef\xbb\xbf")) line_.erase(0, 3);  // a byte order mark
+      throw InputError(fmt::format(
+          "{}:{}: found the end of the file, expected a header", file_, line_number_ + 1));
+    if (++line_number_ == 1 && line_.starts_with("\xef\xbb\xbf"))
+      line_.erase(0, 3);  // a byte order mark
   } while (line_.starts_with('#'));
   if (line_.starts_with("\xff\xfe") || line_.starts_with("\xfe\xff"))
-    throw InputError(
-        fmt::format("{}:1: found UTF-16, expected UTF-8: convert it with iconv -f utf-16 -t utf-8", file_));
+    throw InputError(fmt::format(
+        "{}:1: found UTF-16, expected UTF-8: convert it with iconv -f utf-16 -t utf-8", file_));
   if (line_.starts_with("ITEM: "))
-    throw InputError(
-        fmt::format("{}: found frames of a DEM code, expected {}: convert them with edmill import {}", file_,
-                    expected, file_));
+    throw InputError(fmt::format(
+        "{}: found frames of a DEM code, expected {}: convert them with edmill import {}", file_,
+        expected, file_));
   separator_ = separator_of(line_);
   if (!read_row()) throw_problems();
   header_.assign(fields_.begin(), fields_.end());
@@ -105,16 +109,16 @@ std::optional<std::size_t> CsvReader::column(std::string_view name) {
   if (place == header_.end()) return std::nullopt;
   const auto again = std::find(place + 1, header_.end(), name);
   if (again != header_.end())
-    bad_line(fmt::format("column {}: found '{}' a second time, expected it once", again - header_.begin() + 1,
-                         name));
+    bad_line(fmt::format("column {}: found '{}' a second time, expected it once",
+        again - header_.begin() + 1, name));
   return place - header_.begin();
 }
 
 std::optional<std::size_t> CsvReader::needed_column(std::string_view name) {
   const auto place = column(name);
   if (!place)
-    bad_line(
-        fmt::format("the header has {} column '{}'", number_in(header_[0]) ? "numbers, but no" : "no", name));
+    bad_line(fmt::format(
+        "the header has {} column '{}'", number_in(header_[0]) ? "numbers, but no" : "no", name));
   return place;
 }
 
@@ -141,12 +145,13 @@ std::optional<double> CsvReader::finite(std::size_t column) {
   return bad_field(column, "a finite number");
 }
 
-std::optional<int> CsvReader::whole(std::size_t column, const std::string& expected, int smallest,
-                                    int largest) {
+std::optional<int> CsvReader::whole(
+    std::size_t column, const std::string& expected, int smallest, int largest) {
   const auto text = fields_[column];
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc() && end == text.data() + text.size() && value >= smallest && value <= largest)
+  if (error == std::errc() && end == text.data() + text.size() && value >= smallest &&
+      value <= largest)
     return value;
   return bad_field(column, expected);
 }
@@ -180,8 +185,9 @@ bool CsvReader::split() {
   if (separator_ == ' ') {  // any number of blanks
     line_ = trimmed(line_);
     std::replace(line_.begin(), line_.end(), '\t', ' ');
-    line_.erase(std::unique(line_.begin(), line_.end(), [](char a, char b) { return a == ' ' && b == ' '; }),
-                line_.end());
+    line_.erase(std::unique(line_.begin(), line_.end(),
+                    [](char a, char b) { return a == ' ' && b == ' '; }),
+        line_.end());
   }
   for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
     auto from = line_.find_first_not_of(' ', begin);
@@ -206,8 +212,7 @@ void CsvReader::bad_line(const std::string& problem) {
 std::nullopt_t CsvReader::bad_field(std::size_t column, const std::string& expected) {
   const bool comma = has_decimal_comma(fields_[column], separator_);
   bad_line(fmt::format("column {} ({}): found {}, expected {}", column + 1, header_[column],
-                       in_quotes(fields_[column]),
-                       comma ? "a decimal point in place of the comma" : expected));
+      in_quotes(fields_[column]), comma ? "a decimal point in place of the comma" : expected));
   return std::nullopt;
 }
 

@@ -42,13 +42,13 @@ class CsvReader {
   /// A number, nan and infinity among them; anything else is a problem.
   std::optional<double> number(std::size_t column);
   /// A whole number from `smallest` to `largest`; anything else is a problem.
-  std::optional<int> whole(std::size_t column, const std::string& expected, int smallest, int largest);
+  std::optional<int> whole(
+      std::size_t column, const std::string& expected, int smallest, int largest);
 
   void bad_line(const std::string& problem);
   std::nullopt_t bad_field(std::size_t column, const std::string& expected);
   /// @throws InputError when there were problems
   void throw_problems() const;
-
  private:
   bool read_row();
   bool split();

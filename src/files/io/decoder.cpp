@@ -39,7 +39,6 @@ class GzipDecoder : public Decoder {
     return out.size() - stream_.avail_out;
   }
   const char* name() const override { return "gzip"; }
-
  private:
   z_stream stream_{};
 };
@@ -62,7 +61,6 @@ class ZstdDecoder : public Decoder {
     return to.pos;
   }
   const char* name() const override { return "zstd"; }
-
  private:
   ZSTD_DStream* stream_;
 };

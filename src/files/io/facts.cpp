@@ -43,7 +43,8 @@ Facts::Texts Facts::keys_of(const std::string& group) const {
   Texts keys;
   for (const auto& [path, value] : values_) {
     if (!path.starts_with(group + "/")) continue;
-    const auto key = path.substr(group.size() + 1, path.find('/', group.size() + 1) - group.size() - 1);
+    const auto key =
+        path.substr(group.size() + 1, path.find('/', group.size() + 1) - group.size() - 1);
     if (keys.empty() || keys.back() != key) keys.push_back(key);
   }
   return keys;
@@ -53,9 +54,9 @@ InputError Facts::wrong(std::string_view path, const char* expected) const {
   const auto* found = value(path);
   std::string key(path);
   std::replace(key.begin(), key.end(), '/', '.');
-  const auto shown =
-      found ? "found " + std::visit([](const auto& held) { return JsonText::of(held); }, *found).substr(0, 40)
-            : "missing";
+  const auto shown = found ? "found " +
+          std::visit([](const auto& held) { return JsonText::of(held); }, *found).substr(0, 40)
+                           : "missing";
   return InputError(source_ + ": " + key + ": " + shown + ", expected " + expected);
 }
 
@@ -65,7 +66,8 @@ std::string Facts::json() const {
   for (const auto& [path, value] : values_) {
     const auto parts = parts_of(path);
     const auto common = static_cast<std::size_t>(
-        std::mismatch(open.begin(), open.end(), parts.begin(), parts.end() - 1).first - open.begin());
+        std::mismatch(open.begin(), open.end(), parts.begin(), parts.end() - 1).first -
+        open.begin());
     for (; open.size() > common; open.pop_back()) json.end();
     for (auto k = common; k + 1 < parts.size(); ++k) json.begin(open.emplace_back(parts[k]));
     std::visit([&](const auto& held) { json.add(parts.back(), held); }, value);

@@ -49,11 +49,9 @@ class Facts {
   InputError wrong(std::string_view path, const char* expected) const;
   /// As JSON.
   std::string json() const;
-
  private:
   const Value* value(std::string_view path) const;
-  template <class T>
-  const T& get(std::string_view path, const char* expected) const {
+  template <class T> const T& get(std::string_view path, const char* expected) const {
     const auto* found = value(path);
     if (!found || !std::holds_alternative<T>(*found)) throw wrong(path, expected);
     return std::get<T>(*found);

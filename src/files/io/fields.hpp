@@ -1,5 +1,5 @@
-// Documents as lists of fields, each with its unit and meaning: a function that calls a visitor for every
-// field gives JSON with one visitor and a table of the reference with another.
+// Documents as lists of fields, each with its unit and meaning: a function that calls a visitor for
+// every field gives JSON with one visitor and a table of the reference with another.
 #pragma once
 
 #include <functional>
@@ -28,7 +28,8 @@ class JsonFields {
     json_.end();
   }
   /// A group for each item of a list. @param name_of  of an item @param fill  its fields
-  void each(std::string_view key, std::string_view, const auto& list, auto name_of, const auto& fill) {
+  void each(
+      std::string_view key, std::string_view, const auto& list, auto name_of, const auto& fill) {
     group(key, "", [&] {
       for (const auto& item : list) group(std::invoke(name_of, item), "", [&] { fill(item); });
     });
@@ -45,15 +46,15 @@ class JsonFields {
     by_name(key, "", "", list, numbers(), std::identity());
   }
   /// A group of values whose names depend on the items of a list.
-  void by_name(std::string_view key, std::string_view, std::string_view, const auto& list, auto name_of,
-               const auto& value_of) {
+  void by_name(std::string_view key, std::string_view, std::string_view, const auto& list,
+      auto name_of, const auto& value_of) {
     group(key, "", [&] {
-      for (const auto& item : list) json_.add(std::invoke(name_of, item), std::invoke(value_of, item));
+      for (const auto& item : list)
+        json_.add(std::invoke(name_of, item), std::invoke(value_of, item));
     });
   }
   /// True if optional fields are to be visited.
   static bool has(bool present) { return present; }
-
  private:
   JsonText json_;
 };
@@ -66,7 +67,8 @@ class KeyTable {
     fields(visitor);
     return visitor.text_;
   }
-  void operator()(std::string_view key, std::string_view unit, std::string_view meaning, const auto&) {
+  void operator()(
+      std::string_view key, std::string_view unit, std::string_view meaning, const auto&) {
     text_ += fmt::format("| `{}{}` | {} | {} |\n", path_, key, unit, meaning);
   }
   void group(std::string_view key, std::string_view meaning, const auto& fill) {
@@ -74,19 +76,23 @@ class KeyTable {
     within(std::string(key) + ".", fill);
   }
   template <class List>
-  void each(std::string_view key, std::string_view meaning, const List&, const auto&, const auto& fill) {
+  void each(
+      std::string_view key, std::string_view meaning, const List&, const auto&, const auto& fill) {
     (*this)(key, "", meaning, 0);
     within(std::string(key) + ".*.", [&] { fill(typename List::value_type{}); });
   }
-  void numbered(std::string_view key, std::string_view meaning, const auto& list, const auto& fill) {
+  void numbered(
+      std::string_view key, std::string_view meaning, const auto& list, const auto& fill) {
     each(key, meaning, list, 0, fill);
   }
-  void texts(std::string_view key, std::string_view meaning, const auto&) { (*this)(key, "", meaning, 0); }
-  void by_name(std::string_view key, std::string_view unit, std::string_view meaning, const auto&...) {
+  void texts(std::string_view key, std::string_view meaning, const auto&) {
+    (*this)(key, "", meaning, 0);
+  }
+  void by_name(
+      std::string_view key, std::string_view unit, std::string_view meaning, const auto&...) {
     (*this)(key, unit, meaning, 0);
   }
   static bool has(bool) { return true; }
-
  private:
   void within(const std::string& part, const auto& fill) {
     const auto outside = path_;

@@ -19,8 +19,7 @@ inline constexpr const char* final_state_header =
     "ball,position_x,position_y,position_z,velocity_x,velocity_y,velocity_z,spin_x,spin_y,spin_z,"
     "time,drive_period,drive_offset";
 
-template <class Real>
-struct SavedState {
+template <class Real> struct SavedState {
   Instant<Real> time;
   std::vector<model::BallState<Real>> states;
 };
@@ -28,10 +27,11 @@ struct SavedState {
 /// Columns: ball, position [m], velocity [m/s], spin [rad/s]; time [s] for reading, drive_period
 /// and drive_offset [s] for an exact restart. Numbers round-trip.
 template <class Real>
-void write_final_state(std::ostream& out, const SavedState<Real>& saved, const DriveClock<Real>& clock) {
+void write_final_state(
+    std::ostream& out, const SavedState<Real>& saved, const DriveClock<Real>& clock) {
   out << final_state_header << "\n";
   const std::string instant = to_text<Real>(clock.seconds(saved.time)) + "," +
-                              std::to_string(saved.time.period) + "," + to_text<Real>(saved.time.offset);
+      std::to_string(saved.time.period) + "," + to_text<Real>(saved.time.offset);
   for (std::size_t k = 0; k < saved.states.size(); ++k) {
     const auto& s = saved.states[k];
     out << k;
@@ -42,8 +42,7 @@ void write_final_state(std::ostream& out, const SavedState<Real>& saved, const D
 }
 
 /// @throws InputError naming file and line of each deviation from this format
-template <class Real>
-SavedState<Real> read_final_state(const std::string& path) {
+template <class Real> SavedState<Real> read_final_state(const std::string& path) {
   CsvReader csv(path, "a final_state.csv");
   const auto fail = [&](const std::string& found, const std::string& expected) {
     csv.bad_line("found " + found + ", expected " + expected);
@@ -69,8 +68,11 @@ SavedState<Real> read_final_state(const std::string& path) {
       csv.throw_problems();
       return Real(0);
     };
-    const auto vector = [&](std::size_t k) { return Vec3<Real>(real(k), real(k + 1), real(k + 2)); };
-    if (period.empty() || period.size() > 15 || period.find_first_not_of("0123456789") != period.npos)
+    const auto vector = [&](std::size_t k) {
+      return Vec3<Real>(real(k), real(k + 1), real(k + 2));
+    };
+    if (period.empty() || period.size() > 15 ||
+        period.find_first_not_of("0123456789") != period.npos)
       fail(in_quotes(period) + " as drive_period", "a whole number");
     const Instant<Real> time{std::stoll(std::string(period)), real(12)};
     if (time.offset < 0) fail(in_quotes(csv.field(12)) + " as drive_offset", "a time of 0 or more");

@@ -49,14 +49,13 @@ class Handle {
     if (id_ >= 0) close_(id_);
   }
   operator hid_t() const { return id_; }
-
  private:
   hid_t id_;
   herr_t (*close_)(hid_t);
 };
 
-/// To be called before any other HDF5 function: failures become exceptions, and a file that could not be
-/// written to a full disk is not closed again at the end of the program, which would crash.
+/// To be called before any other HDF5 function: failures become exceptions, and a file that could
+/// not be written to a full disk is not closed again at the end of the program, which would crash.
 inline void hdf5_begin() {
   static const herr_t once = H5dont_atexit();
   static_cast<void>(once);
@@ -85,15 +84,18 @@ inline Handle text_type(std::size_t width) {
 /// Writes a text as an attribute, of variable length so that readers return no bytes.
 inline void note(hid_t object, const std::string& key, const std::string& value) {
   const Handle type = text_type(H5T_VARIABLE), space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Handle attribute(H5Acreate2(object, key.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const Handle attribute(
+      H5Acreate2(object, key.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   const char* text = value.c_str();
   hdf5_check(H5Awrite(attribute, type, &text));
 }
 
 /// A dataset that is written at once.
-inline void add_set(hid_t file, const std::string& name, hid_t type, hid_t space, const void* values) {
+inline void add_set(
+    hid_t file, const std::string& name, hid_t type, hid_t space, const void* values) {
   const Handle creation = undated(H5P_DATASET_CREATE);
-  const Handle set(H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
+  const Handle set(
+      H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
   hdf5_check(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values));
 }
 
@@ -104,14 +106,16 @@ inline void add_text(hid_t file, const std::string& name, const std::string& val
 }
 
 inline void add_notes(hid_t file, const std::vector<FileNote>& notes) {
-  for (const auto& n : notes) n.long_text ? add_text(file, n.key, n.value) : note(file, n.key, n.value);
+  for (const auto& n : notes)
+    n.long_text ? add_text(file, n.key, n.value) : note(file, n.key, n.value);
 }
 
 /// A dataset of rows of `width` values that can grow.
-inline Handle make_set(hid_t group, const std::string& name, hid_t type, std::size_t width, hsize_t chunk,
-                       bool compressed) {
+inline Handle make_set(hid_t group, const std::string& name, hid_t type, std::size_t width,
+    hsize_t chunk, bool compressed) {
   const Handle creation = undated(H5P_DATASET_CREATE);
-  const hsize_t size[2] = {0, width}, largest[2] = {H5S_UNLIMITED, width}, chunks[2] = {chunk, width};
+  const hsize_t size[2] = {0, width}, largest[2] = {H5S_UNLIMITED, width},
+                chunks[2] = {chunk, width};
   const int rank = width > 1 ? 2 : 1;
   hdf5_check(H5Pset_chunk(creation, rank, chunks));
   if (compressed) {
@@ -126,7 +130,7 @@ inline Handle make_set(hid_t group, const std::string& name, hid_t type, std::si
 }
 
 inline void append(hid_t set, hid_t memory_type, std::size_t width, hsize_t before, hsize_t rows,
-                   const void* values) {
+    const void* values) {
   const int rank = width > 1 ? 2 : 1;
   const hsize_t size[2] = {before + rows, width}, start[2] = {before, 0}, count[2] = {rows, width};
   hdf5_check(H5Dset_extent(set, size));

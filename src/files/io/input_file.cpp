@@ -48,11 +48,12 @@ void wait_for_input([[maybe_unused]] int descriptor) {
 #endif
 }
 
-ssize_t read_some(int descriptor, char* bytes, std::size_t size, std::optional<std::uint64_t> from) {
+ssize_t read_some(
+    int descriptor, char* bytes, std::size_t size, std::optional<std::uint64_t> from) {
   if (!from) wait_for_input(descriptor);
   for (;;) {
-    const auto count =
-        from ? ::pread(descriptor, bytes, size, static_cast<off_t>(*from)) : ::read(descriptor, bytes, size);
+    const auto count = from ? ::pread(descriptor, bytes, size, static_cast<off_t>(*from))
+                            : ::read(descriptor, bytes, size);
     if (count >= 0 || errno != EINTR) return count;
   }
 }
@@ -92,7 +93,6 @@ class Spooled {
     if (!file) file = copied(path);
     return file ? ::fileno(file.get()) : -1;
   }
-
  private:
   using File = std::unique_ptr<std::FILE, decltype([](std::FILE* file) { std::fclose(file); })>;
 
@@ -109,8 +109,8 @@ class Spooled {
     const int error = errno;
     ::close(in);
     if (count > 0 || !file || std::fflush(file.get()) != 0)
-      throw std::runtime_error(path + ": no space for a temporary copy of it in " +
-                               fs::temp_directory_path().string());
+      throw std::runtime_error(
+          path + ": no space for a temporary copy of it in " + fs::temp_directory_path().string());
     errno = error;
     return count == 0 ? std::move(file) : nullptr;
   }
@@ -141,14 +141,16 @@ bool Spool::is_active() { return Spooled::all().count() > 0; }
 
 class InputFile::Buffer : public std::streambuf {
  public:
-  Buffer(const std::string& path, const std::string& expected) : path_(path), raw_(1 << 16), text_(1 << 16) {
+  Buffer(const std::string& path, const std::string& expected)
+      : path_(path), raw_(1 << 16), text_(1 << 16) {
     if (is_stream(path) && Spool::is_active()) {
       descriptor_ = Spooled::all().file_of(path);
       from_ = 0;
     } else if (is_readable(path)) {
       descriptor_ = open_for_reading(path);
     }
-    if (descriptor_ < 0 || !fill()) throw InputError(path_ + ": no readable file, expected " + expected);
+    if (descriptor_ < 0 || !fill())
+      throw InputError(path_ + ": no readable file, expected " + expected);
     decoder_ = decoder_for(waiting_);
   }
   Buffer(const Buffer&) = delete;
@@ -156,7 +158,6 @@ class InputFile::Buffer : public std::streambuf {
   ~Buffer() override {
     if (descriptor_ >= 0 && !from_) ::close(descriptor_);
   }
-
  protected:
   int_type underflow() override {
     if (gptr() != egptr()) return traits_type::to_int_type(*gptr());
@@ -164,7 +165,6 @@ class InputFile::Buffer : public std::streambuf {
     setg(text_.data(), text_.data(), text_.data() + count);
     return count == 0 ? traits_type::eof() : traits_type::to_int_type(*gptr());
   }
-
  private:
   /// Reads until the format can be recognised or the file ends. @return false when reading fails
   bool fill() {
@@ -172,7 +172,7 @@ class InputFile::Buffer : public std::streambuf {
     std::size_t size = 0;
     ssize_t count = 1;
     while (size < beginning &&
-           (count = read_some(descriptor_, raw_.data() + size, raw_.size() - size, from_)) > 0) {
+        (count = read_some(descriptor_, raw_.data() + size, raw_.size() - size, from_)) > 0) {
       size += static_cast<std::size_t>(count);
       if (from_) *from_ += static_cast<std::uint64_t>(count);
     }
@@ -180,7 +180,8 @@ class InputFile::Buffer : public std::streambuf {
     return count >= 0;
   }
   void need() {
-    if (waiting_.empty() && !fill()) throw std::runtime_error(path_ + ": could not be read to its end");
+    if (waiting_.empty() && !fill())
+      throw std::runtime_error(path_ + ": could not be read to its end");
   }
   std::size_t plain() {
     need();
@@ -201,7 +202,7 @@ class InputFile::Buffer : public std::streambuf {
       }
     } catch (const std::runtime_error& error) {
       throw InputError(path_ + ": found damaged " + decoder_->name() + " data (" + error.what() +
-                       "), expected a complete file");
+          "), expected a complete file");
     }
   }
 

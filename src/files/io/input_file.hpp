@@ -44,7 +44,6 @@ class Decoder {
   /// Whether the data may end here.
   bool at_end() const { return at_end_; }
   virtual const char* name() const = 0;
-
  protected:
   bool at_end_ = false;
 };
@@ -59,7 +58,6 @@ class InputFile : public std::istream {
   /// @throws InputError when it cannot be read; reading throws one when compressed data are damaged
   InputFile(const std::string& path, const std::string& expected);
   ~InputFile() override;
-
  private:
   class Buffer;
   std::unique_ptr<Buffer> buffer_;

@@ -24,9 +24,10 @@ inline nlohmann::json read_json(const std::filesystem::path& file, const std::st
   } catch (const nlohmann::json::parse_error& error) {
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
     throw InputError(fmt::format("{}:{}: invalid JSON, expected {}", file.string(),
-                                 1 + std::count(text.begin(), end, '\n'), expected));
+        1 + std::count(text.begin(), end, '\n'), expected));
   } catch (const nlohmann::json::exception& error) {  // a number that no double can represent
-    throw InputError(fmt::format("{}: found {}, expected {}", file.string(), error.what(), expected));
+    throw InputError(
+        fmt::format("{}: found {}, expected {}", file.string(), error.what(), expected));
   }
 }
 
@@ -34,7 +35,9 @@ namespace detail {
 
 /// Nothing for a list of values of several kinds.
 inline std::optional<Facts::Value> fact_in(const nlohmann::json& value) {
-  const auto all = [&](auto is) { return std::all_of(value.begin(), value.end(), std::mem_fn(is)); };
+  const auto all = [&](auto is) {
+    return std::all_of(value.begin(), value.end(), std::mem_fn(is));
+  };
   if (value.is_null()) return Facts::Value();
   if (value.is_boolean()) return value.get<bool>();
   if (value.is_number()) return value.get<double>();

@@ -41,8 +41,7 @@ class JsonText {
     end();
   }
   /// JSON text of a string, flag, number or list of these; null for nothing, nan and infinity.
-  template <class T>
-  static std::string of(const T& value) {
+  template <class T> static std::string of(const T& value) {
     using std::isfinite;
     if constexpr (std::is_same_v<T, std::monostate>)
       return "null";
@@ -66,13 +65,13 @@ class JsonText {
     new_line();
     return text_ + "}\n";
   }
-
  private:
   static std::string quoted(std::string_view value) {
     std::string out = "\"";
     for (const char c : clean_text(value)) {
       if (c == '"' || c == '\\') out += '\\';
-      out += static_cast<unsigned char>(c) < 0x20 ? fmt::format("\\u{:04x}", int{c}) : std::string(1, c);
+      out += static_cast<unsigned char>(c) < 0x20 ? fmt::format("\\u{:04x}", int{c})
+                                                  : std::string(1, c);
     }
     return out + "\"";
   }

@@ -21,7 +21,8 @@ void prepare_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error || !fs::is_directory(folder))
-    throw InputError(folder.string() + ": cannot create this output folder (" + error.message() + ")");
+    throw InputError(
+        folder.string() + ": cannot create this output folder (" + error.message() + ")");
   for (const auto* name : {"summary.json", "final_state.csv"})
     if (fs::is_directory(folder / name, error))
       throw InputError((folder / name).string() + ": found a folder, expected a file");
@@ -41,7 +42,7 @@ int locked(int descriptor, const fs::path& folder, FolderLock::Kind kind) {
     ::close(descriptor);
     if (!taken) return -1;
     throw InputError(folder.string() +
-                     ": another process is writing there: wait for it, or name another folder");
+        ": another process is writing there: wait for it, or name another folder");
   }
   return descriptor;
 }
@@ -54,7 +55,7 @@ const std::string first_line =
 /// True if a relative path, from any source, stays inside its folder and has no line break.
 bool is_inside(const fs::path& name) {
   return !name.empty() && name.is_relative() && name.begin()->string() != ".." && name != "." &&
-         name.string().find('\n') == std::string::npos;
+      name.string().find('\n') == std::string::npos;
 }
 
 Names names_of(const fs::path& folder, const std::vector<fs::path>& files) {
@@ -94,14 +95,17 @@ void remove_empty_above(const fs::path& folder, const fs::path& name) {
 }  // namespace
 
 FolderLock::FolderLock(const fs::path& folder, Kind kind)
-    : descriptor_(locked(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC), folder, kind)) {
+    : descriptor_(
+          locked(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC), folder, kind)) {
   // NFS locks only what is open for writing, which a folder never is.
   if (descriptor_ < 0)
     descriptor_ =
-        locked(::open((folder / ".edmill-lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666), folder, kind);
+        locked(::open((folder / ".edmill-lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666),
+            folder, kind);
 }
 
-FolderLock::FolderLock(FolderLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+FolderLock::FolderLock(FolderLock&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)) {}
 
 FolderLock::~FolderLock() {
   if (descriptor_ >= 0) ::close(descriptor_);
@@ -150,16 +154,17 @@ void require_own_files(const fs::path& folder, const std::vector<std::string>& n
   const auto own = recorded(folder);
   for (const auto& name : names)
     if (!own.contains(name) && fs::exists(folder / name))
-      throw InputError(
-          fmt::format("{}: edmill has not written this file, and would replace it: use another --out",
-                      (folder / name).string()));
+      throw InputError(fmt::format(
+          "{}: edmill has not written this file, and would replace it: use another --out",
+          (folder / name).string()));
 }
 
 void remove_other_files(const fs::path& folder, const std::vector<fs::path>& files) {
   const auto names = names_of(folder, files), before = recorded(folder);
   for (const auto& name : before) {
     std::error_code ignored;
-    if (names.contains(name) || fs::is_directory(fs::symlink_status(folder / name, ignored))) continue;
+    if (names.contains(name) || fs::is_directory(fs::symlink_status(folder / name, ignored)))
+      continue;
     if (fs::remove(folder / name, ignored)) remove_empty_above(folder, name);
   }
   if (names != before) write(folder, names);
@@ -168,7 +173,8 @@ void remove_other_files(const fs::path& folder, const std::vector<fs::path>& fil
 std::vector<fs::path> recorded_folders(const fs::path& folder) {
   std::set<fs::path> folders;
   for (const auto& name : recorded(folder))
-    if (const auto parent = fs::path(name).parent_path(); !parent.empty()) folders.insert(folder / parent);
+    if (const auto parent = fs::path(name).parent_path(); !parent.empty())
+      folders.insert(folder / parent);
   return {folders.begin(), folders.end()};
 }
 

@@ -27,7 +27,6 @@ class FolderLock {
 
   /// False where the file system has no locks; then nothing keeps another process out.
   bool held() const { return descriptor_ >= 0; }
-
  private:
   int descriptor_;
 };
@@ -46,7 +45,6 @@ class NamedFile {
   void write(const std::string& text) {
     write([&](std::ostream& out) { out << text; });
   }
-
  private:
   std::filesystem::path place_, folder_;  ///< no folder where the place is written through
   std::optional<FolderLock> lock_;
@@ -63,14 +61,16 @@ inline constexpr const char* file_record_name = ".edmill-files";
 
 /// Adds files inside the folder to its record; to be called before they are put in place.
 /// @throws std::runtime_error when the record was not written
-void record_files(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files);
+void record_files(
+    const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files);
 
 /// @throws InputError when one of these files of the folder exists and is not in the record
 void require_own_files(const std::filesystem::path& folder, const std::vector<std::string>& names);
 
 /// Removes recorded files that are not in `files`, which becomes the record, and empty folders.
 /// @throws std::runtime_error when the record was not written
-void remove_other_files(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files);
+void remove_other_files(
+    const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files);
 
 /// Folders below this one that contain recorded files.
 std::vector<std::filesystem::path> recorded_folders(const std::filesystem::path& folder);

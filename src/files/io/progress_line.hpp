@@ -31,7 +31,7 @@ class ProgressLine {
   }
   /// As in run::Progress; the dose since this line was made.
   void show(double now, const std::optional<double>& end, std::uint64_t collisions,
-            const std::optional<double>& milling_dose = std::nullopt) {
+      const std::optional<double>& milling_dose = std::nullopt) {
     const auto time = Clock::now();
     if (!first_) first_ = Look{time, now, collisions};
     if (time - shown_ < std::chrono::milliseconds(200)) return;
@@ -42,11 +42,13 @@ class ProgressLine {
     if (end) line += fmt::format(" of {:g} s", *end);
     line += fmt::format(" simulated, {} collisions", collisions);
     if (spent > 0)
-      line += fmt::format(", {:.3g}/s", static_cast<double>(collisions - first_->collisions) / spent);
+      line +=
+          fmt::format(", {:.3g}/s", static_cast<double>(collisions - first_->collisions) / spent);
     if (milling_dose && simulated > 0) line += fmt::format(", {:.3g} W", *milling_dose / simulated);
     if (end && simulated > 0) {
       const double left = spent * (*end - now) / simulated;
-      line += fmt::format(", {}:{:02} left", static_cast<long>(left) / 60, static_cast<long>(left) % 60);
+      line += fmt::format(
+          ", {}:{:02} left", static_cast<long>(left) / 60, static_cast<long>(left) % 60);
     }
     show(line);
   }
@@ -55,7 +57,6 @@ class ProgressLine {
     if (visible_) tell("{}", no_line);
     visible_ = false;
   }
-
  private:
   static constexpr const char* no_line = "\r\x1b[K";
   using Clock = std::chrono::steady_clock;

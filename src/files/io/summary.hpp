@@ -30,7 +30,8 @@ struct Provenance {
 /// the least separation speed does not decide: contacts at rest come in bursts.
 struct Intervals {
   static constexpr std::size_t fewest = 5;
-  static constexpr int fast = 1;  ///< approach speed beyond which impacts are counted by themselves [m/s]
+  static constexpr int fast =
+      1;  ///< approach speed beyond which impacts are counted by themselves [m/s]
 
   /// A rate in each batch, and the half-width of its mean.
   struct Rate {
@@ -60,15 +61,13 @@ struct Warning {
 };
 
 /// The target dose, and the rate from which the milling time follows.
-template <class Real>
-struct TargetDose {
+template <class Real> struct TargetDose {
   Real dose;               ///< wanted [J/kg]
   std::string counts;      ///< the part of the dose that counts, for readers
   Real counted_dose_rate;  ///< [W]
 };
 
-template <class Real>
-struct Summary {
+template <class Real> struct Summary {
   Provenance provenance;
   model::EndReason end_reason{};
   std::string error;                ///< of a decision that no scalar could make, or of a stall
@@ -78,7 +77,7 @@ struct Summary {
   std::vector<std::uint64_t> collisions;  ///< with each partner
   std::vector<std::uint64_t> impacts;     ///< of these, not at rest
   std::uint64_t fast_impacts = 0;         ///< above `Intervals::fast`
-  Real speed_by_dose{0};                  ///< of impacts, approach speed times dose, their sum [J m/s]
+  Real speed_by_dose{0};  ///< of impacts, approach speed times dose, their sum [J m/s]
   QuantilesByDose impact_energy, dissipated_energy;
   std::vector<Real> dose_by_partner;   ///< [J]
   Real milling_dose{0}, wall_work{0};  ///< [J]
@@ -114,11 +113,12 @@ struct Summary {
     const auto time = milling_time();
     if (!time || !intervals.any()) return std::nullopt;
     return static_cast<double>(*time) * intervals.counted_dose_rate.half_width /
-           static_cast<double>(target->counted_dose_rate);
+        static_cast<double>(target->counted_dose_rate);
   }
 
   explicit Summary(const model::Partners& of = model::Partners())
-      : partners(of), collisions(of.count()), impacts(of.count()), dose_by_partner(of.count(), Real(0)) {}
+      : partners(of), collisions(of.count()), impacts(of.count()),
+        dose_by_partner(of.count(), Real(0)) {}
 
   Real duration() const { return end_time - start_time; }
   std::uint64_t total_collisions() const {
@@ -132,8 +132,7 @@ struct Summary {
 };
 
 /// The fields of summary.json.
-template <class Real>
-Facts facts_of(const Summary<Real>& summary);
+template <class Real> Facts facts_of(const Summary<Real>& summary);
 /// @throws InputError when the field is absent or not an end reason
 inline model::EndReason end_reason_of(const Facts& f) {
   constexpr const char *key = "end_reason", *expected = "why the run ended";
@@ -156,11 +155,9 @@ inline bool has_dose(const Facts& f) {
 }
 
 /// Message about a stall: its time, the bodies, and how to avoid it.
-template <class Real>
-std::string stall_message(const Summary<Real>& summary);
+template <class Real> std::string stall_message(const Summary<Real>& summary);
 
-template <class Real>
-std::string summary_json(const Summary<Real>& summary);
+template <class Real> std::string summary_json(const Summary<Real>& summary);
 
 /// The keys of summary.json, their units and meanings, as a table of Markdown.
 std::string summary_reference();

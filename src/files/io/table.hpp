@@ -20,9 +20,11 @@ namespace edmill::io {
 /// A text as a cell of CSV (RFC 4180), quoted for readers with any separator and comments (#).
 inline std::string csv_cell(const std::string& text) {
   const bool blank_ends = text.starts_with(' ') || text.ends_with(' ');
-  if (!blank_ends && text.find_first_of(",;\t\"#\n\r") == std::string::npos) return clean_text(text);
+  if (!blank_ends && text.find_first_of(",;\t\"#\n\r") == std::string::npos)
+    return clean_text(text);
   std::string quoted = "\"";
-  for (const char c : clean_text(text)) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  for (const char c : clean_text(text))
+    quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + "\"";
 }
 
@@ -44,14 +46,12 @@ struct FileNote {
 };
 
 /// The value of a formula if it is defined, otherwise nothing, which becomes an empty cell.
-template <class Formula>
-auto value_if(bool defined, const Formula& formula) {
+template <class Formula> auto value_if(bool defined, const Formula& formula) {
   return defined ? std::optional(formula()) : std::nullopt;
 }
 
 /// @tparam Real  scalar of the numbers, which CSV shows in all of its digits
-template <class Real>
-class Table {
+template <class Real> class Table {
  public:
   using Texts = std::vector<std::string>;
   using Integers = std::vector<std::int64_t>;
@@ -67,10 +67,7 @@ class Table {
 
   /// Adds cells to the row from left to right: texts, integers, and numbers, which may be absent.
   /// @throws std::bad_variant_access when a cell has not the type of its column
-  template <class... Cell>
-  void put(const Cell&... cells) {
-    (put_one(cells), ...);
-  }
+  template <class... Cell> void put(const Cell&... cells) { (put_one(cells), ...); }
   /// Whether all rows are complete.
   bool at_row_end() const { return next_ == 0; }
   void clear_rows() {
@@ -81,7 +78,9 @@ class Table {
   const std::vector<std::string>& comments() const { return comments_; }
   const Cells& cells(std::size_t column) const { return cells_[column]; }
   std::size_t rows() const {
-    return cells_.empty() ? 0 : std::visit([](const auto& values) { return values.size(); }, cells_.back());
+    return cells_.empty()
+        ? 0
+        : std::visit([](const auto& values) { return values.size(); }, cells_.back());
   }
 
   /// Comments after "# " and the header; texts are quoted where they need it. (RFC 4180)
@@ -96,7 +95,8 @@ class Table {
   std::string csv_rows() const {
     std::string text;
     for (std::size_t row = 0; row < rows(); ++row) {
-      for (std::size_t k = 0; k < cells_.size(); ++k) text += (k == 0 ? "" : ",") + csv_field(cells_[k], row);
+      for (std::size_t k = 0; k < cells_.size(); ++k)
+        text += (k == 0 ? "" : ",") + csv_field(cells_[k], row);
       text += "\n";
     }
     return text;
@@ -110,18 +110,17 @@ class Table {
     if (!a.loading()) return;
     bool whole = next_ < cells_.size() || next_ == 0;
     for (std::size_t k = 0; k < cells_.size(); ++k)
-      whole = whole && std::visit([](const auto& v) { return v.size(); }, cells_[k]) == rows() + (k < next_);
+      whole = whole &&
+          std::visit([](const auto& v) { return v.size(); }, cells_[k]) == rows() + (k < next_);
     if (!whole) throw InputError("the saved table has columns of different lengths");
   }
-
  private:
   static Cells no_cells(Column::Type type) {
     if (type == Column::Type::text) return Texts{};
     if (type == Column::Type::integer) return Integers{};
     return Numbers{};
   }
-  template <class Cell>
-  void put_one(const Cell& cell) {
+  template <class Cell> void put_one(const Cell& cell) {
     auto& column = cells_.at(next_);
     next_ = next_ + 1 == cells_.size() ? 0 : next_ + 1;
     if constexpr (std::is_convertible_v<const Cell&, std::string_view>)
@@ -133,7 +132,8 @@ class Table {
   }
   static std::string csv_field(const Cells& column, std::size_t row) {
     if (const auto* texts = std::get_if<Texts>(&column)) return csv_cell((*texts)[row]);
-    if (const auto* integers = std::get_if<Integers>(&column)) return std::to_string((*integers)[row]);
+    if (const auto* integers = std::get_if<Integers>(&column))
+      return std::to_string((*integers)[row]);
     const auto& number = std::get<Numbers>(column)[row];
     return number ? to_text<Real>(*number) : "";
   }

@@ -21,8 +21,7 @@ using Numbers = DoubleTable::Numbers;
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 /// All texts as numbers, or nothing.
-template <class Number>
-std::optional<std::vector<Number>> numbers_in(const Texts& texts) {
+template <class Number> std::optional<std::vector<Number>> numbers_in(const Texts& texts) {
   std::vector<Number> values;
   for (const auto& text : texts) {
     Number value{};
@@ -72,12 +71,14 @@ std::string dataset_name(std::string name, std::set<std::string>& taken) {
 
 void add_column(hid_t file, const std::string& name, const StoredColumn& column) {
   const Packed cells = packed(column.cells);
-  const hsize_t rows = cells.bytes.size() / cells.width, chunk = std::clamp<hsize_t>(rows, 1, 16384);
+  const hsize_t rows = cells.bytes.size() / cells.width,
+                chunk = std::clamp<hsize_t>(rows, 1, 16384);
   const Handle set = make_set(file, name, cells.type, 1, chunk, true);
   append(set, cells.type, 1, 0, rows, cells.bytes.data());
   note(set, "title", column.what.title());
   if (!column.what.unit.empty()) note(set, "unit", column.what.unit);
-  note(set, "description", column.what.description.empty() ? column.what.name : column.what.description);
+  note(set, "description",
+      column.what.description.empty() ? column.what.name : column.what.description);
 }
 
 void add_compound(hid_t file, const std::string& name, const DoubleTable& table) {
@@ -106,18 +107,20 @@ void add_compound(hid_t file, const std::string& name, const DoubleTable& table)
 
 Table<double>::Cells stored(const std::vector<std::string>& texts) {
   if (auto integers = numbers_in<std::int64_t>(texts)) return std::move(*integers);
-  if (const auto doubles = numbers_in<double>(texts)) return Numbers(doubles->begin(), doubles->end());
+  if (const auto doubles = numbers_in<double>(texts))
+    return Numbers(doubles->begin(), doubles->end());
   return texts;
 }
 
-std::string hdf5_columns(const std::vector<StoredColumn>& columns, const std::vector<std::string>& comments,
-                         const std::vector<FileNote>& notes) {
+std::string hdf5_columns(const std::vector<StoredColumn>& columns,
+    const std::vector<std::string>& comments, const std::vector<FileNote>& notes) {
   return hdf5_image([&](hid_t file) {
     add_notes(file, notes);
     if (!comments.empty()) note(file, "comment", fmt::format("{}", fmt::join(comments, "\n")));
     std::set<std::string> taken;
     for (const auto& n : notes) taken.insert(n.key);
-    for (const auto& column : columns) add_column(file, dataset_name(column.what.name, taken), column);
+    for (const auto& column : columns)
+      add_column(file, dataset_name(column.what.name, taken), column);
   });
 }
 

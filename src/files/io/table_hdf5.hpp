@@ -18,8 +18,7 @@ struct StoredColumn {
 Table<double>::Cells stored(const std::vector<std::string>& texts);
 inline Table<double>::Cells stored(const std::vector<std::int64_t>& integers) { return integers; }
 /// Numbers in double, or as integers when all of them are whole.
-template <class Real>
-Table<double>::Cells stored(const std::vector<std::optional<Real>>& numbers) {
+template <class Real> Table<double>::Cells stored(const std::vector<std::optional<Real>>& numbers) {
   const auto whole = [](const std::optional<Real>& number) {
     using std::floor;
     return number && *number == floor(*number) && *number > Real(-1e16) && *number < Real(1e16);
@@ -37,14 +36,15 @@ Table<double>::Cells stored(const std::vector<std::optional<Real>>& numbers) {
 
 /// Bytes of an HDF5 file with a dataset for each column. A missing number is nan. Attributes of a
 /// dataset are its `title`, `unit` and `description`; of the file, notes and `comment`.
-std::string hdf5_columns(const std::vector<StoredColumn>& columns, const std::vector<std::string>& comments,
-                         const std::vector<FileNote>& notes);
+std::string hdf5_columns(const std::vector<StoredColumn>& columns,
+    const std::vector<std::string>& comments, const std::vector<FileNote>& notes);
 
 template <class Real>
 std::string hdf5_columns(const Table<Real>& table, const std::vector<FileNote>& notes) {
   std::vector<StoredColumn> columns;
   for (std::size_t k = 0; k < table.columns().size(); ++k) {
-    const auto cells = std::visit([](const auto& values) { return stored(values); }, table.cells(k));
+    const auto cells =
+        std::visit([](const auto& values) { return stored(values); }, table.cells(k));
     columns.push_back({table.columns()[k], table.rows() == 0 ? Table<double>::Numbers{} : cells});
   }
   return hdf5_columns(columns, table.comments(), notes);

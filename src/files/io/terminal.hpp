@@ -28,12 +28,10 @@ inline void tell_text(std::string_view text) {
   std::fflush(stderr);
 }
 
-template <class... T>
-void print(fmt::format_string<T...> format, T&&... values) {
+template <class... T> void print(fmt::format_string<T...> format, T&&... values) {
   print_text(fmt::format(format, std::forward<T>(values)...));
 }
-template <class... T>
-void tell(fmt::format_string<T...> format, T&&... values) {
+template <class... T> void tell(fmt::format_string<T...> format, T&&... values) {
   tell_text(fmt::format(format, std::forward<T>(values)...));
 }
 

@@ -19,20 +19,18 @@ class Auditor : Judge {
  public:
   /// @param result  has the columns and the tolerances, and gets what is found
   Auditor(const Case& the_case, Audit& result)
-      : Judge{the_case, result.available, result.tolerances, result.findings},
-        result_(result),
-        equations_(available_, tolerances_),
-        flights_(*this),
-        stalls_(case_.mill, case_.balls.size()),
-        last_(case_.balls.size()),
+      : Judge{the_case, result.available, result.tolerances, result.findings}, result_(result),
+        equations_(available_, tolerances_), flights_(*this),
+        stalls_(case_.mill, case_.balls.size()), last_(case_.balls.size()),
         with_wall_(case_.mill.wall_count()) {}
 
   /// Starts the flights of all balls from their states at the beginning of the log.
   void begin(const BallStates& states, double time) {
     int ball = 0;
     for (const auto& [position, velocity, spin] : states)
-      flights_.begin(ball++, time, {.position = position, .velocity_after = velocity, .spin_after = spin},
-                     {true, true, true, true, true});
+      flights_.begin(ball++, time,
+          {.position = position, .velocity_after = velocity, .spin_after = spin},
+          {true, true, true, true, true});
     stalls_.begin(time);
   }
 
@@ -46,7 +44,8 @@ class Auditor : Judge {
       most_ball_ = std::max(most_ball_, event.ball_at(body));
     }
     if (!event.problem.empty()) {
-      report(event.unknown_body ? Kind::unknown_body : Kind::not_finite, event, 1, unknown, unknown);
+      report(
+          event.unknown_body ? Kind::unknown_body : Kind::not_finite, event, 1, unknown, unknown);
       for (std::size_t body = 0; body < event.count(); ++body) {
         const int k = event.ball_at(body);
         if (k < 0 || k >= flights_.balls()) continue;
@@ -55,9 +54,9 @@ class Auditor : Judge {
       }
       return;
     }
-    EDMILL_REQUIRE(
-        event.ball >= 0 && event.ball < flights_.balls() && event.partner >= 0 &&
-            event.partner < (event.with_wall ? static_cast<int>(with_wall_.size()) : flights_.balls()),
+    EDMILL_REQUIRE(event.ball >= 0 && event.ball < flights_.balls() && event.partner >= 0 &&
+            event.partner <
+                (event.with_wall ? static_cast<int>(with_wall_.size()) : flights_.balls()),
         "bodies that the case has");
     if (is_repeated(event)) {
       if (!event.with_wall && last_[event.ball].as_partner) ++from_both_sides_;
@@ -77,12 +76,8 @@ class Auditor : Judge {
     for (std::size_t body = 0; body < event.count(); ++body) {
       const int k = event.ball_at(body);
       flights_.begin(k, event.time, event.body[body], available_.body[body]);
-      last_[k] = {event.time,
-                  other_of(event, body),
-                  event.approach_speed,
-                  event.body[body].velocity_before,
-                  event.body[body].velocity_after,
-                  body == 1};
+      last_[k] = {event.time, other_of(event, body), event.approach_speed,
+          event.body[body].velocity_before, event.body[body].velocity_after, body == 1};
     }
   }
 
@@ -92,7 +87,6 @@ class Auditor : Judge {
     result_.undecided = flights_.undecided();
     result_.diagnoses = diagnoses();
   }
-
  private:
   /// Diagnoses walls that the other code lacks, and other conventions for numbers and lines.
   std::vector<Diagnosis> diagnoses() const {
@@ -103,25 +97,27 @@ class Auditor : Judge {
     };
     if (least_ball_ == 1 && most_ball_ == flights_.balls())
       add("numbers", findings_.of(Kind::unknown_body).count, Kind::unknown_body,
-          fmt::format(
-              "no ball 0 is logged, but a ball {}: balls are numbered from 1 on, as with --first-ball 1",
+          fmt::format("no ball 0 is logged, but a ball {}: balls are numbered from 1 on, as with "
+                      "--first-ball 1",
               most_ball_));
     std::string numbers;
     for (std::size_t wall = 1; wall <= with_wall_.size(); ++wall)
       numbers += (wall > 1 ? "," : "") + std::to_string(wall);
     add("walls", next_wall_, Kind::wrong_partner,
-        fmt::format("the wall before is touched: walls are numbered from 1 on, as with --walls {}", numbers));
+        fmt::format("the wall before is touched: walls are numbered from 1 on, as with --walls {}",
+            numbers));
     add("pairs", from_both_sides_, Kind::duplicate,
         "impacts of two balls are logged for the one and for the other: log each once");
     const auto walls = case_.mill.walls();
     for (std::size_t wall = 0; wall < walls.size(); ++wall)
       if (with_wall_[wall] == 0)
         add("unseen_wall", flights_.flown_through()[wall], Kind::missed_event,
-            fmt::format("no impact with {} is logged, and balls fly through it{}", walls[wall].meaning,
-                        walls[wall].label == "cap -y"
-                            ? "; as with the printed error (2.19), (2.20): y - R - h/2 is negative "
-                              "everywhere in the vessel, the gap is h/2 + y - R"
-                            : ""));
+            fmt::format("no impact with {} is logged, and balls fly through it{}",
+                walls[wall].meaning,
+                walls[wall].label == "cap -y"
+                    ? "; as with the printed error (2.19), (2.20): y - R - h/2 is negative "
+                      "everywhere in the vessel, the gap is h/2 + y - R"
+                    : ""));
     return found;
   }
 
@@ -137,7 +133,7 @@ class Auditor : Judge {
   };
 
   void report(Kind kind, const LoggedEvent& event, double size, double found, double expected,
-              const char* note = "") {
+      const char* note = "") {
     findings_.add({event, kind, size, found, expected, note});
   }
 
@@ -148,8 +144,8 @@ class Auditor : Judge {
     if (available_.body[0].velocity_before && available_.body[0].velocity_after) {
       // In a line with the roles exchanged, these are the states of the other ball.
       return last.velocity_before == event.body[0].velocity_before &&
-             last.velocity_after == event.body[0].velocity_after &&
-             last.velocity_before != last.velocity_after;
+          last.velocity_after == event.body[0].velocity_after &&
+          last.velocity_before != last.velocity_after;
     }
     return last.approach_speed == event.approach_speed && event.approach_speed > 0;
   }
@@ -245,7 +241,8 @@ class Auditor : Judge {
     bool wrong_torque = false;
     for (auto row = rows_.begin(); row != rows_.end(); ++row) {
       // An equation with a row for each of two bodies counts once, by the worse row.
-      if (const auto next = std::next(row); next != rows_.end() && next->equation == row->equation) {
+      if (const auto next = std::next(row);
+          next != rows_.end() && next->equation == row->equation) {
         if (next->size < row->size) *next = *row;
         continue;
       }
@@ -300,7 +297,7 @@ class Auditor : Judge {
 
 /// @param next  returns the next event in order of time, or nothing at the end
 Audit audit_events(const Case& the_case, const BallStates* states, const Options& options,
-                   const std::string& file, const Available& available, const auto& next) {
+    const std::string& file, const Available& available, const auto& next) {
   Audit result;
   result.findings = Findings(options.examples);
   result.tolerances = tolerances_of(the_case, options);
@@ -328,15 +325,18 @@ Audit audit_events(const Case& the_case, const BallStates* states, const Options
     return !tried && (check != Check::momentum || any_pairs);
   });
   // A log can be clean only if at least half of its contacts could be checked.
-  const bool judged = checked.judged_number(Check::touch) + checked.judged_number(Check::milling_dose) > 0 &&
-                      checked.judged_number(Check::touch) >= checked.unresolved_number(Check::touch);
-  result.verdict = result.findings.total() > 0 ? Verdict::differ : judged ? Verdict::agree : Verdict::too_few;
+  const bool judged =
+      checked.judged_number(Check::touch) + checked.judged_number(Check::milling_dose) > 0 &&
+      checked.judged_number(Check::touch) >= checked.unresolved_number(Check::touch);
+  result.verdict = result.findings.total() > 0 ? Verdict::differ
+      : judged                                 ? Verdict::agree
+                                               : Verdict::too_few;
   return result;
 }
 
 logs::EventLog open_log(const Case& the_case, const Options& options) {
   return {options.log, options.conventions, static_cast<int>(the_case.balls.size()),
-          the_case.mill.wall_count(), 1e15 * the_case.mill.motion.period()};
+      the_case.mill.wall_count(), 1e15 * the_case.mill.motion.period()};
 }
 
 }  // namespace
@@ -371,8 +371,8 @@ Tolerances tolerances_of(const Case& the_case, const Options& options) {
 
 Audit audit(const Case& the_case, const BallStates& states, const Options& options) {
   auto log = open_log(the_case, options);
-  return audit_events(the_case, options.from_start ? &states : nullptr, options, log.file(), log.available(),
-                      [&] { return log.next(); });
+  return audit_events(the_case, options.from_start ? &states : nullptr, options, log.file(),
+      log.available(), [&] { return log.next(); });
 }
 
 EventsAtHand read_events(const Case& the_case, const Options& options, std::size_t most) {
@@ -386,7 +386,7 @@ EventsAtHand read_events(const Case& the_case, const Options& options, std::size
 Audit audit(const Case& the_case, const EventsAtHand& log, const Options& options) {
   std::size_t k = 0;
   return audit_events(the_case, nullptr, options, log.file, log.available,
-                      [&] { return k < log.events.size() ? std::optional(log.events[k++]) : std::nullopt; });
+      [&] { return k < log.events.size() ? std::optional(log.events[k++]) : std::nullopt; });
 }
 
 }  // namespace edmill::audit

@@ -25,16 +25,16 @@ struct Fields {
     v("tolerance", "1", "relative tolerance", a.tolerances.relative);
     v("gap_tolerance", "m", "largest gap or overlap of bodies in contact", a.tolerances.gap);
     v("time_rounding", "s", "rounding of the latest time",
-      rounding_of(std::max(std::abs(a.first), std::abs(a.last))));
+        rounding_of(std::max(std::abs(a.first), std::abs(a.last))));
     const auto name = [](auto kind_or_check) { return info(kind_or_check).name; };
     v.each("violations", "by kind, the most frequent first", a.findings.ranked(), name,
-           [&](Kind kind) { violations(v, kind); });
+        [&](Kind kind) { violations(v, kind); });
     v.each("looks_like", "by name ([audit.md](audit.md#what-a-log-looks-like))", a.diagnoses,
-           &Diagnosis::name, [&](const Diagnosis& d) {
-             v("events", "1", "number of events that it explains", d.events);
-             v("of", "1", "number of events that are wrong", d.of);
-             v("text", "", "", d.text);
-           });
+        &Diagnosis::name, [&](const Diagnosis& d) {
+          v("events", "1", "number of events that it explains", d.events);
+          v("of", "1", "number of events that are wrong", d.of);
+          v("text", "", "", d.text);
+        });
     v.group("energy", "balance of energy of the impacts whose states are all in the log", [&] {
       const Energies& e = a.energies;
       v("impacts", "1", "number of impacts", e.impacts);
@@ -45,22 +45,22 @@ struct Fields {
       v("kinetic_change", "J", "", e.kinetic_change.value());
       v("closure", "J", "wall work - dose + supplied - change", e.closure());
     });
-    v.group("energy_created", "energy created by impacts, beyond what the least separation speed supplies",
-            [&] {
-              v("impacts", "1", "number of impacts", a.energies.creating);
-              v("energy", "J", "", a.energies.created);
-            });
+    v.group("energy_created",
+        "energy created by impacts, beyond what the least separation speed supplies", [&] {
+          v("impacts", "1", "number of impacts", a.energies.creating);
+          v("energy", "J", "", a.energies.created);
+        });
     const auto made = [&](Check check) { return a.findings.judged_number(check); };
     const auto unresolved = [&](Check check) { return a.findings.unresolved_number(check); };
     v.by_name("checked", "1", "number of times that each check was made",
-              checks_with([](Check) { return true; }), name, made);
-    v.by_name("unresolved", "1", "number of times that the tolerance was as large as the value checked",
-              checks_with(unresolved), name, unresolved);
-    v.by_name("not_checked", "", "checks that were not made, and the columns that they need", a.not_made,
-              name, [](Check check) { return info(check).columns; });
+        checks_with([](Check) { return true; }), name, made);
+    v.by_name("unresolved", "1",
+        "number of times that the tolerance was as large as the value checked",
+        checks_with(unresolved), name, unresolved);
+    v.by_name("not_checked", "", "checks that were not made, and the columns that they need",
+        a.not_made, name, [](Check check) { return info(check).columns; });
     v("undecided", "1", "questions about missed impacts that no scalar could answer", a.undecided);
   }
-
  private:
   void violations(auto& v, Kind kind) const {
     const Tally& tally = a.findings.of(kind);
@@ -71,7 +71,7 @@ struct Fields {
     v("meaning", "", "", info(kind).meaning);
     if (v.has(!tally.notes.empty()))
       v.by_name("notes", "1", "probable reasons, and how many violations have them", tally.notes,
-                &decltype(tally.notes)::value_type::first, &decltype(tally.notes)::value_type::second);
+          &decltype(tally.notes)::value_type::first, &decltype(tally.notes)::value_type::second);
     v.numbered("examples", "the worst, by rank", tally.examples, [&](const Finding& f) {
       v("line", "1", "line of the log", f.line);
       v("time", "s", "", f.time);

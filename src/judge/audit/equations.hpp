@@ -1,5 +1,5 @@
-// The equations that a log must obey, the residual of each and its tolerance, and the findings of an audit.
-// docs/theory.md, sections 1, 2 and 5; docs/audit.md, "Tolerances"
+// The equations that a log must obey, the residual of each and its tolerance, and the findings of
+// an audit. docs/theory.md, sections 1, 2 and 5; docs/audit.md, "Tolerances"
 #pragma once
 
 #include <cstdint>
@@ -55,7 +55,8 @@ constexpr std::size_t at(auto number) { return static_cast<std::size_t>(number);
 inline const KindInfo& info(Kind kind) { return kinds[at(kind)]; }
 /// The kind of violation that a check finds. @pre it finds only one kind
 constexpr Kind kind_of(Check check) {
-  const auto first = std::find_if(kinds.begin(), kinds.end(), [=](auto& k) { return k.check == check; });
+  const auto first =
+      std::find_if(kinds.begin(), kinds.end(), [=](auto& k) { return k.check == check; });
   return static_cast<Kind>(first - kinds.begin());
 }
 inline const CheckInfo& info(Check check) { return checks[at(check)]; }
@@ -100,24 +101,24 @@ class Findings {
   std::uint64_t unresolved_number(Check check) const { return unresolved_[at(check)]; }
   std::uint64_t total() const {
     return std::accumulate(tallies_.begin(), tallies_.end(), std::uint64_t{0},
-                           [](std::uint64_t sum, const Tally& tally) { return sum + tally.count; });
+        [](std::uint64_t sum, const Tally& tally) { return sum + tally.count; });
   }
   /// Kinds that were found, the most frequent first.
   std::vector<Kind> ranked() const {
     std::vector<Kind> found;
     for (std::size_t k = 0; k < kind_count; ++k)
       if (tallies_[k].count > 0) found.push_back(static_cast<Kind>(k));
-    std::stable_sort(found.begin(), found.end(), [&](auto a, auto b) { return of(a).count > of(b).count; });
+    std::stable_sort(
+        found.begin(), found.end(), [&](auto a, auto b) { return of(a).count > of(b).count; });
     return found;
   }
-
  private:
   void keep(Tally& tally, const Finding& finding) const {
     tally.worst = std::max(tally.worst, finding.size);
     auto& worst = tally.examples;
     if (worst.size() == examples_ && !(examples_ > 0 && finding.size > worst.back().size)) return;
     const auto place = std::upper_bound(worst.begin(), worst.end(), finding,
-                                        [](const Finding& a, const Finding& b) { return a.size > b.size; });
+        [](const Finding& a, const Finding& b) { return a.size > b.size; });
     worst.insert(place, finding);
     if (worst.size() > examples_) worst.pop_back();
   }
@@ -167,7 +168,7 @@ struct WallRates {
     // Among the points within r of the centre, some move at r times the angular speed or faster.
     constexpr double far = 1e6;
     WallRates rates{motion.wall_speed(vessel), motion.acceleration_within(motion.reach(vessel)),
-                    motion.wall_speed(far) / far};
+        motion.wall_speed(far) / far};
     for (const auto& body : mill.bodies) {
       const double size = body.shape.size();
       rates.speed = std::max(rates.speed, body.motion.wall_speed(size));
@@ -197,7 +198,9 @@ struct Tolerances {
   double position(double t, double path, double speed) const {
     return relative * (reach + path) + 2 * rounding_of(t) * (speed + 2 * rounding_of(t) * gravity);
   }
-  double velocity(double t, double speed) const { return relative * speed + 2 * rounding_of(t) * gravity; }
+  double velocity(double t, double speed) const {
+    return relative * speed + 2 * rounding_of(t) * gravity;
+  }
 
   /// What the wall's uncertainty contributes to a difference of relative velocities [m/s].
   /// @param scale  bound of the velocities; relative ones are at most three times as large
@@ -205,8 +208,9 @@ struct Tolerances {
   double of_wall(double t, double scale, double bend, double radius) const {
     const double turned = walls.turning + walls.speed * bend;  // of the normal [rad/s]
     const double moved = walls.acceleration + walls.turning * (walls.speed + radius * turned);
-    return 2 * (3 * scale * std::min(rounding_of(t) * turned, 2.0) +
-                std::min(rounding_of(t) * moved, 2 * walls.speed));
+    return 2 *
+        (3 * scale * std::min(rounding_of(t) * turned, 2.0) +
+            std::min(rounding_of(t) * moved, 2 * walls.speed));
   }
 };
 
@@ -231,7 +235,6 @@ class StallHistory {
     if (one == Friction::rests || other == Friction::rests) return Friction::rests;
     return one == other ? one : Friction::either;
   }
-
  private:
   struct Ball {
     double time;      ///< of its last impact; unknown at first [s]
@@ -245,9 +248,9 @@ class StallHistory {
     const double off = 2 * rounding_of(time) + relative * std::abs(flight);
     const bool may_have_moved = std::isnan(flight) || stall_.has_moved(flight + off, speed);
     const bool has_moved = !std::isnan(flight) && stall_.has_moved(flight - off, speed);
-    const Friction friction = has_moved || ball.most < enough           ? Friction::acts
-                              : !may_have_moved && ball.least >= enough ? Friction::rests
-                                                                        : Friction::either;
+    const Friction friction = has_moved || ball.most < enough ? Friction::acts
+        : !may_have_moved && ball.least >= enough             ? Friction::rests
+                                                              : Friction::either;
     ball.time = time;
     ball.most = has_moved ? 0 : std::min(ball.most + 1, enough);
     ball.least = may_have_moved ? 0 : std::min(ball.least + 1, enough);
@@ -300,10 +303,10 @@ struct ImpactTolerance {
 /// Evaluates the equations at events. The set of rows depends only on the columns of the log.
 class Equations {
  public:
-  /// @param by_body  residuals of each body's velocity and spin, for fits, in which a term may differ for
-  /// one; otherwise of the law along and across the normal, momentum and torque
+  /// @param by_body  residuals of each body's velocity and spin, for fits, in which a term may
+  /// differ for one; otherwise of the law along and across the normal, momentum and torque
   Equations(const Available& available, const Tolerances& tolerances, const Terms& terms = {},
-            bool by_body = false)
+      bool by_body = false)
       : has_(available), tolerances_(tolerances), terms_(terms), by_body_(by_body) {}
 
   /// The bodies of an event touch. @param gap  between them [m]
@@ -312,7 +315,6 @@ class Equations {
   ImpactTolerance of_impact(const LoggedImpact& impact, Rows& rows) const;
   /// Position, velocity and spin at the end of a flight. @param gravity  of the case [m/s^2]
   void of_flight(const LoggedFlight& flight, const Vec& gravity, Rows& rows) const;
-
  private:
   void of_states(const LoggedImpact& impact, Speeds speeds, double allowed, Rows& rows) const;
   void of_energies(const LoggedImpact& impact, Speeds speeds, double allowed, Rows& rows) const;

@@ -44,13 +44,9 @@ struct FlightEnd {
 class Flights : Judge {
  public:
   explicit Flights(const Judge& shared)
-      : Judge(shared),
-        equations_(available_, tolerances_),
-        clock_(case_.mill.motion.period()),
-        ladder_(case_.mill, smallest_radius(case_), 32.0),
-        top_speed_(32),
-        tracks_(case_.balls.size()),
-        flown_through_(case_.mill.wall_count()) {}
+      : Judge(shared), equations_(available_, tolerances_), clock_(case_.mill.motion.period()),
+        ladder_(case_.mill, smallest_radius(case_), 32.0), top_speed_(32),
+        tracks_(case_.balls.size()), flown_through_(case_.mill.wall_count()) {}
 
   Track& of(int ball) { return tracks_[ball]; }
   const Track& of(int ball) const { return tracks_[ball]; }
@@ -67,23 +63,24 @@ class Flights : Judge {
     settle_held(track, end.event);
     if (!track.known_at(time)) return;
     rows_.clear();
-    equations_.of_flight({.from = {.position = track.flight.position,
-                                   .velocity_after = track.flight.velocity,
-                                   .spin_after = track.spin},
-                          .to = end.state(),
-                          .had = {.position = true, .velocity_after = true, .spin_after = track.spin_known},
-                          .has = available_.body[end.body],
-                          .begin = track.start,
-                          .end = time,
-                          .radius = radius_of(ball),
-                          .body = static_cast<int>(end.body)},
-                         case_.mill.gravity, rows_);
+    equations_.of_flight(
+        {.from = {.position = track.flight.position,
+             .velocity_after = track.flight.velocity,
+             .spin_after = track.spin},
+            .to = end.state(),
+            .had = {.position = true, .velocity_after = true, .spin_after = track.spin_known},
+            .has = available_.body[end.body],
+            .begin = track.start,
+            .end = time,
+            .radius = radius_of(ball),
+            .body = static_cast<int>(end.body)},
+        case_.mill.gravity, rows_);
     const double off = judge_end(ball, track, end, false);
     const double until = std::min(time, track.broken_from);
     // The search reduces radii by the tolerance, provided that at least half of a radius remains.
     const double speed = size(track.flight.velocity) + tolerances_.gravity * (time - track.start);
-    const double slack =
-        tolerances_.touch(time, true) + tolerances_.position(time, speed * (time - track.start), speed);
+    const double slack = tolerances_.touch(time, true) +
+        tolerances_.position(time, speed * (time - track.start), speed);
     if (slack > radius_of(ball) / 2) {
       findings_.unresolved(Check::missed);
       track.pending.clear();
@@ -93,7 +90,8 @@ class Flights : Judge {
     findings_.judged(Check::missed);
     auto missed = first_wall(ball, track, until, slack);
     // The impact that ends the flight is late, not missed.
-    if (missed && end.late && end.event->with_wall && missed->partner == end.event->partner) missed.reset();
+    if (missed && end.late && end.event->with_wall && missed->partner == end.event->partner)
+      missed.reset();
     if (const auto pair = first_ball(ball, track, end, slack);
         pair && pair->time <= until && !(missed && missed->time <= pair->time))
       missed = pair;
@@ -129,7 +127,6 @@ class Flights : Judge {
   /// Number of flights through each wall, for the diagnosis.
   const std::vector<std::uint64_t>& flown_through() const { return flown_through_; }
   std::uint64_t undecided() const { return undecided_; }
-
  private:
   static constexpr std::size_t pending_kept = 8;
   static constexpr double fastest_judged = 1e4;  ///< [m/s]
@@ -159,7 +156,8 @@ class Flights : Judge {
     auto contact = wall_contact(track, smaller, until);
     for (int k = 0; contact && k <= samples; ++k) {
       const double time = contact->time + (until - contact->time) * k / samples;
-      const double gap = wall_gap(nested_at(time), case_, contact->partner, ball, position_of(track, time));
+      const double gap =
+          wall_gap(nested_at(time), case_, contact->partner, ball, position_of(track, time));
       contact->depth = std::max(contact->depth, -gap);
     }
     return contact;
@@ -188,7 +186,8 @@ class Flights : Judge {
     return std::nullopt;
   }
 
-  std::optional<Encounter> first_ball(int ball, const Track& own, const FlightEnd& end, double slack) {
+  std::optional<Encounter> first_ball(
+      int ball, const Track& own, const FlightEnd& end, double slack) {
     const double until = end.event->time;
     const double radius = radius_of(ball);
     const auto& pairs = ladder_.pairs();
@@ -255,27 +254,29 @@ class Flights : Judge {
     const double closing = -dot(apart, relative) / size(apart);
     const double time = closing > 0 ? contact.time - (sum - size(apart)) / closing : contact.time;
     return arrives(after_impact({{.ball = ball, .partner = contact.partner, .time = time},
-                                 {before_impact(own, time), before_impact(other, time)}}),
-                   end);
+                       {before_impact(own, time), before_impact(other, time)}}),
+        end);
   }
 
   BodyState before_impact(const Flying& own, double time) const {
     return {.position = position_of(own, time),
-            .velocity_before = velocity_of(own, time),
-            .spin_before = own.spin};
+        .velocity_before = velocity_of(own, time),
+        .spin_before = own.spin};
   }
 
   Flying after_impact(const LoggedEvent& event) const {
     const auto after = outcome(impact_of(event, case_, nested_at(event.time), true), {}).body[0];
-    return {{after.position, after.velocity_after, clock_.at(event.time)}, after.spin_after, event.time};
+    return {{after.position, after.velocity_after, clock_.at(event.time)}, after.spin_after,
+        event.time};
   }
 
   bool arrives(const Flying& own, const FlightEnd& end) const {
     const auto& logged = end.state();
     const double near = std::max(1e-6, 10 * tolerances_.relative);
     const Vec velocity = velocity_of(own, end.event->time);
-    return size(Vec(logged.position - position_of(own, end.event->time))) <= near * tolerances_.reach &&
-           size(Vec(logged.velocity_before - velocity)) <= 10 * near * std::max(size(velocity), 1.0);
+    return size(Vec(logged.position - position_of(own, end.event->time))) <=
+        near * tolerances_.reach &&
+        size(Vec(logged.velocity_before - velocity)) <= 10 * near * std::max(size(velocity), 1.0);
   }
 
   /// Judges position, velocity and spin at the end of a flight by its rows.
@@ -297,7 +298,7 @@ class Flights : Judge {
         const bool none = size(end.state().spin_before) == 0;
         if (report_it)
           judge_row(row.equation, row.is_violated(), row.size, row.size,
-                    none ? "the spin is 0 before the impact" : "");
+              none ? "the spin is 0 before the impact" : "");
       } else if (has.velocity_before) {
         ends_elsewhere = ends_elsewhere || row.is_violated();
         const bool of_place = row.kind == RowKind::place;
@@ -317,8 +318,8 @@ class Flights : Judge {
     return ends_elsewhere ? std::max(off, std::numeric_limits<double>::min()) : 0;
   }
 
-  /// Reports a missed impact. An impact with a wall is held until the ball's next line; an impact of two
-  /// balls that only the partner's flight can confirm is held until the end of that flight.
+  /// Reports a missed impact. An impact with a wall is held until the ball's next line; an impact
+  /// of two balls that only the partner's flight can confirm is held until the end of that flight.
   /// @param off  distance of the logged position from the end of the flight [m]
   /// @param at  set to the time of the impact if it is, or may still be, reported [s]
   /// @return true if the impact is considered reported
@@ -328,15 +329,11 @@ class Flights : Judge {
         !flown_through && (wall ? explained_by_walls(k, end) : explained_by_ball(k, missed, end));
     if (wall && flown_through) ++flown_through_[missed.partner];
     if (!explained && !flown_through && missed.depth <= 2 * off) return false;
-    Finding finding{*end.event,
-                    Kind::missed_event,
-                    missed.depth,
-                    unknown,
-                    unknown,
-                    explained        ? "the state changes as in this impact, which is not logged"
-                    : !flown_through ? ""
-                    : wall           ? "the ball flew through the wall"
-                                     : "the balls flew through each other"};
+    Finding finding{*end.event, Kind::missed_event, missed.depth, unknown, unknown,
+        explained            ? "the state changes as in this impact, which is not logged"
+            : !flown_through ? ""
+            : wall           ? "the ball flew through the wall"
+                             : "the balls flew through each other"};
     finding.ball = k;
     finding.with_wall = wall;
     finding.partner = missed.partner;
@@ -366,8 +363,8 @@ class Flights : Judge {
     track.pending.clear();
   }
 
-  /// Reports the held impact unless the next line logs it at the same time: time-stepping codes log several
-  /// impacts of a ball at one time, of which the second is late, not missed.
+  /// Reports the held impact unless the next line logs it at the same time: time-stepping codes log
+  /// several impacts of a ball at one time, of which the second is late, not missed.
   void settle_held(Track& track, const LoggedEvent* next) {
     if (!track.held) return;
     const bool at_once = next && next->time == track.start && next->with_wall;

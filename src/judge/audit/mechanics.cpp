@@ -12,17 +12,16 @@ Vec inside(const VesselFrame& frame, const Vec& position) {
 }
 
 /// The frame of a motion whose axes are not nested.
-template <class M>
-VesselFrame plain_frame(const M& motion, const typename M::Pose& pose) {
+template <class M> VesselFrame plain_frame(const M& motion, const typename M::Pose& pose) {
   VesselFrame frame{motion.axis_x(pose), motion.axis_y(pose), motion.axis_z(pose),
-                    motion.to_inertial(pose, Vec(0, 0, 0))};
+      motion.to_inertial(pose, Vec(0, 0, 0))};
   frame.centre_velocity = motion.wall_velocity(pose, frame.centre);
   frame.angular_velocity = motion.angular_velocity(pose);
   return frame;
 }
 
-VesselFrame frame_of(const model::AnyMotion<double>& motion, const model::AnyPose<double>& pose,
-                     bool as_printed) {
+VesselFrame frame_of(
+    const model::AnyMotion<double>& motion, const model::AnyPose<double>& pose, bool as_printed) {
   const auto* spex = motion.get_if<model::SpexMotion<double>>();
   if (!spex) return plain_frame(motion, pose);
   const auto& p = std::get<model::SpexPose<double>>(pose);
@@ -30,8 +29,8 @@ VesselFrame frame_of(const model::AnyMotion<double>& motion, const model::AnyPos
   const double sg = p.sin_gamma, cg = p.cos_gamma;
   const Vec centre{c * spex->arm(), s * spex->arm(), 0};
   VesselFrame frame = as_printed
-                          ? VesselFrame{{c, s * cg, s * sg}, {-s, c * cg, c * sg}, {0, -sg, cg}, centre}
-                          : VesselFrame{{c, s, 0}, {-s * cg, c * cg, sg}, {s * sg, -c * sg, cg}, centre};
+      ? VesselFrame{{c, s * cg, s * sg}, {-s, c * cg, c * sg}, {0, -sg, cg}, centre}
+      : VesselFrame{{c, s, 0}, {-s * cg, c * cg, sg}, {s * sg, -c * sg, cg}, centre};
   frame.swing = {0, 0, p.theta_rate};
   frame.roll_rate = p.gamma_rate;
   frame.centre_velocity = cross(frame.swing, centre);
@@ -43,7 +42,9 @@ Vec velocity_at(const WallPoint& p, const Vec& place) {
   return p.nested.centre_velocity + cross(p.nested.angular_velocity, Vec(place - p.nested.centre));
 }
 Vec from_centre(const WallPoint& p) { return p.contact - p.nested.centre; }
-Vec by_roll(const WallPoint& p) { return cross(Vec(p.nested.x * p.nested.roll_rate), from_centre(p)); }
+Vec by_roll(const WallPoint& p) {
+  return cross(Vec(p.nested.x * p.nested.roll_rate), from_centre(p));
+}
 Vec by_roll_about_X(const WallPoint& p) {
   return cross(Vec(Vec(1, 0, 0) * p.nested.roll_rate), from_centre(p));
 }
@@ -91,58 +92,63 @@ VesselFrame vessel_at(const Mill& mill, double time, bool as_printed) {
 
 double wall_gap(const VesselFrame& frame, const Case& of, int wall, int ball, const Vec& position) {
   return with_wall(of.mill, wall, frame, of.balls[ball].radius,
-                   [&](const VesselFrame& own, const auto& room, int number) {
-                     return -room.overlap(number, inside(own, position)) - own.of_wall(number).value;
-                   });
+      [&](const VesselFrame& own, const auto& room, int number) {
+        return -room.overlap(number, inside(own, position)) - own.of_wall(number).value;
+      });
 }
 
 double gap_of(const LoggedEvent& event, const Case& of, const VesselFrame& frame) {
   const auto& [one, two] = event.body;
   if (event.with_wall) return wall_gap(frame, of, event.partner, event.ball, one.position);
   return size(Vec(one.position - two.position)) - of.balls[event.ball].radius -
-         of.balls[event.partner].radius;
+      of.balls[event.partner].radius;
 }
 
 const std::array<WallVelocity, 10> wall_velocities = {{
     {"", [](const WallPoint& p) { return velocity_at(p, p.contact); }},
     {"a wall at rest", [](const WallPoint&) { return Vec(0, 0, 0); }},
     {"the velocity of the vessel's centre for every point",
-     [](const WallPoint& p) { return p.nested.centre_velocity; }},
+        [](const WallPoint& p) { return p.nested.centre_velocity; }},
     {"the wall's velocity without the rotation by gamma",
-     [](const WallPoint& p) { return Vec(velocity_at(p, p.contact) - by_roll(p)); }},
+        [](const WallPoint& p) { return Vec(velocity_at(p, p.contact) - by_roll(p)); }},
     {"the wall's velocity without the rotation by theta",
-     [](const WallPoint& p) { return Vec(velocity_at(p, p.contact) - cross(p.nested.swing, p.contact)); }},
+        [](const WallPoint& p) {
+          return Vec(velocity_at(p, p.contact) - cross(p.nested.swing, p.contact));
+        }},
     {"the wall's velocity with the opposite sign",
-     [](const WallPoint& p) { return Vec(-velocity_at(p, p.contact)); }},
+        [](const WallPoint& p) { return Vec(-velocity_at(p, p.contact)); }},
     {"the wall's velocity with the opposite sign of gamma'",
-     [](const WallPoint& p) { return Vec(velocity_at(p, p.contact) - 2 * by_roll(p)); }},
+        [](const WallPoint& p) { return Vec(velocity_at(p, p.contact) - 2 * by_roll(p)); }},
     {"gamma' about the inertial X axis instead of x'",
-     [](const WallPoint& p) { return Vec(velocity_at(p, p.contact) - by_roll(p) + by_roll_about_X(p)); }},
+        [](const WallPoint& p) {
+          return Vec(velocity_at(p, p.contact) - by_roll(p) + by_roll_about_X(p));
+        }},
     {"the wall's velocity at the ball's centre instead of the contact point",
-     [](const WallPoint& p) { return velocity_at(p, p.ball_centre); }},
+        [](const WallPoint& p) { return velocity_at(p, p.ball_centre); }},
     {"the derivative of the printed matrix (2.14)",
-     [](const WallPoint& p) {
-       // P = C + R_x R_z p: R_z p rotates about Z, then everything but C rotates about X. The axis Z of the
-       // inner rotation as R_x leaves it is the printed frame's z.
-       return Vec(p.nested.centre_velocity + by_roll_about_X(p) +
-                  cross(Vec(p.printed.z * p.nested.swing[2]), from_centre(p)));
-     }},
+        [](const WallPoint& p) {
+          // P = C + R_x R_z p: R_z p rotates about Z, then everything but C rotates about X. The
+          // axis Z of the inner rotation as R_x leaves it is the printed frame's z.
+          return Vec(p.nested.centre_velocity + by_roll_about_X(p) +
+              cross(Vec(p.printed.z * p.nested.swing[2]), from_centre(p)));
+        }},
 }};
 
-void LoggedImpact::set_wall_velocity(const WallVelocity& formula, const Mill& mill, const VesselFrame& nested,
-                                     const VesselFrame& printed) {
+void LoggedImpact::set_wall_velocity(const WallVelocity& formula, const Mill& mill,
+    const VesselFrame& nested, const VesselFrame& printed) {
   const Vec& ball_centre = event->body[0].position;
   const Vec contact = ball_centre - normal * ball[0].radius;
   if (const auto* body = mill.body_of(event->partner)) {
     const auto own = plain_frame(body->motion, body->motion.pose(nested.when));
     wall_velocity = formula.at({own, own, contact, ball_centre});
   } else {
-    wall_velocity =
-        formula.at({nested, printed, contact, ball_centre}) + normal * nested.of_wall(event->partner).rate;
+    wall_velocity = formula.at({nested, printed, contact, ball_centre}) +
+        normal * nested.of_wall(event->partner).rate;
   }
 }
 
-LoggedImpact impact_of(const LoggedEvent& event, const Case& of, const VesselFrame& frame, bool placed) {
+LoggedImpact impact_of(
+    const LoggedEvent& event, const Case& of, const VesselFrame& frame, bool placed) {
   const auto& mill = of.mill;
   LoggedImpact impact;
   impact.event = &event;
@@ -155,13 +161,14 @@ LoggedImpact impact_of(const LoggedEvent& event, const Case& of, const VesselFra
     impact.compliance = 1 + 1 / ball.reduced_inertia;
     if (!placed) return impact;
     with_wall(mill, event.partner, frame, ball.radius,
-              [&](const VesselFrame& own, const auto& room, int number) {
-                const Vec seen = inside(own, place), normal = room.normal(number, seen);
-                impact.normal = own.x * normal[0] + own.y * normal[1] + own.z * normal[2];
-                if (!(size(impact.normal) > 0)) impact.normal = own.x;  // undefined on the axis of a cylinder
-                if (!room.is_flat(number))
-                  impact.bend = bend_of(room, number, seen, 1e-6 * mill.vessel.reach());
-              });
+        [&](const VesselFrame& own, const auto& room, int number) {
+          const Vec seen = inside(own, place), normal = room.normal(number, seen);
+          impact.normal = own.x * normal[0] + own.y * normal[1] + own.z * normal[2];
+          if (!(size(impact.normal) > 0))
+            impact.normal = own.x;  // undefined on the axis of a cylinder
+          if (!room.is_flat(number))
+            impact.bend = bend_of(room, number, seen, 1e-6 * mill.vessel.reach());
+        });
     impact.set_wall_velocity(wall_velocities[0], mill, frame, frame);
     return impact;
   }
@@ -169,7 +176,8 @@ LoggedImpact impact_of(const LoggedEvent& event, const Case& of, const VesselFra
   impact.law = &mill.law_between(ball, partner);
   impact.effective_mass = 1 / (1 / ball.mass + 1 / partner.mass);
   impact.compliance = 1;
-  for (const auto& b : impact.ball) impact.compliance += impact.effective_mass / (b.mass * b.reduced_inertia);
+  for (const auto& b : impact.ball)
+    impact.compliance += impact.effective_mass / (b.mass * b.reduced_inertia);
   const Vec apart = place - event.body[1].position;
   const double distance = size(apart);
   if (placed && distance > 0) impact.normal = apart * (1 / distance);
@@ -225,11 +233,11 @@ Outcome outcome(const LoggedImpact& impact, const Terms& terms, bool by_logged_i
     auto& body = result.body[k];
     const double side = k == 0 ? 1 : -1;
     body.velocity_after = body.velocity_before +
-                          (normal_part + tangential_part * terms.friction_on_velocity) * (side * share[k]);
+        (normal_part + tangential_part * terms.friction_on_velocity) * (side * share[k]);
     // Torque of the tangential impulse on an arm of -R n, of the other ball +R n: the same sign.
     const Vec torque = cross(Vec(impact.normal * -1.0), tangential_part);
-    body.spin_after =
-        body.spin_before + torque * (terms.torque * share[k] / (ball.radius * ball.reduced_inertia));
+    body.spin_after = body.spin_before +
+        torque * (terms.torque * share[k] / (ball.radius * ball.reduced_inertia));
   }
   return result;
 }
@@ -241,7 +249,7 @@ double velocity_scale(const LoggedImpact& impact, bool with_spins) {
     scale = std::max({scale, size(body.velocity_before), size(body.velocity_after)});
     if (with_spins)
       scale = std::max({scale, impact.ball[k].radius * size(body.spin_before),
-                        impact.ball[k].radius * size(body.spin_after)});
+          impact.ball[k].radius * size(body.spin_after)});
   }
   return scale;
 }
@@ -253,9 +261,9 @@ double kinetic_change(const LoggedImpact& impact, double spin_factor) {
     const auto& b = impact.event->body[k];
     // (a - b).(a + b) loses fewer digits than a.a - b.b.
     change += ball.mass / 2 *
-              dot(Vec(b.velocity_after - b.velocity_before), Vec(b.velocity_after + b.velocity_before));
+        dot(Vec(b.velocity_after - b.velocity_before), Vec(b.velocity_after + b.velocity_before));
     change += spin_factor * ball.mass * ball.reduced_inertia * ball.radius * ball.radius / 2 *
-              dot(Vec(b.spin_after - b.spin_before), Vec(b.spin_after + b.spin_before));
+        dot(Vec(b.spin_after - b.spin_before), Vec(b.spin_after + b.spin_before));
   }
   return change;
 }
@@ -281,7 +289,7 @@ double dose_by_law(const LoggedImpact& impact, Speeds speeds) {
   const double e_t = impact.tangential_restitution(impact.compliance, bounce, speeds.slip);
   const double normal = std::max(0.0, (-speeds.g_n - separation) * bounce);
   return impact.effective_mass / 2 *
-         (normal + (1 - e_t * e_t) / impact.compliance * speeds.slip * speeds.slip);
+      (normal + (1 - e_t * e_t) / impact.compliance * speeds.slip * speeds.slip);
 }
 
 }  // namespace edmill::audit

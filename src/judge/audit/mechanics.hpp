@@ -1,5 +1,5 @@
-// The mechanics of the audit, independent of the solver's: the vessel's walls, the outcome of an impact by
-// right and by wrong formulas. Equations: docs/theory.md, sections 1, 2 and 5.
+// The mechanics of the audit, independent of the solver's: the vessel's walls, the outcome of an
+// impact by right and by wrong formulas. Equations: docs/theory.md, sections 1, 2 and 5.
 #pragma once
 
 #include <algorithm>
@@ -53,8 +53,8 @@ struct WallVelocity {
 /// The first is correct, V = W_Z x P + (R_z W_x') x (P - C); the last derives the printed matrix.
 extern const std::array<WallVelocity, 10> wall_velocities;
 
-/// Deviations of a code in single terms of the equations, larger, smaller, reversed or missing: factors,
-/// 1 for the equations of docs/theory.md, and shifts, 0 for these.
+/// Deviations of a code in single terms of the equations, larger, smaller, reversed or missing:
+/// factors, 1 for the equations of docs/theory.md, and shifts, 0 for these.
 struct Terms {
   // impacts
   double friction = 1, friction_on_velocity = 1, torque = 1, share = 1;
@@ -63,7 +63,7 @@ struct Terms {
   /// Formulas for equal balls, used for unequal ones.
   enum class EqualBalls { no, limit_of_sliding, friction, masses, exchanged_masses };
   EqualBalls equal_balls = EqualBalls::no;
-  bool friction_of_restitution = false;               ///< limited by mu (1 + e_n) |g_n| at v_s as well
+  bool friction_of_restitution = false;  ///< limited by mu (1 + e_n) |g_n| at v_s as well
   double wall_velocity = 1, wall_velocity_delay = 0;  ///< delay [s]
   std::size_t wall_velocity_formula = 0;              ///< index in wall_velocities
   double wall_work = 1, dose = 1, spin_in_dose = 1, work_in_dose = 1, supply_in_dose = 1;
@@ -76,8 +76,8 @@ struct Terms {
   bool operator==(const Terms&) const = default;
   bool change_impulse() const {
     return friction != 1 || friction_on_velocity != 1 || torque != 1 || share != 1 ||
-           compliance_in_limit != 1 || compliance_in_impulse != 1 || arm != 1 ||
-           equal_balls != EqualBalls::no || friction_of_restitution;
+        compliance_in_limit != 1 || compliance_in_impulse != 1 || arm != 1 ||
+        equal_balls != EqualBalls::no || friction_of_restitution;
   }
 };
 
@@ -96,10 +96,10 @@ struct LoggedImpact {
 
   /// Sets the wall velocity by a code's formula, plus the motion of the wall within the vessel.
   void set_wall_velocity(const WallVelocity& formula, const Mill& mill, const VesselFrame& nested,
-                         const VesselFrame& printed);
+      const VesselFrame& printed);
   bool with_wall() const { return event->with_wall; }
   std::size_t count() const { return event->count(); }  ///< of balls
-  Vec before() const;                                   ///< relative velocity of the contact points. (2.27)
+  Vec before() const;  ///< relative velocity of the contact points. (2.27)
   Vec after() const;
   double along(const Vec& v) const { return dot(v, normal); }
   Vec across(const Vec& v) const { return v - normal * dot(v, normal); }
@@ -116,7 +116,6 @@ struct LoggedImpact {
   /// @param bounce  |g_n| + g_n' [m/s]
   /// @param c       the compliance, or a code's value in its place
   double tangential_restitution(double c, double bounce, double slip_speed) const;
-
  private:
   model::ContactBodies<double> bodies() const {
     return {effective_mass, ball[0].radius, with_wall() ? -1 : ball[1].radius};

@@ -18,7 +18,7 @@ std::size_t SpectrumClasses::of(double value) const {
 }
 
 Batches cut_into_batches(const std::filesystem::path& place, const BatchTimes& times, int walls,
-                         const SpectrumClasses& speed_classes, const SpectrumClasses& dose_classes) {
+    const SpectrumClasses& speed_classes, const SpectrumClasses& dose_classes) {
   Batches batches(times.count, Batch(walls));
   logs::EventLog log(place);
   const bool dose = log.has(model::milling_dose), work = log.has(model::wall_work);
@@ -29,7 +29,8 @@ Batches cut_into_batches(const std::filesystem::path& place, const BatchTimes& t
     Batch& batch = batches[static_cast<std::size_t>(place_in_time)];
     (event->with_wall ? batch.events[event->partner] : batch.events.back()) += 1;
     batch.approach_speed += event->approach_speed;
-    batch.spectra[event->with_wall ? wall_speeds : ball_speeds][speed_classes.of(event->approach_speed)] += 1;
+    batch.spectra[event->with_wall ? wall_speeds : ball_speeds]
+                 [speed_classes.of(event->approach_speed)] += 1;
     if (dose) {
       batch.milling_dose += event->milling_dose;
       batch.spectra[doses][dose_classes.of(event->milling_dose)] += event->milling_dose;
@@ -55,14 +56,16 @@ SpectrumTest test_spectra(const Batches& a, const Batches& b, Spectrum spectrum)
   BatchValues both;
   for (std::size_t c = 0; c < SpectrumClasses::count; ++c) {
     double sum = 0;
-    for (std::size_t k = 0; k < a.size(); ++k) sum += a[k].spectra[spectrum][c] + b[k].spectra[spectrum][c];
+    for (std::size_t k = 0; k < a.size(); ++k)
+      sum += a[k].spectra[spectrum][c] + b[k].spectra[spectrum][c];
     if (sum == 0) continue;
     used.push_back(c);
     both.push_back(sum);
   }
   std::vector<BatchValues> differences(a.size());
   for (std::size_t k = 0; k < a.size(); ++k)
-    for (const auto c : used) differences[k].push_back(a[k].spectra[spectrum][c] - b[k].spectra[spectrum][c]);
+    for (const auto c : used)
+      differences[k].push_back(a[k].spectra[spectrum][c] - b[k].spectra[spectrum][c]);
   const double all = std::accumulate(both.begin(), both.end(), 0.0);
 
   // With s the sum of +-(A - B): A has (both + s)/2, B (both - s)/2.
@@ -113,9 +116,10 @@ BatchTimes common_times(const LogScan& a, const LogScan& b, const ComparisonOpti
   const auto& limits = options.limits;
   double from = std::max(a.first, b.first), until = std::min(a.last, b.last);
   if (from > until)
-    throw InputError(fmt::format(
-        "{} covers {:g} s to {:g} s and {} covers {:g} s to {:g} s: the logs have no time in common", a.file,
-        a.first, a.last, b.file, b.first, b.last));
+    throw InputError(
+        fmt::format("{} covers {:g} s to {:g} s and {} covers {:g} s to {:g} s: the logs have no "
+                    "time in common",
+            a.file, a.first, a.last, b.file, b.first, b.last));
   if (limits.from)
     from = std::max(from, *limits.from);
   else
@@ -123,17 +127,17 @@ BatchTimes common_times(const LogScan& a, const LogScan& b, const ComparisonOpti
       from = std::max(from, start.value_or(from));
   if (limits.until) until = std::min(until, *limits.until);
   if ((limits.from || limits.until) && from > until)
-    throw InputError(
-        fmt::format("--from, --until: these limits leave nothing of {:g} s to {:g} s, which both logs cover",
-                    std::max(a.first, b.first), std::min(a.last, b.last)));
+    throw InputError(fmt::format(
+        "--from, --until: these limits leave nothing of {:g} s to {:g} s, which both logs cover",
+        std::max(a.first, b.first), std::min(a.last, b.last)));
   if (!(until > from)) return {};
   const double span = until - from, length = options.batch.value_or(span / 20);
   // Rounding must not cost the last batch.
   const double count = std::floor(span / length * (1 + 1e-12));
   if (!(count >= fewest_batches && count <= most_batches))
-    throw InputError(
-        fmt::format("--batch: found {:g} s, {:g} batches in {:g} s to {:g} s, expected {} to {} batches",
-                    length, count, from, until, fewest_batches, most_batches));
+    throw InputError(fmt::format(
+        "--batch: found {:g} s, {:g} batches in {:g} s to {:g} s, expected {} to {} batches",
+        length, count, from, until, fewest_batches, most_batches));
   return {from, length, static_cast<std::size_t>(count)};
 }
 
@@ -144,8 +148,8 @@ std::optional<logs::LoggedEvent> next_within(logs::EventLog& reader, const Limit
   return event;
 }
 
-/// Compares the events of both logs one by one. Differences of a value are relative to its magnitude in A, or
-/// to the mean magnitude of its column in A if that is larger.
+/// Compares the events of both logs one by one. Differences of a value are relative to its
+/// magnitude in A, or to the mean magnitude of its column in A if that is larger.
 /// @param c  has the options and both scans. @throws InputError when a log cannot be read
 EventComparison compare_events(const Comparison& c) {
   logs::EventLog log_a(c.options.a), log_b(c.options.b);
@@ -156,7 +160,8 @@ EventComparison compare_events(const Comparison& c) {
     const auto a = next_within(log_a, limits), b = next_within(log_b, limits);
     if (!a || !b) break;  // events beyond the end of either log are not compared
     if (!a->same_bodies(*b)) {
-      if (!result.first) result.first = {*a, *b, "partners", std::numeric_limits<double>::quiet_NaN()};
+      if (!result.first)
+        result.first = {*a, *b, "partners", std::numeric_limits<double>::quiet_NaN()};
       break;
     }
     ++result.same_partners;
@@ -185,8 +190,7 @@ EventComparison compare_events(const Comparison& c) {
   return result;
 }
 
-template <class Get>
-BatchValues values_of(const Batches& batches, const Get& get) {
+template <class Get> BatchValues values_of(const Batches& batches, const Get& get) {
   BatchValues values;
   for (const auto& batch : batches) values.push_back(std::invoke(get, batch));
   return values;
@@ -195,15 +199,16 @@ BatchValues values_of(const Batches& batches, const Get& get) {
 /// Makes the rows of the table; the verdicts follow when all rows exist.
 class Quantities {
  public:
-  Quantities(const Batches& a, const Batches& b, double tolerance) : a_(a), b_(b), tolerance_(tolerance) {}
+  Quantities(const Batches& a, const Batches& b, double tolerance)
+      : a_(a), b_(b), tolerance_(tolerance) {}
 
   /// Adds the mean of a quantity over the batches.
   /// @param reason     why it cannot be compared, or empty
   /// @param events     number of events that it is based on, in A and B together
   /// @param get        its value in a batch
   /// @param per_event  true if that value is a sum over events and the mean per event is compared
-  void mean(const std::string& name, const std::string& unit, const std::string& reason, double events,
-            const auto& get, bool per_event = false) {
+  void mean(const std::string& name, const std::string& unit, const std::string& reason,
+      double events, const auto& get, bool per_event = false) {
     if (!reason.empty()) return skip(name, unit, reason);
     const auto values_in = [&](const Batches& batches) {
       const auto values = values_of(batches, get);
@@ -218,13 +223,13 @@ class Quantities {
     const double scale = std::max(std::abs(*of_a.mean), std::abs(*of_b.mean));
     const bool within = std::abs(*of_both.mean) <= tolerance_ * scale;
     add({.name = name,
-         .unit = unit,
-         .a = of_a.mean,
-         .b = of_b.mean,
-         .a_half_width = of_a.half_width,
-         .b_half_width = of_b.half_width,
-         .difference = of_both.mean,
-         .half_width = of_both.half_width},
+            .unit = unit,
+            .a = of_a.mean,
+            .b = of_b.mean,
+            .a_half_width = of_a.half_width,
+            .b_half_width = of_b.half_width,
+            .difference = of_both.mean,
+            .half_width = of_both.half_width},
         events, within ? 1 : numerics::paired_t_probability(differences));
   }
 
@@ -260,14 +265,14 @@ class Quantities {
     }
     return std::move(rows_);
   }
-
  private:
   void skip(const std::string& name, const std::string& unit, const std::string& reason) {
     rows_.push_back({.name = name, .unit = unit, .reason = reason});
   }
   void add(Quantity q, double events, double probability) {
     q.verdict = Verdict::too_few;
-    if (events >= fewest_events_per_batch * static_cast<double>(a_.size())) q.probability = probability;
+    if (events >= fewest_events_per_batch * static_cast<double>(a_.size()))
+      q.probability = probability;
     rows_.push_back(std::move(q));
   }
 
@@ -289,7 +294,8 @@ std::vector<Quantity> judge(const Comparison& c) {
     const auto values = values_of(batches, get);
     return std::accumulate(values.begin(), values.end(), 0.0);
   };
-  const double of_a = sum_of(a, &Batch::all_events), of_b = sum_of(b, &Batch::all_events), all = of_a + of_b;
+  const double of_a = sum_of(a, &Batch::all_events), of_b = sum_of(b, &Batch::all_events),
+               all = of_a + of_b;
   const double length = c.times.length;
 
   double between_balls = 0;  // after the loop: they are the last partner
@@ -297,8 +303,8 @@ std::vector<Quantity> judge(const Comparison& c) {
     const auto with_partner = [k](const Batch& batch) { return batch.events[k]; };
     between_balls = sum_of(a, with_partner) + sum_of(b, with_partner);
     quantities.mean("collision_rate_" + model::partner_key(k, walls), "1/s",
-                    between_balls > 0 ? "" : "no such collisions", between_balls,
-                    [&](const Batch& batch) { return batch.events[k] / length; });
+        between_balls > 0 ? "" : "no such collisions", between_balls,
+        [&](const Batch& batch) { return batch.events[k] / length; });
   }
   const auto missing = [&](std::size_t v) {
     if (c.a.has[v] && c.b.has[v]) return std::string();
@@ -309,8 +315,8 @@ std::vector<Quantity> judge(const Comparison& c) {
   };
   power(model::milling_dose, "milling_dose_rate", &Batch::milling_dose);
   power(model::wall_work, "wall_work_rate", &Batch::wall_work);
-  quantities.mean("mean_approach_speed", "m/s", of_a > 0 && of_b > 0 ? "" : "no collisions in one log", all,
-                  &Batch::approach_speed, true);
+  quantities.mean("mean_approach_speed", "m/s",
+      of_a > 0 && of_b > 0 ? "" : "no collisions in one log", all, &Batch::approach_speed, true);
   quantities.spectrum("wall_approach_speed_spectrum", "", wall_speeds, all - between_balls);
   quantities.spectrum("ball_approach_speed_spectrum", "", ball_speeds, between_balls);
   quantities.spectrum("milling_dose_spectrum", missing(model::milling_dose), doses, all);
@@ -320,7 +326,8 @@ std::vector<Quantity> judge(const Comparison& c) {
 }  // namespace
 
 std::string_view name_of(Verdict verdict) {
-  return std::array{"agree", "differ", "too_few", "not_compared"}.at(static_cast<std::size_t>(verdict));
+  return std::array{"agree", "differ", "too_few", "not_compared"}.at(
+      static_cast<std::size_t>(verdict));
 }
 
 Comparison compare(const ComparisonOptions& options) {
@@ -339,12 +346,15 @@ Comparison compare(const ComparisonOptions& options) {
   c.events = compare_events(c);
   if (options.events) {
     const bool enough = c.events.agreeing >= *options.events;
-    c.events_verdict = enough ? Verdict::agree : c.events.first ? Verdict::differ : Verdict::too_few;
+    c.events_verdict = enough ? Verdict::agree
+        : c.events.first      ? Verdict::differ
+                              : Verdict::too_few;
   }
   if (c.times.count > 0) c.quantities = judge(c);
   const auto any = [&](Verdict verdict) {
     const auto is_such = [&](const Quantity& q) { return q.verdict == verdict; };
-    return c.events_verdict == verdict || std::any_of(c.quantities.begin(), c.quantities.end(), is_such);
+    return c.events_verdict == verdict ||
+        std::any_of(c.quantities.begin(), c.quantities.end(), is_such);
   };
   const bool agree = c.events_verdict != Verdict::too_few && c.events.agree_throughout();
   const bool too_few = !agree && (c.times.count == 0 || any(Verdict::too_few));

@@ -21,13 +21,12 @@ class SpectrumClasses {
   static constexpr std::size_t count = 1 + 16 * 48;
   explicit SpectrumClasses(double floor) : floor_(floor) {}
   std::size_t of(double value) const;
-
  private:
   double floor_;
 };
 
-/// Number of impacts by approach speed, on walls and between balls; milling dose by dose of the impact, since
-/// mills have many impacts of negligible dose, whose number varies much.
+/// Number of impacts by approach speed, on walls and between balls; milling dose by dose of the
+/// impact, since mills have many impacts of negligible dose, whose number varies much.
 enum Spectrum : std::size_t { wall_speeds, ball_speeds, doses };
 inline constexpr std::size_t spectrum_count = 3;
 
@@ -40,7 +39,9 @@ struct Batch {
   double milling_dose = 0, wall_work = 0;  ///< [J]
   std::array<std::vector<double>, spectrum_count> spectra;
 
-  explicit Batch(int walls = 0) : events(walls + 1) { spectra.fill(BatchValues(SpectrumClasses::count)); }
+  explicit Batch(int walls = 0) : events(walls + 1) {
+    spectra.fill(BatchValues(SpectrumClasses::count));
+  }
 
   double all_events() const { return std::accumulate(events.begin(), events.end(), 0.0); }
 };
@@ -50,10 +51,10 @@ using Batches = std::vector<Batch>;
 /// Divides a log into batches, in a second pass. Memory does not depend on its length.
 /// @param walls  number of walls, larger than every wall number in the log
 Batches cut_into_batches(const std::filesystem::path& place, const BatchTimes& times, int walls,
-                         const SpectrumClasses& speed_classes, const SpectrumClasses& dose_classes);
+    const SpectrumClasses& speed_classes, const SpectrumClasses& dose_classes);
 
-/// Batch values whose plain mean is sum / number of the whole and whose scatter is that of this ratio, to
-/// first order (the linearised ratio estimator). @pre the numbers are not all 0
+/// Batch values whose plain mean is sum / number of the whole and whose scatter is that of this
+/// ratio, to first order (the linearised ratio estimator). @pre the numbers are not all 0
 BatchValues ratio_values(const BatchValues& sums, const BatchValues& numbers);
 
 /// Largest distance of two distribution functions, with a permutation test over batches.
@@ -63,8 +64,8 @@ struct SpectrumTest {
   double probability = 1;  ///< of at least this distance when A and B are alike
 };
 
-/// Each of 9999 permutations swaps batch k of A and B, or not, at random for every k, with a fixed seed. @pre
-/// as many batches in A as in B, and both spectra are not empty
+/// Each of 9999 permutations swaps batch k of A and B, or not, at random for every k, with a fixed
+/// seed. @pre as many batches in A as in B, and both spectra are not empty
 SpectrumTest test_spectra(const Batches& a, const Batches& b, Spectrum spectrum);
 
 using logs::LogScan, logs::OfEach;
@@ -82,13 +83,14 @@ struct FirstDifference {
 };
 
 struct EventComparison {
-  std::uint64_t agreeing = 0;            ///< events before the first difference
-  double horizon = 0;                    ///< time of the last of them in A [s]
-  std::optional<FirstDifference> first;  ///< nothing when the logs agree to the end of the shorter one
-  std::uint64_t same_partners = 0;       ///< events before the bodies differ; at least `agreeing`
-  OfEach<double> largest{};              ///< relative difference of each value up to the horizon
-  /// Slope of log10 of the largest relative difference of an event over the events, by least squares from the
-  /// first that is not 0 to the horizon [1/event]; needs ten such events.
+  std::uint64_t agreeing = 0;  ///< events before the first difference
+  double horizon = 0;          ///< time of the last of them in A [s]
+  std::optional<FirstDifference>
+      first;                        ///< nothing when the logs agree to the end of the shorter one
+  std::uint64_t same_partners = 0;  ///< events before the bodies differ; at least `agreeing`
+  OfEach<double> largest{};         ///< relative difference of each value up to the horizon
+  /// Slope of log10 of the largest relative difference of an event over the events, by least
+  /// squares from the first that is not 0 to the horizon [1/event]; needs ten such events.
   std::optional<double> digits_lost_per_event;
 
   bool agree_throughout() const { return !first && agreeing > 0; }
@@ -100,7 +102,7 @@ struct ComparisonOptions {
   std::optional<double> batch;          ///< length [s]; default: a twentieth of the common time
   std::optional<double> tolerance;      ///< relative, for events; 1e-9 by default
   std::optional<std::uint64_t> events;  ///< number that must agree one by one
-  std::optional<double> within;         ///< largest relative difference of dose rates of contact logs
+  std::optional<double> within;  ///< largest relative difference of dose rates of contact logs
 
   double event_tolerance() const { return tolerance.value_or(1e-9); }
 };
@@ -126,7 +128,7 @@ struct Comparison {
   LogScan a, b;
   EventComparison events;
   std::optional<Verdict> events_verdict;  ///< when a number of events was required
-  BatchTimes times;                       ///< no batches when the logs have too little time in common
+  BatchTimes times;  ///< no batches when the logs have too little time in common
   std::vector<Quantity> quantities;
   Verdict verdict = Verdict::too_few;  ///< overall: agree, differ or too_few
 };

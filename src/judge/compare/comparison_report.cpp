@@ -16,7 +16,7 @@ std::string_view name_of_value(std::size_t value) { return model::logged_quantit
 
 std::string describe(const Event& e) {
   std::string text = fmt::format("line {}: t = {} s, ball {} with {} {}", e.line, e.time, e.ball,
-                                 e.with_wall ? "wall" : "ball", e.partner);
+      e.with_wall ? "wall" : "ball", e.partner);
   for (std::size_t v = model::approach_speed; v < model::logged_count; ++v)
     if (!std::isnan(e[v])) text += fmt::format(", {} {}", name_of_value(v), e[v]);
   return text;
@@ -45,12 +45,13 @@ struct Fields {
     v("verdict", "", "`agree`, `differ`, `too_few`", name_of(c.verdict));
     v.group("a", "the first log", [&] { log(v, c.a); });
     v.group("b", "the other log, with the same fields", [&] { log(v, c.b); });
-    v("tolerance", "1", "relative tolerance of the comparison event by event", c.options.event_tolerance());
+    v("tolerance", "1", "relative tolerance of the comparison event by event",
+        c.options.event_tolerance());
     v.group("event_by_event", "", [&] { events(v, c.events); });
     if (v.has(c.times.count > 0))
-      v.group("statistics", "statistics of the common time, if it is long enough", [&] { statistics(v); });
+      v.group("statistics", "statistics of the common time, if it is long enough",
+          [&] { statistics(v); });
   }
-
  private:
   static void log(auto& v, const LogScan& scan) {
     v("file", "", "", scan.file);
@@ -60,18 +61,20 @@ struct Fields {
   }
   void events(auto& v, const EventComparison& e) const {
     v("agreeing", "1", "events before the first difference", e.agreeing);
-    v("horizon", "s", "time of the last of them", e.agreeing > 0 ? std::optional(e.horizon) : std::nullopt);
+    v("horizon", "s", "time of the last of them",
+        e.agreeing > 0 ? std::optional(e.horizon) : std::nullopt);
     v("same_partners", "1", "events before the bodies differ", e.same_partners);
     if (v.has(c.events_verdict.has_value())) {
       v("asked_for", "1", "number given with `--events`", c.options.events.value_or(0));
-      v("verdict", "", "verdict if `--events` was given", name_of(c.events_verdict.value_or(Verdict::agree)));
+      v("verdict", "", "verdict if `--events` was given",
+          name_of(c.events_verdict.value_or(Verdict::agree)));
     }
     if (v.has(e.first.has_value()))
       v.group("first_difference", "", [&] { difference(v, e.first.value_or(FirstDifference{})); });
     v.by_name("largest", "1", "relative difference of each value up to the horizon", values_of(c),
-              name_of_value, [&](std::size_t k) { return e.largest[k]; });
+        name_of_value, [&](std::size_t k) { return e.largest[k]; });
     v("digits_lost_per_event", "1", "slope of a straight line through the differences",
-      e.digits_lost_per_event);
+        e.digits_lost_per_event);
   }
   static void difference(auto& v, const FirstDifference& first) {
     v("quantity", "", "`partners` or a value's name", first.quantity);
@@ -101,9 +104,11 @@ struct Fields {
       if (v.has(!q.is_spectrum()))
         v("difference_ci95", "`unit`", "half the width of its 95 % interval", q.half_width);
       if (v.has(q.is_spectrum()))
-        v("limit95", "1", "for a spectrum: the distance that 5 % of permutations exceed", q.half_width);
-      v("probability", "1", "probability of such a difference by chance, after Holm; null if not tested",
-        q.probability);
+        v("limit95", "1", "for a spectrum: the distance that 5 % of permutations exceed",
+            q.half_width);
+      v("probability", "1",
+          "probability of such a difference by chance, after Holm; null if not tested",
+          q.probability);
       v("verdict", "", "`agree`, `differ`, `too_few`, `not_compared`", name_of(q.verdict));
       if (v.has(!q.reason.empty())) v("reason", "", "reason of `not_compared`", q.reason);
     });
@@ -113,8 +118,8 @@ struct Fields {
 }  // namespace
 
 std::string table(const Comparison& c) {
-  std::string out =
-      fmt::format("A {}, {} collisions\nB {}, {} collisions\n", c.a.file, c.a.events, c.b.file, c.b.events);
+  std::string out = fmt::format(
+      "A {}, {} collisions\nB {}, {} collisions\n", c.a.file, c.a.events, c.b.file, c.b.events);
   const auto row = [&](const std::string& name, const std::string& value) {
     out += fmt::format("  {:<26}{}\n", name, value);
   };
@@ -127,31 +132,34 @@ std::string table(const Comparison& c) {
   if (e.first) {
     row("  same partners", fmt::format("{} events", e.same_partners));
     const double off = e.first->relative_difference;  // nan for partners
-    row("  first difference", e.first->quantity + (std::isnan(off) ? "" : fmt::format(" by {:.2g}", off)));
+    row("  first difference",
+        e.first->quantity + (std::isnan(off) ? "" : fmt::format(" by {:.2g}", off)));
     row("    A", describe(e.first->a));
     row("    B", describe(e.first->b));
   }
   if (e.agreeing > 0) {
     std::string largest;
     for (const auto v : values_of(c))
-      largest += fmt::format("{}{} {:.1e}", largest.empty() ? "" : ", ", name_of_value(v), e.largest[v]);
+      largest +=
+          fmt::format("{}{} {:.1e}", largest.empty() ? "" : ", ", name_of_value(v), e.largest[v]);
     row("  largest before it", largest);
   }
   if (e.digits_lost_per_event)
     row("  digits lost per event", fmt::format("{:.3g}", *e.digits_lost_per_event));
   if (c.times.count > 0) {
-    row("statistics", fmt::format("{:g} s to {:g} s, {} batches of {:g} s", c.times.from, c.times.until(),
-                                  c.times.count, c.times.length));
-    out +=
-        fmt::format("  {:<32}{:>22}{:>22}{:>22}{:>9}  {}\n", "quantity", "A", "B", "B - A", "p", "verdict");
+    row("statistics",
+        fmt::format("{:g} s to {:g} s, {} batches of {:g} s", c.times.from, c.times.until(),
+            c.times.count, c.times.length));
+    out += fmt::format(
+        "  {:<32}{:>22}{:>22}{:>22}{:>9}  {}\n", "quantity", "A", "B", "B - A", "p", "verdict");
     for (const auto& q : c.quantities) {
       // A distance is printed with its limit, which is not an interval.
       out += fmt::format("  {:<32}{:>22}{:>22}{:>22}{:>9}  {}{}\n", q.name + " [" + q.unit + "]",
-                         interval_of(q.a, q.a_half_width), interval_of(q.b, q.b_half_width),
-                         q.is_spectrum() ? fmt::format("{:.3g} (< {:.3g})", *q.difference, *q.half_width)
-                                         : interval_of(q.difference, q.half_width),
-                         q.probability ? fmt::format("{:.2g}", *q.probability) : "-", name_of(q.verdict),
-                         q.reason.empty() ? "" : ": " + q.reason);
+          interval_of(q.a, q.a_half_width), interval_of(q.b, q.b_half_width),
+          q.is_spectrum() ? fmt::format("{:.3g} (< {:.3g})", *q.difference, *q.half_width)
+                          : interval_of(q.difference, q.half_width),
+          q.probability ? fmt::format("{:.2g}", *q.probability) : "-", name_of(q.verdict),
+          q.reason.empty() ? "" : ": " + q.reason);
     }
   }
   row("verdict", std::string(name_of(c.verdict)));
@@ -174,7 +182,8 @@ std::string junit_text(const std::string& suite, const std::vector<JunitCase>& c
   set(all, "name", clean_text(suite));
   set(all, "tests", std::to_string(cases.size()));
   set(all, "failures", std::to_string(number_with(&JunitCase::problem)));
-  if (const auto skipped = number_with(&JunitCase::not_judged)) set(all, "skipped", std::to_string(skipped));
+  if (const auto skipped = number_with(&JunitCase::not_judged))
+    set(all, "skipped", std::to_string(skipped));
   for (const auto& [name, problem, not_judged] : cases) {
     auto& one = all.add("testcase", "");
     set(one, "classname", "edmill");
@@ -202,7 +211,7 @@ std::string to_junit(const Comparison& c) {
     if (q.verdict != Verdict::not_compared)
       add(q.name, q.verdict,
           fmt::format("differs by {:.4g} {}, {:.4g} at most", q.difference.value_or(0), q.unit,
-                      q.half_width.value_or(0)));
+              q.half_width.value_or(0)));
   cases.push_back({"enough events", c.verdict == Verdict::too_few ? "too few to compare" : ""});
   return junit_text("edmill compare", cases);
 }

@@ -14,9 +14,9 @@ struct Measured {
   std::vector<std::string> parts;  ///< groups that include it: "at cap -y", "of balls.1 at walls"
   double dose = 0;                 ///< [J]
   double approach = 0, slip = 0;   ///< at the touch [m/s]
-  double pressed = 0;     ///< relative change of the approach by gravity and walls during the contact
-  double turned = 0;      ///< rotation of the normal during the contact [rad]
-  double depth = 0;       ///< largest overlap of a Hertz contact of this duration, over the radius
+  double pressed = 0;  ///< relative change of the approach by gravity and walls during the contact
+  double turned = 0;   ///< rotation of the normal during the contact [rad]
+  double depth = 0;    ///< largest overlap of a Hertz contact of this duration, over the radius
   double slip_left = 0;   ///< slip after the contact, along and relative to that at the touch
   double wall_speed = 0;  ///< along the normal [m/s]
   // Of the case:
@@ -26,8 +26,8 @@ struct Measured {
   std::optional<double> friction = {};     ///< tangential over normal impulse
   double wound = 0;  ///< least slip for sliding throughout, over the slip of this contact
   std::optional<double> stopping_friction = {};  ///< over the one that just stops the slip
-  std::optional<double> spin_change = {};        ///< over that of the impulse, m J R^2 dw = -R n x m dv
-  std::optional<double> wall_velocity = {};      ///< factor that gives the case's restitution
+  std::optional<double> spin_change = {};    ///< over that of the impulse, m J R^2 dw = -R n x m dv
+  std::optional<double> wall_velocity = {};  ///< factor that gives the case's restitution
 };
 
 using MeasuredList = std::vector<Measured>;
@@ -59,18 +59,21 @@ struct Bodies {
   double compliance;  ///< 1 + M/(m_i J_i) + M/(m_j J_j)
 };
 
-/// Measures a contact. During it curved walls rotate, the line of centres of a pair turns and gravity presses
-/// or separates the bodies; flights extrapolated through it show by how much.
+/// Measures a contact. During it curved walls rotate, the line of centres of a pair turns and
+/// gravity presses or separates the bodies; flights extrapolated through it show by how much.
 /// @param at  returns the surfaces at a time for states of the ball and its partner
 Measured measured_by(const Contact& c, const Vector& gravity, const Bodies& bodies, auto at) {
   const double duration = c.end - c.begin;
   const auto on = [&](const BallState& state) { return flown(state, gravity, duration); };
   const auto back = [&](const BallState& state) { return flown(state, gravity, -duration); };
-  const Surfaces touch = at(c.begin, c.before, c.partner_before), leave = at(c.end, c.after, c.partner_after),
+  const Surfaces touch = at(c.begin, c.before, c.partner_before),
+                 leave = at(c.end, c.after, c.partner_after),
                  flown_on = at(c.end, on(c.before), on(c.partner_before)),
                  flown_back = at(c.begin, back(c.after), back(c.partner_after));
-  Measured measured{
-      .parts = bodies.parts, .dose = c.dose, .approach = -touch.separation, .slip = norm(touch.along)};
+  Measured measured{.parts = bodies.parts,
+      .dose = c.dose,
+      .approach = -touch.separation,
+      .slip = norm(touch.along)};
   if (!(measured.approach > 0)) return measured;
   bool has_friction = false;
   measured.law_restitution = bodies.law.restitution(measured.approach, bodies.sizes);
@@ -90,17 +93,19 @@ Measured measured_by(const Contact& c, const Vector& gravity, const Bodies& bodi
   // A force adds to the approach, then brakes; equal ones before and after have press_effect(e).
   measured.restitution = separation + (2 * decks::press_effect(e) + e) * late - e * early;
   const Vector left = leave.along - (flown_on.along - touch.along);
-  if (measured.slip > 0) measured.slip_left = dot(left, touch.along) / (measured.slip * measured.slip);
+  if (measured.slip > 0)
+    measured.slip_left = dot(left, touch.along) / (measured.slip * measured.slip);
   const Vector both = touch.normal + leave.normal, normal = both / norm(both);
   const Vector change = c.after.velocity - c.before.velocity - gravity * duration,
                along = change - normal * dot(change, normal),
                due = cross(normal, along) / (-bodies.ball.reduced_inertia * bodies.ball.radius);
   const double friction = norm(along) / dot(change, normal);
-  if (friction > 0.05) measured.spin_change = dot(c.after.spin - c.before.spin, due) / dot(due, due);
+  if (friction > 0.05)
+    measured.spin_change = dot(c.after.spin - c.before.spin, due) / dot(due, due);
   if (!has_friction) return measured;
   // Slip above which the case's contact slides throughout.
-  const double least =
-      measured.law_friction * bodies.compliance * (1 + separation + measured.pressed) * measured.approach;
+  const double least = measured.law_friction * bodies.compliance *
+      (1 + separation + measured.pressed) * measured.approach;
   measured.wound = least / measured.slip;
   if (measured.slip > least)
     measured.friction = friction;
@@ -113,7 +118,8 @@ Measured measured_by(const Contact& c, const Vector& gravity, const Bodies& bodi
 class SingleContacts {
  public:
   /// The mill and the vessel must outlive it. @param gravity in which the balls fly [m/s^2]
-  SingleContacts(const CaseSpec& spec, const Mill& mill, const MovingVessel& vessel, const Vector& gravity)
+  SingleContacts(
+      const CaseSpec& spec, const Mill& mill, const MovingVessel& vessel, const Vector& gravity)
       : mill_(mill), vessel_(vessel), gravity_(gravity), partners_(casefile::partners_of(spec)) {
     for (const auto& group : identify::ball_groups(spec))
       for (std::size_t k = group.first; k < group.last; ++k) kinds_.push_back(group.key);
@@ -122,21 +128,20 @@ class SingleContacts {
   Measured at_wall(const Contact& c) const {
     const auto ball = static_cast<std::size_t>(c.ball);
     const auto& b = vessel_.ball(ball);
-    const Bodies bodies{parts_of({"at " + partners_[c.partner].label, "of " + kinds_[ball] + " at walls"},
-                                 {ball}, "at walls"),
-                        mill_.law_with_wall(b, c.partner),
-                        b,
-                        {b.mass, b.radius},
-                        1 + 1 / b.reduced_inertia};
+    const Bodies bodies{
+        parts_of({"at " + partners_[c.partner].label, "of " + kinds_[ball] + " at walls"}, {ball},
+            "at walls"),
+        mill_.law_with_wall(b, c.partner), b, {b.mass, b.radius}, 1 + 1 / b.reduced_inertia};
     const auto middle = vessel_.at((c.begin + c.end) / 2);
     auto measured = measured_by(c, gravity_, bodies, [&](double time, const auto& i, const auto&) {
       const auto pose = vessel_.at(time);
       const Vector n = vessel_.normal(pose, ball, c.partner, i.position), arm = n * -b.radius;
-      return Surfaces(
-          n, i.velocity + cross(i.spin, arm) - vessel_.wall_velocity(pose, c.partner, i.position + arm));
+      return Surfaces(n,
+          i.velocity + cross(i.spin, arm) -
+              vessel_.wall_velocity(pose, c.partner, i.position + arm));
     });
     measured.wall_speed = dot(vessel_.wall_velocity(middle, c.partner, c.before.position),
-                              vessel_.normal(middle, ball, c.partner, c.before.position));
+        vessel_.normal(middle, ball, c.partner, c.before.position));
     const double change = (1 + measured.law_restitution) * measured.wall_speed;
     if (measured.restitution && std::abs(measured.wall_speed) > 0.3 * measured.approach)
       measured.wall_velocity =
@@ -149,22 +154,18 @@ class SingleContacts {
     const auto &a = vessel_.ball(one), &b = vessel_.ball(two);
     const double effective = a.mass * b.mass / (a.mass + b.mass);
     const auto [low, high] = std::minmax(kinds_[one], kinds_[two]);
-    const Bodies bodies{
-        parts_of({"between " + low + " and " + high}, {one, two}, "with balls"),
-        mill_.law_between(a, b),
-        a,
-        {effective, a.radius, b.radius},
+    const Bodies bodies{parts_of({"between " + low + " and " + high}, {one, two}, "with balls"),
+        mill_.law_between(a, b), a, {effective, a.radius, b.radius},
         1 + effective / (a.mass * a.reduced_inertia) + effective / (b.mass * b.reduced_inertia)};
     return measured_by(c, gravity_, bodies, [&](double, const auto& i, const auto& j) {
       const Vector apart = i.position - j.position, n = apart / norm(apart);
       return Surfaces(n, i.velocity - j.velocity - cross(i.spin * a.radius + j.spin * b.radius, n));
     });
   }
-
  private:
   /// Adds a group for each ball, if the case has no more than 40.
-  std::vector<std::string> parts_of(std::vector<std::string> parts, std::initializer_list<std::size_t> balls,
-                                    const char* where) const {
+  std::vector<std::string> parts_of(std::vector<std::string> parts,
+      std::initializer_list<std::size_t> balls, const char* where) const {
     constexpr std::size_t most = 40;
     for (const auto ball : balls)
       if (kinds_.size() <= most) parts.push_back(fmt::format("of ball {} {}", ball, where));
@@ -188,20 +189,22 @@ struct Value {
   double Measured::*vanishing = nullptr;  ///< the result is extrapolated linearly to 0 of this
 };
 
-const Value restitution{
-    "restitution", "(2.23')", 0.003, 0.1, 0, 0, &Measured::restitution, 0, &Measured::law_restitution};
-/// Of contacts that slide throughout. Loading the tangential spring counts by the inverse of the slip.
-const Value friction{
-    "friction",      "(2.24')", 0.01, 0, 0.1, 0, &Measured::friction, 0, &Measured::law_friction,
-    &Measured::wound};
-/// Of contacts whose slip friction stops. Tangential springs reverse it, with up to twice the impulse.
+const Value restitution{"restitution", "(2.23')", 0.003, 0.1, 0, 0, &Measured::restitution, 0,
+    &Measured::law_restitution};
+/// Of contacts that slide throughout. Loading the tangential spring counts by the inverse of the
+/// slip.
+const Value friction{"friction", "(2.24')", 0.01, 0, 0.1, 0, &Measured::friction, 0,
+    &Measured::law_friction, &Measured::wound};
+/// Of contacts whose slip friction stops. Tangential springs reverse it, with up to twice the
+/// impulse.
 const Value sticking{"stopping friction", "(2.24')", 1, 0, 0, 0, &Measured::stopping_friction, 1.5};
 /// In some codes the arm of the torque is shorter by the overlap.
-const Value spin_change{"spin change over the torque's", "(2.35)", 0.02, 0, 0.3, 1, &Measured::spin_change};
+const Value spin_change{
+    "spin change over the torque's", "(2.35)", 0.02, 0, 0.3, 1, &Measured::spin_change};
 const Value wall_velocity{"velocity", "(2.27)", 0.02, 0.2, 0, 0, &Measured::wall_velocity};
 
-/// Selects the contacts that determine a law best. It rejects gentle ones, and ones with strong forces or a
-/// rotating normal: gravity and the motion of the bodies change them too much.
+/// Selects the contacts that determine a law best. It rejects gentle ones, and ones with strong
+/// forces or a rotating normal: gravity and the motion of the bodies change them too much.
 class Clear {
  public:
   explicit Clear(const MeasuredList& list) {
@@ -215,9 +218,10 @@ class Clear {
   bool operator()(const Measured& s) const {
     return s.approach >= least_approach_ && disturbance(s) <= most_;
   }
-
  private:
-  static double disturbance(const Measured& s) { return std::max(std::abs(s.pressed) / 0.2, s.turned / 0.2); }
+  static double disturbance(const Measured& s) {
+    return std::max(std::abs(s.pressed) / 0.2, s.turned / 0.2);
+  }
 
   double least_approach_ = 0, most_ = 1;
 };
@@ -225,13 +229,14 @@ class Clear {
 /// Half of the interquartile range of the restitution that finite time steps may cause.
 constexpr double spread_allowed = 0.007;
 
-/// Judges a value by contacts, each with its own law, which may depend on speed or materials. The result has
-/// the median of the laws' values, and this plus the code's deviation.
+/// Judges a value by contacts, each with its own law, which may depend on speed or materials. The
+/// result has the median of the laws' values, and this plus the code's deviation.
 /// @param number  of values judged together, for the width of the interval
-Judged judged(const Value& value, const std::string& where, const MeasuredList& list, const Clear& is_clear,
-              double number, double all_dose) {
-  Judged j{
-      .name = fmt::format("{} {}", value.name, where), .equation = value.equation, .allowed = value.allowed};
+Judged judged(const Value& value, const std::string& where, const MeasuredList& list,
+    const Clear& is_clear, double number, double all_dose) {
+  Judged j{.name = fmt::format("{} {}", value.name, where),
+      .equation = value.equation,
+      .allowed = value.allowed};
   for (const auto& s : list)
     if (all_dose > 0 && s.*value.found) j.dose_share += std::abs(s.dose) / all_dose;
   const auto values = [&](const auto& of) {
@@ -246,7 +251,7 @@ Judged judged(const Value& value, const std::string& where, const MeasuredList& 
                             : median_of(off, number);
   j.expected = median(due);
   j.allowed += value.by_pressing * median([](const Measured& s) { return std::abs(s.pressed); }) +
-               value.by_turning * median(&Measured::turned) + value.by_depth * median(&Measured::depth);
+      value.by_turning * median(&Measured::turned) + value.by_depth * median(&Measured::depth);
   for (double* end : {&j.found.value, &j.found.low, &j.found.high}) *end += j.expected;
   return j;
 }
@@ -261,7 +266,8 @@ void judge_laws(const MeasuredList& list, Of of, ContactAudit& audit) {
   std::erase_if(parts, [&](const auto& part) { return part.second.size() == list.size(); });
   const Clear is_clear(list);
   const double dose = audit.magnitude, number = static_cast<double>(parts.size() + 2);
-  const auto add = [&](const Value& value, const std::string& at, const MeasuredList& some, double alike) {
+  const auto add = [&](const Value& value, const std::string& at, const MeasuredList& some,
+                       double alike) {
     auto result = judged(value, at, some, is_clear, alike, dose);
     result.of = of;
     result.is_part = alike > 1;
@@ -282,11 +288,11 @@ void judge_laws(const MeasuredList& list, Of of, ContactAudit& audit) {
   if (audit.judged.size() == first) return;
   const auto whole = audit.judged[first];  // the restitution of all
   audit.judged.push_back({.name = "spread of the " + whole.name,
-                          .equation = restitution.equation,
-                          .found = {whole.spread, whole.spread, whole.spread, whole.found.count},
-                          .allowed = spread_allowed + 3 * (whole.allowed - restitution.allowed),
-                          .dose_share = whole.dose_share,
-                          .of = of});
+      .equation = restitution.equation,
+      .found = {whole.spread, whole.spread, whole.spread, whole.found.count},
+      .allowed = spread_allowed + 3 * (whole.allowed - restitution.allowed),
+      .dose_share = whole.dose_share,
+      .of = of});
 }
 
 /// Excludes values from judgement that follow from others or have no meaning because of them.
@@ -297,13 +303,14 @@ void leave_out(ContactAudit& audit, const std::string& because, const auto& whic
 
 constexpr const char* follows_from_velocity = "it would follow from the velocity of the walls";
 
-/// Distinguishes a wrong wall velocity from a wrong restitution, which look alike: the one that explains more
-/// is judged, for all walls together and for each that differs by itself. A velocity that explains a wrong
-/// restitution is judged without a tolerance.
+/// Distinguishes a wrong wall velocity from a wrong restitution, which look alike: the one that
+/// explains more is judged, for all walls together and for each that differs by itself. A velocity
+/// that explains a wrong restitution is judged without a tolerance.
 void judge_wall_velocity(const MeasuredList& walls, ContactAudit& audit) {
   std::vector<std::string> parts{"at walls"};
   for (const auto& j : audit.judged)
-    if (j.name.starts_with("restitution at ") && j.is_part && !j.agrees()) parts.push_back(j.name.substr(12));
+    if (j.name.starts_with("restitution at ") && j.is_part && !j.agrees())
+      parts.push_back(j.name.substr(12));
   bool all_follow = false, some_follow = false;  // restitutions
   for (const auto& part : parts) {
     const bool all = &part == &parts[0];
@@ -312,21 +319,22 @@ void judge_wall_velocity(const MeasuredList& walls, ContactAudit& audit) {
       return all || std::count(s.parts.begin(), s.parts.end(), part) > 0;
     });
     const Clear is_clear(list);
-    auto velocity = judged(wall_velocity, all ? "of the walls over the case's" : "over the case's " + part,
-                           list, is_clear, static_cast<double>(parts.size()), audit.magnitude);
+    auto velocity =
+        judged(wall_velocity, all ? "of the walls over the case's" : "over the case's " + part,
+            list, is_clear, static_cast<double>(parts.size()), audit.magnitude);
     const auto e = std::find_if(audit.judged.begin(), audit.judged.end(),
-                                [&](const auto& j) { return j.name == "restitution " + part; });
+        [&](const auto& j) { return j.name == "restitution " + part; });
     if (!velocity.known() || e == audit.judged.end()) continue;
     const auto is_chosen = [&](const Measured& s) { return s.restitution && is_clear(s); };
-    const auto changes = values_of(
-        list, is_chosen, [](const Measured& s) { return (*s.restitution - s.law_restitution) * s.approach; });
+    const auto changes = values_of(list, is_chosen,
+        [](const Measured& s) { return (*s.restitution - s.law_restitution) * s.approach; });
     const auto left_by = [&](const auto& of) {
       return numerics::mean_left_by(values_of(list, is_chosen, of), changes);
     };
     const double margin = all ? 1 : 1.25;  // one wall has few contacts
-    const bool is_velocity =
-        margin * left_by([](const Measured& s) { return (1 + s.law_restitution) * s.wall_speed; }) <
-        left_by(&Measured::approach);
+    const bool is_velocity = margin * left_by([](const Measured& s) {
+      return (1 + s.law_restitution) * s.wall_speed;
+    }) < left_by(&Measured::approach);
     if (is_velocity && !e->agrees()) velocity.allowed = 0;
     if (!is_velocity && !(velocity.agrees() && e->agrees()))
       velocity.not_judged = "it would follow from the restitution";
@@ -340,7 +348,8 @@ void judge_wall_velocity(const MeasuredList& walls, ContactAudit& audit) {
   leave_out(audit, follows_from_velocity, [=](const Judged& j) {
     const bool at_wall = j.is_part && j.name.starts_with("restitution at ");
     return j.of == Of::walls &&
-           ((all_follow && j.equation != spin_change.equation && j.equation != wall_velocity.equation) ||
+        ((all_follow && j.equation != spin_change.equation &&
+             j.equation != wall_velocity.equation) ||
             (some_follow && j.equation == restitution.equation && !at_wall));
   });
 }
@@ -352,25 +361,25 @@ void judge_facts(const Mill& mill, ContactAudit& audit) {
   const auto add = [&](const std::string& name, double found, double half_width, double expected,
                        double allowed, Of of = Of::log, const char* unit = "") {
     audit.judged.push_back({.name = name,
-                            .unit = unit,
-                            .found = {found, found - half_width, found + half_width, Median::least},
-                            .expected = expected,
-                            .allowed = allowed,
-                            .of = of});
+        .unit = unit,
+        .found = {found, found - half_width, found + half_width, Median::least},
+        .expected = expected,
+        .allowed = allowed,
+        .of = of});
   };
   for (Eigen::Index k = 0; k < 3; ++k)
     add(fmt::format("gravity along {}", "XYZ"[k]), facts.statistics.gravity[k],
-        facts.statistics.gravity_half_width[k], mill.gravity[k], 1e-3 * norm(mill.gravity) + 1e-3, Of::log,
-        "m/s^2");
+        facts.statistics.gravity_half_width[k], mill.gravity[k], 1e-3 * norm(mill.gravity) + 1e-3,
+        Of::log, "m/s^2");
   const double size = facts.radius_factor > 0 ? facts.radius_factor : 1;
   add("density over the case's", facts.mass_factor / (size * size * size), 0, 1, 1e-6);
   add("diameter over the case's", facts.radius_factor, 0, 1, 1e-6);
   leave_out(audit, "the dump does not have it",
-            [](const Judged& j) { return j.name.ends_with("the case's") && j.found.value == 0; });
+      [](const Judged& j) { return j.name.ends_with("the case's") && j.found.value == 0; });
   // A ball that leaves its flight must have met a wall or ball, as far as the frames resolve it.
   if (const double all = facts.dose(); all > 0)
-    add(unexplained_dose, facts.doses[static_cast<std::size_t>(ContactClass::unexplained)] / all, 0, 0, 0.01,
-        Of::walls);
+    add(unexplained_dose, facts.doses[static_cast<std::size_t>(ContactClass::unexplained)] / all, 0,
+        0, 0.01, Of::walls);
   if (const double factor = facts.statistics.way_factor; factor != 0)  // balls move
     add("displacements over those by velocities", factor, 0, 1, 0.01);
   const auto none = [&](const char* name, std::uint64_t found, Of of) {
@@ -405,11 +414,11 @@ std::vector<SlipBin> slips_of(const MeasuredList& walls, const MeasuredList& bal
 
 bool ContactAudit::wall_velocity_differs() const {
   return std::any_of(judged.begin(), judged.end(),
-                     [](const Judged& j) { return j.equation == wall_velocity.equation && !j.agrees(); });
+      [](const Judged& j) { return j.equation == wall_velocity.equation && !j.agrees(); });
 }
 
-ContactAudit audit_contacts(const CaseSpec& spec, const std::string& file,
-                            const std::atomic<bool>* interrupt) {
+ContactAudit audit_contacts(
+    const CaseSpec& spec, const std::string& file, const std::atomic<bool>* interrupt) {
   ContactLogReader log(file);
   const auto built = casefile::build_case<double>(spec);
   const auto& mill = built.the_case.mill;
@@ -428,9 +437,8 @@ ContactAudit audit_contacts(const CaseSpec& spec, const std::string& file,
     const auto& c = *contact;
     const int balls_of_case = static_cast<int>(vessel.ball_count());
     if (c.ball >= balls_of_case || c.partner >= (c.bodies == 1 ? vessel.walls() : balls_of_case))
-      throw InputError(fmt::format("{}: found ball {} with {} {}, expected {} balls and {} walls", file,
-                                   c.ball, c.bodies == 1 ? "wall" : "ball", c.partner, balls_of_case,
-                                   vessel.walls()));
+      throw InputError(fmt::format("{}: found ball {} with {} {}, expected {} balls and {} walls",
+          file, c.ball, c.bodies == 1 ? "wall" : "ball", c.partner, balls_of_case, vessel.walls()));
     ++audit.counts[static_cast<std::size_t>(c.kind)];
     rate.add((c.begin + c.end) / 2, c.dose);
     audit.magnitude += std::abs(c.dose);
@@ -445,10 +453,10 @@ ContactAudit audit_contacts(const CaseSpec& spec, const std::string& file,
   // Unexplained contacts that overlap in time are of balls that collided.
   std::erase_if(at_walls, [all = at_walls](const Contact& c) {
     return c.kind == ContactClass::unexplained &&
-           std::any_of(all.begin(), all.end(), [&](const Contact& other) {
-             return other.ball != c.ball && other.kind == c.kind && other.free_until < c.free_from &&
-                    c.free_until < other.free_from;
-           });
+        std::any_of(all.begin(), all.end(), [&](const Contact& other) {
+          return other.ball != c.ball && other.kind == c.kind && other.free_until < c.free_from &&
+              c.free_until < other.free_from;
+        });
   });
   audit.dose_rate = *rate.estimate().mean;
   audit.dose_rate_half_width = *rate.estimate().half_width;
@@ -460,7 +468,7 @@ ContactAudit audit_contacts(const CaseSpec& spec, const std::string& file,
           return j.of == of && j.equation == spin_change.equation && !j.agrees();
         }))
       leave_out(audit, "the spins differ",
-                [=](const Judged& j) { return j.of == of && j.equation == friction.equation; });
+          [=](const Judged& j) { return j.of == of && j.equation == friction.equation; });
   judge_facts(mill, audit);
   audit.slips = slips_of(walls, balls);
   // Balls of another size meet the walls elsewhere.
@@ -469,17 +477,21 @@ ContactAudit audit_contacts(const CaseSpec& spec, const std::string& file,
   if (!is_other_size) judge_places(spec, at_walls, interrupt, audit);
   if (const bool jumps = audit.jumps() > 0; jumps || audit.wall_velocity_differs())
     leave_out(audit, jumps ? "balls jump" : follows_from_velocity,
-              [](const Judged& j) { return j.name == unexplained_dose; });
+        [](const Judged& j) { return j.name == unexplained_dose; });
   if (is_other_size || (!audit.causes.empty() && audit.causes[0].key.starts_with("ball")))
     leave_out(audit, "the balls have another size", [](auto& j) { return j.of != Of::log; });
   else if (!audit.walls_met())
     leave_out(audit, "the walls are elsewhere", [](auto& j) { return j.of == Of::walls; });
-  const auto is_known = [](const Judged& j) { return j.equation == restitution.equation && j.known(); };
-  if (!std::all_of(audit.judged.begin(), audit.judged.end(), [](const auto& j) { return j.agrees(); }) ||
+  const auto is_known = [](const Judged& j) {
+    return j.equation == restitution.equation && j.known();
+  };
+  if (!std::all_of(
+          audit.judged.begin(), audit.judged.end(), [](const auto& j) { return j.agrees(); }) ||
       !audit.walls_met())
     audit.verdict = Verdict::differ;
   else if (!audit.interrupted && std::any_of(audit.judged.begin(), audit.judged.end(), is_known) &&
-           std::none_of(audit.judged.begin(), audit.judged.end(), [](const auto& j) { return j.is_open(); }))
+      std::none_of(
+          audit.judged.begin(), audit.judged.end(), [](const auto& j) { return j.is_open(); }))
     audit.verdict = Verdict::agree;
   return audit;
 }

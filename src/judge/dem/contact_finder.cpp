@@ -21,7 +21,8 @@ constexpr int tried = 32;
 
 /// Change of a ball's velocity between two frames, without that by gravity [m/s].
 double change_of(const Frame& from, const Frame& to, std::size_t ball, const Vector& gravity) {
-  return norm(Vector(to.balls[ball].velocity - from.balls[ball].velocity - gravity * (to.time - from.time)));
+  return norm(Vector(
+      to.balls[ball].velocity - from.balls[ball].velocity - gravity * (to.time - from.time)));
 }
 
 /// Time at which a gap first falls to zero, or last rises from it; nothing if it does not.
@@ -44,9 +45,9 @@ std::optional<double> crossing(const auto& gap, double low, double high, bool fa
   return one == other ? low : low + (high - low) * one / (one - other);
 }
 
-/// Gravity is the median acceleration: balls fly freely most of the time. Longer spans reduce the effect of
-/// rounding, until most contain contacts; the span with the least scatter is used. The interval includes the
-/// scatter of a single value, because rounding errors do not average out.
+/// Gravity is the median acceleration: balls fly freely most of the time. Longer spans reduce the
+/// effect of rounding, until most contain contacts; the span with the least scatter is used. The
+/// interval includes the scatter of a single value, because rounding errors do not average out.
 void set_gravity(const std::vector<Frame>& frames, FrameStatistics& s) {
   double least = std::numeric_limits<double>::infinity();
   for (const std::size_t span : {1u, 10u, 100u}) {
@@ -63,7 +64,8 @@ void set_gravity(const std::vector<Frame>& frames, FrameStatistics& s) {
       gravity[axis] = numerics::median_of(accelerations).value;
       for (const double value : accelerations) off.push_back(std::abs(value - gravity[axis]));
       const double one = 1.4826 * numerics::median_of(std::move(off)).value;
-      half_width[axis] = one + 1.96 * 1.2533 * one / std::sqrt(static_cast<double>(accelerations.size()));
+      half_width[axis] =
+          one + 1.96 * 1.2533 * one / std::sqrt(static_cast<double>(accelerations.size()));
       scatter = std::max(scatter, one);
     }
     if (scatter >= least) continue;
@@ -80,7 +82,8 @@ FrameStatistics statistics_of(const std::vector<Frame>& frames, const Vector& ex
   FrameStatistics s;
   const std::size_t balls = frames[0].balls.size();
   std::vector<double> intervals;
-  for (std::size_t k = 1; k < frames.size(); ++k) intervals.push_back(frames[k].time - frames[k - 1].time);
+  for (std::size_t k = 1; k < frames.size(); ++k)
+    intervals.push_back(frames[k].time - frames[k - 1].time);
   s.interval = numerics::median_of(intervals).value;
   set_gravity(frames, s);
   const Vector off = (s.gravity - expected_gravity).cwiseAbs(), known_to = 3 * s.gravity_half_width;
@@ -114,7 +117,8 @@ FrameStatistics statistics_of(const std::vector<Frame>& frames, const Vector& ex
 }
 
 ContactFinder::ContactFinder(const MovingVessel& vessel, const FrameStatistics& frames, Found found)
-    : vessel_(vessel), frames_(frames), found_(std::move(found)), open_of_(vessel.ball_count(), -1) {
+    : vessel_(vessel), frames_(frames), found_(std::move(found)),
+      open_of_(vessel.ball_count(), -1) {
   for (std::size_t ball = 0; ball < vessel.ball_count(); ++ball)
     largest_radius_ = std::max(largest_radius_, vessel.ball(ball).radius);
 }
@@ -159,13 +163,13 @@ void ContactFinder::find_jumps() {
     const double fastest = norm(a.velocity) + norm(b.velocity);
     if (way <= fastest * dt + vessel_.ball(ball).radius / 10) continue;
     found_({.kind = Class::jump,
-            .begin = from.time,
-            .end = to.time,
-            .free_until = from.time,
-            .free_from = to.time,
-            .ball = static_cast<int>(ball),
-            .before = a,
-            .after = b});
+        .begin = from.time,
+        .end = to.time,
+        .free_until = from.time,
+        .free_from = to.time,
+        .ball = static_cast<int>(ball),
+        .before = a,
+        .after = b});
   }
 }
 
@@ -189,7 +193,7 @@ void ContactFinder::watch_overlaps(const std::vector<bool>& flies) {
   std::vector<int> order(open_of_.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
-            [&](int a, int b) { return now.balls[a].position[0] < now.balls[b].position[0]; });
+      [&](int a, int b) { return now.balls[a].position[0] < now.balls[b].position[0]; });
   for (auto one = order.begin(); one != order.end(); ++one)
     for (auto two = std::next(one); two != order.end(); ++two) {
       const Vector apart = now.balls[*two].position - now.balls[*one].position;
@@ -205,9 +209,9 @@ void ContactFinder::watch_overlaps(const std::vector<bool>& flies) {
   overlaps_ = std::move(present);
 }
 
-/// Reports an overlap that was not a contact: a contact changes the velocities of both balls, and its depth
-/// is less than a third of its duration times the approach speed. Overlaps below a thousandth of the radius
-/// may be noise. A ball whose centre is outside is always reported.
+/// Reports an overlap that was not a contact: a contact changes the velocities of both balls, and
+/// its depth is less than a third of its duration times the approach speed. Overlaps below a
+/// thousandth of the radius may be noise. A ball whose centre is outside is always reported.
 void ContactFinder::end_overlap(const BodyPair& bodies, const Overlap& overlap) {
   const double radius = vessel_.ball(bodies[0]).radius;
   const double most = std::clamp(overlap.growth * frames_.contact_time, 1e-3 * radius, radius / 5);
@@ -328,7 +332,8 @@ double ContactFinder::balance(std::size_t frame, std::size_t ball, const States&
   double lost = vessel_.energy(pose, frame, ball, states.front().second);
   for (std::size_t k = 1; k < states.size(); ++k) {
     const auto next = vessel_.at(states[k].first);
-    lost += vessel_.work(pose, states[k - 1].second, next, states[k].second, frame, ball, frames_.gravity);
+    lost += vessel_.work(
+        pose, states[k - 1].second, next, states[k].second, frame, ball, frames_.gravity);
     pose = next;
   }
   return lost - vessel_.energy(pose, frame, ball, states.back().second);
@@ -345,8 +350,8 @@ double ContactFinder::dose_of(const Group& group) const {
     met[k].erase(std::unique(met[k].begin(), met[k].end()), met[k].end());
     for (const int wall : met[k]) touched.push_back(vessel_.frame_of(wall));
   }
-  const bool alike =
-      std::count(touched.begin(), touched.end(), touched.empty() ? 0 : touched[0]) == std::ssize(touched);
+  const bool alike = std::count(touched.begin(), touched.end(), touched.empty() ? 0 : touched[0]) ==
+      std::ssize(touched);
   double dose = 0;
   for (std::size_t k = 0; k < group.size(); ++k) {
     const auto& s = group[k];
@@ -377,7 +382,7 @@ double ContactFinder::work_of_bodies(const Stretch& s, const std::vector<int>& w
     for (std::size_t w = 0; w < walls.size(); ++w) {
       const Vector n = normals.col(w);
       const Vector faster = vessel_.wall_velocity(pose, walls[w], ball.position) -
-                            vessel_.wall_velocity(pose, 0, ball.position);
+          vessel_.wall_velocity(pose, 0, ball.position);
       work += std::max(0.0, parts[w]) * dot(n, faster);
     }
   }
@@ -443,8 +448,9 @@ void ContactFinder::report(Group group) {
   if (at_end_ && !lasts) return;
   const auto impulse = [&](const Stretch& s) {
     const double dt = frame(s.last).time - frame(s.first).time;
-    return Vector(vessel_.ball(s.ball).mass * (frame(s.last).balls[s.ball].velocity -
-                                               frame(s.first).balls[s.ball].velocity - frames_.gravity * dt));
+    return Vector(vessel_.ball(s.ball).mass *
+        (frame(s.last).balls[s.ball].velocity - frame(s.first).balls[s.ball].velocity -
+            frames_.gravity * dt));
   };
   if (group.size() == 1) {
     const auto met = walls_met(group[0]);
@@ -462,7 +468,8 @@ void ContactFinder::report(Group group) {
   } else if (group.size() == 2) {
     const auto &a = group[0], &b = group[1];
     const Vector of_a = impulse(a), of_b = impulse(b);
-    const bool alone = a.first == b.first && a.last == b.last && norm(of_a + of_b) < 0.01 * norm(of_a);
+    const bool alone =
+        a.first == b.first && a.last == b.last && norm(of_a + of_b) < 0.01 * norm(of_a);
     if (alone) contact.partner = static_cast<int>(b.ball);
     if (alone && lasts) contact.kind = Class::lasting;
     if (alone && !lasts && make_single(group, -1, contact)) contact.kind = Class::pair;

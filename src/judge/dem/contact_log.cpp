@@ -31,11 +31,12 @@ std::string header() {
   return text;
 }
 
-auto states_of(auto& c) { return std::array{&c.before, &c.after, &c.partner_before, &c.partner_after}; }
+auto states_of(auto& c) {
+  return std::array{&c.before, &c.after, &c.partner_before, &c.partner_after};
+}
 auto vectors_of(auto& state) { return std::array{&state.position, &state.velocity, &state.spin}; }
 
-template <class T>
-constexpr bool is_list = requires(T value) {
+template <class T> constexpr bool is_list = requires(T value) {
   requires std::is_same_v < std::decay_t<decltype(value[0])>,
   double > ;
 };
@@ -49,7 +50,7 @@ ContactLogFacts read_facts(const std::string& file) {
   std::string line;
   if (!std::getline(in, line) || !line.starts_with(first_line))
     throw InputError(fmt::format("{}:1: found {}, expected '{}': run edmill import again", file,
-                                 io::in_quotes(line), first_line));
+        io::in_quotes(line), first_line));
   ContactLogFacts facts;
   std::getline(in, line);
   try {
@@ -62,18 +63,19 @@ ContactLogFacts read_facts(const std::string& file) {
       else if constexpr (std::is_integral_v<std::decay_t<decltype(value)>>) {
         const double count = found.template get<double>(), most = sizeof(value) > 4 ? 1e18 : 1e6;
         if (!(count >= 0 && count <= most && count == std::floor(count)))
-          throw InputError(
-              fmt::format("{}:2: {}: found {}, expected a whole number up to {:g}", file, name, count, most));
+          throw InputError(fmt::format(
+              "{}:2: {}: found {}, expected a whole number up to {:g}", file, name, count, most));
         value = static_cast<std::decay_t<decltype(value)>>(count);
       } else
         found.get_to(value);
     });
   } catch (const nlohmann::json::exception&) {
-    throw InputError(fmt::format("{}:2: found {}, expected the header that `edmill import` writes", file,
-                                 io::in_quotes(line)));
+    throw InputError(fmt::format("{}:2: found {}, expected the header that `edmill import` writes",
+        file, io::in_quotes(line)));
   }
   if (facts.facets == 1 || facts.facets == 2)
-    throw InputError(fmt::format("{}:2: facets: found {}, expected 0, or 3 or more", file, facts.facets));
+    throw InputError(
+        fmt::format("{}:2: facets: found {}, expected 0, or 3 or more", file, facts.facets));
   return facts;
 }
 
@@ -86,25 +88,27 @@ std::string class_table(const ByClass<double>& doses, const ByClass<std::uint64_
   const double all = std::accumulate(doses.begin(), doses.end(), 0.0);
   for (std::size_t k = 0; k < doses.size(); ++k)
     out += fmt::format("  {:<14}{:>10}{:>12.2f}%\n", contact_class_names[k], counts[k],
-                       all != 0 ? 100 * doses[k] / all : 0);
+        all != 0 ? 100 * doses[k] / all : 0);
   return out;
 }
 
 ContactLogWriter::ContactLogWriter() : rows_(std::tmpfile(), std::fclose) {
   if (!rows_)
-    throw InputError("a temporary file could not be created: make room in the folder for temporary files");
+    throw InputError(
+        "a temporary file could not be created: make room in the folder for temporary files");
 }
 
 void ContactLogWriter::add(const Contact& c) {
   const bool single = c.kind != ContactClass::several;
   const bool wall = single && c.bodies == 1 && c.partner >= 0, pair = single && c.bodies == 2;
   const char* const partner_kind = wall ? "wall" : pair ? "ball" : "";
-  std::string line = fmt::format("{},{},{},{},{},{},{},{},{},{}", c.begin, c.end, name_of(c.kind), c.ball,
-                                 partner_kind, c.partner >= 0 ? std::to_string(c.partner) : "", c.bodies,
-                                 c.free_until, c.free_from, c.dose);
+  std::string line = fmt::format("{},{},{},{},{},{},{},{},{},{}", c.begin, c.end, name_of(c.kind),
+      c.ball, partner_kind, c.partner >= 0 ? std::to_string(c.partner) : "", c.bodies, c.free_until,
+      c.free_from, c.dose);
   for (const auto* state : states_of(c)) {
     const bool given = c.kind == ContactClass::pair || state == &c.before || state == &c.after;
-    for (const auto* v : vectors_of(*state)) line += given ? fmt::format(",{}", fmt::join(*v, ",")) : ",,,";
+    for (const auto* v : vectors_of(*state))
+      line += given ? fmt::format(",{}", fmt::join(*v, ",")) : ",,,";
   }
   line += '\n';
   check_temporary_file(std::fwrite(line.data(), 1, line.size(), rows_.get()) == line.size());
@@ -139,7 +143,8 @@ bool is_contact_log(const std::string& file) {
 ContactLogReader::ContactLogReader(const std::string& file)
     : facts_(read_facts(file)), csv_(file, "a log of contacts") {
   if (fmt::format("{}", fmt::join(csv_.header(), ",")) != header())
-    throw InputError(fmt::format("{}:{}: found other columns, expected {}", file, csv_.line(), header()));
+    throw InputError(
+        fmt::format("{}:{}: found other columns, expected {}", file, csv_.line(), header()));
 }
 
 std::optional<Contact> ContactLogReader::next() {
@@ -154,7 +159,7 @@ std::optional<Contact> ContactLogReader::parse() {
   Contact c;
   bool good = true;
   for (const auto& [column, value] :
-       {std::pair(0, &c.begin), {1, &c.end}, {7, &c.free_until}, {8, &c.free_from}, {9, &c.dose}})
+      {std::pair(0, &c.begin), {1, &c.end}, {7, &c.free_until}, {8, &c.free_from}, {9, &c.dose}})
     if (const auto number = csv_.finite(static_cast<std::size_t>(column)))
       *value = *number;
     else

@@ -18,13 +18,14 @@ struct Window {
 
 /// Rates of a record within a window. @param what  "contacts" or "impacts"
 ContactRates rates_of(const std::string& log, const char* what, double first, double last,
-                      const Window& window, const auto& next) {
-  ContactRates r{.log = log, .first = std::max(first, window.from), .last = std::min(last, window.until)};
+    const Window& window, const auto& next) {
+  ContactRates r{
+      .log = log, .first = std::max(first, window.from), .last = std::min(last, window.until)};
   if (window.compared && !(r.last > r.first))
     throw InputError(fmt::format("{}: no {} in the time that is compared", log, what));
   if (!window.compared && !(r.last > window.from))
-    throw InputError(fmt::format("{}: found a record that ends at {} s, expected one beyond {} s", log,
-                                 r.last, window.from));
+    throw InputError(fmt::format("{}: found a record that ends at {} s, expected one beyond {} s",
+        log, r.last, window.from));
   DoseRate rate(r.first, r.last);
   std::vector<double> durations;
   double all = 0, grouped = 0;
@@ -41,8 +42,8 @@ ContactRates rates_of(const std::string& log, const char* what, double first, do
     if (c->kind == ContactClass::wall) durations.push_back(c->end - c->begin);
   }
   if (!window.compared && durations.size() < 20)
-    throw InputError(
-        fmt::format("{}: found {} single {} with walls, expected at least 20", log, durations.size(), what));
+    throw InputError(fmt::format(
+        "{}: found {} single {} with walls, expected at least 20", log, durations.size(), what));
   const auto estimate = rate.estimate();
   r.dose_rate = *estimate.mean;
   r.half_width = *estimate.half_width;
@@ -52,31 +53,31 @@ ContactRates rates_of(const std::string& log, const char* what, double first, do
   return r;
 }
 
-/// @param transient  time at which the statistics of the run it is compared with begin; earlier contacts are
-/// left out if the log is at least twice as long [s]
+/// @param transient  time at which the statistics of the run it is compared with begin; earlier
+/// contacts are left out if the log is at least twice as long [s]
 ContactRates rates_of_contacts(const std::string& file, const Window& window, double transient) {
   ContactLogReader log(file);
   const double first = log.facts().first, last = log.facts().last;
-  return rates_of(file, "contacts", last < 2 * transient ? first : std::max(first, transient), last, window,
-                  [&] { return log.next(); });
+  return rates_of(file, "contacts", last < 2 * transient ? first : std::max(first, transient), last,
+      window, [&] { return log.next(); });
 }
 
 ContactRates rates_of_impacts(const std::string& place, const Window& window) {
   const auto scan = logs::scan_log(place);
   if (!scan.has[model::milling_dose])
-    throw InputError(
-        scan.file + ": no column milling_dose: " +
+    throw InputError(scan.file + ": no column milling_dose: " +
         (window.compared ? "the dose rates cannot be compared" : "give a collision log of edmill"));
   logs::EventLog log(place);
-  return rates_of(place, "impacts", scan.statistics_start.value_or(scan.first), scan.last, window, [&] {
-    std::optional<Contact> contact;
-    if (const auto event = log.next())
-      contact = {.kind = event->with_wall ? ContactClass::wall : ContactClass::pair,
-                 .begin = event->time,
-                 .end = event->time,
-                 .dose = event->milling_dose};
-    return contact;
-  });
+  return rates_of(
+      place, "impacts", scan.statistics_start.value_or(scan.first), scan.last, window, [&] {
+        std::optional<Contact> contact;
+        if (const auto event = log.next())
+          contact = {.kind = event->with_wall ? ContactClass::wall : ContactClass::pair,
+              .begin = event->time,
+              .end = event->time,
+              .dose = event->milling_dose};
+        return contact;
+      });
 }
 
 std::string sentence(const ContactComparison& c) {
@@ -95,9 +96,8 @@ std::string verdict_of(const ContactComparison& c) {
   if (c.verdict == Verdict::differ)
     return "the dose rates differ" + (c.within ? " by more than" + bound.substr(7) : "");
   return fmt::format("too few data: the ratio is known to ± {:.2g} %, {}", 100 * c.half_width,
-                     c.within
-                         ? "which leaves open whether it is" + bound
-                         : fmt::format("± {:g} % are needed; --within sets another bound", 100 * widest));
+      c.within ? "which leaves open whether it is" + bound
+               : fmt::format("± {:g} % are needed; --within sets another bound", 100 * widest));
 }
 
 void judge(ContactComparison& c) {
@@ -107,7 +107,7 @@ void judge(ContactComparison& c) {
   const double off = std::abs(c.ratio - 1);
   const bool agrees = c.within ? off + c.half_width <= *c.within : c.half_width <= widest;
   c.verdict = off - c.half_width > c.within.value_or(0) ? Verdict::differ
-              : agrees                                  ? Verdict::agree
+      : agrees                                          ? Verdict::agree
                                                         : Verdict::too_few;
 }
 
@@ -124,13 +124,13 @@ struct ComparisonFields {
     v("half_width", "1", "half-width of its 95 % interval", c.half_width);
     if (v.has(c.within.has_value())) v("within", "1", "largest difference that agrees", c.within);
   }
-
  private:
   static void rates(auto& v, const ContactRates& r) {
     v("log", "", "", r.log);
     v("from", "s", "", r.first);
     v("until", "s", "", r.last);
-    v("contact_time", "s", "median duration of single contacts with walls; 0 for impacts", r.contact_time);
+    v("contact_time", "s", "median duration of single contacts with walls; 0 for impacts",
+        r.contact_time);
     v("single_rate", "1/s", "rate of single contacts", r.single_rate);
     v("grouped_dose_share", "1", "share of the dose in groups and lasting contacts", r.grouped);
     v("milling_dose_rate", "W", "dose rate by the balance of energy", r.dose_rate);
@@ -166,7 +166,8 @@ struct LimitFields {
 ContactComparison compare_contacts(const compare::ComparisonOptions& options) {
   const auto a = options.a.string(), b = options.b.string();
   ContactComparison c{.within = options.within};
-  const Window window{options.limits.from.value_or(0), options.limits.until.value_or(INFINITY), true};
+  const Window window{
+      options.limits.from.value_or(0), options.limits.until.value_or(INFINITY), true};
   c.a = is_contact_log(a) ? rates_of_contacts(a, window, 0) : rates_of_impacts(a, window);
   c.b = is_contact_log(b) ? rates_of_contacts(b, window, is_contact_log(a) ? 0 : c.a.first)
                           : rates_of_impacts(b, window);
@@ -182,16 +183,19 @@ std::string table(const ContactComparison& c) {
   row("time [s]", [](auto& r) { return fmt::format("{:g} to {:g}", r.first, r.last); });
   row("a contact lasts [s]", [](auto& r) { return fmt::format("{:.3g}", r.contact_time); });
   row("single contacts per second", [](auto& r) { return fmt::format("{:.5g}", r.single_rate); });
-  row("dose in groups and lasting ones", [](auto& r) { return fmt::format("{:.2f} %", 100 * r.grouped); });
+  row("dose in groups and lasting ones",
+      [](auto& r) { return fmt::format("{:.2f} %", 100 * r.grouped); });
   row("dose rate [W]", [](auto& r) { return with_interval(r.dose_rate, r.half_width); });
   out += fmt::format("\n  {}\n", sentence(c));
   if (c.b.contact_time > 0)
     out +=
-        "  contacts that last do not have the dose rate of impacts exactly; `edmill limit` takes their "
+        "  contacts that last do not have the dose rate of impacts exactly; `edmill limit` takes "
+        "their "
         "duration to zero\n";
   const bool has_dose = c.a.dose_rate > 0 && c.b.dose_rate > 0;
   return out +
-         fmt::format("\n  verdict: {}\n", has_dose ? verdict_of(c) : "too few data: a record has no dose");
+      fmt::format(
+          "\n  verdict: {}\n", has_dose ? verdict_of(c) : "too few data: a record has no dose");
 }
 
 std::string to_json(const ContactComparison& c) { return io::JsonFields::of(ComparisonFields{c}); }
@@ -200,24 +204,26 @@ std::string contact_comparison_keys() { return io::KeyTable::of(ComparisonFields
 
 std::string to_junit(const ContactComparison& c) {
   return compare::junit_text("edmill compare",
-                             {{.name = "dose rate",
-                               .problem = c.verdict == Verdict::differ ? sentence(c) : "",
-                               .not_judged = c.verdict == Verdict::too_few ? sentence(c) : ""}});
+      {{.name = "dose rate",
+          .problem = c.verdict == Verdict::differ ? sentence(c) : "",
+          .not_judged = c.verdict == Verdict::too_few ? sentence(c) : ""}});
 }
 
 Limit limit_of(const std::vector<std::string>& logs, const std::string& run, double from,
-               std::optional<double> within) {
+    std::optional<double> within) {
   Limit limit;
   for (const auto& log : logs) limit.points.push_back(rates_of_contacts(log, {from}, -INFINITY));
   std::sort(limit.points.begin(), limit.points.end(),
-            [](auto& a, auto& b) { return a.contact_time > b.contact_time; });
+      [](auto& a, auto& b) { return a.contact_time > b.contact_time; });
   numerics::Line line;
-  for (const auto& p : limit.points) line.add(p.contact_time, p.dose_rate, 1 / (p.half_width * p.half_width));
+  for (const auto& p : limit.points)
+    line.add(p.contact_time, p.dose_rate, 1 / (p.half_width * p.half_width));
   const double least = limit.points.back().contact_time, most = limit.points.front().contact_time;
   if (!(most > 1.2 * least))
-    throw InputError(fmt::format(
-        "found contacts of {:.3g} s to {:.3g} s, expected durations that differ by more than a fifth", least,
-        most));
+    throw InputError(
+        fmt::format("found contacts of {:.3g} s to {:.3g} s, expected durations that differ by "
+                    "more than a fifth",
+            least, most));
   limit.slope = line.slope();
   limit.at_zero.dose_rate = line.value();
   limit.at_zero.half_width = line.deviation();
@@ -237,8 +243,8 @@ std::string table(const Limit& limit) {
   row("0", limit.at_zero);
   if (const auto& c = limit.to_edmill) {
     row("0", c->a);
-    out += fmt::format("\n  limit over edmill: {}\n\n  verdict: {}\n", with_interval(c->ratio, c->half_width),
-                       verdict_of(*c));
+    out += fmt::format("\n  limit over edmill: {}\n\n  verdict: {}\n",
+        with_interval(c->ratio, c->half_width), verdict_of(*c));
   }
   return out;
 }

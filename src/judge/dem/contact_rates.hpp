@@ -19,15 +19,16 @@ class DoseRate {
   static constexpr std::size_t batches = 64;
 
   /// @param first, last  of the record [s]
-  DoseRate(double first, double last) : first_(first), length_((last - first) / batches), rates_(batches) {}
+  DoseRate(double first, double last)
+      : first_(first), length_((last - first) / batches), rates_(batches) {}
 
   void add(double time, double dose) {
     const double place = (time - first_) / length_;
-    if (place >= 0) rates_[static_cast<std::size_t>(std::min(place, batches - 1.0))] += dose / length_;
+    if (place >= 0)
+      rates_[static_cast<std::size_t>(std::min(place, batches - 1.0))] += dose / length_;
   }
   /// [W]
   numerics::Estimate estimate() const { return numerics::series_estimate(rates_); }
-
  private:
   double first_, length_;
   std::vector<double> rates_;
@@ -46,8 +47,8 @@ struct ContactComparison {
   ContactRates a = {}, b = {};
   std::optional<double> within = {};  ///< largest allowed |ratio - 1|, if required
   double ratio = 1, half_width = 0;   ///< of B's dose rate over A's
-  /// With `within`, the ratio agrees if its interval lies inside the allowed range and differs if outside.
-  /// Without it, it agrees if its interval contains 1 and its half-width is at most 5 %.
+  /// With `within`, the ratio agrees if its interval lies inside the allowed range and differs if
+  /// outside. Without it, it agrees if its interval contains 1 and its half-width is at most 5 %.
   Verdict verdict = Verdict::too_few;
 };
 
@@ -73,7 +74,7 @@ struct Limit {
 /// @param within  largest difference of the limit from that run, relative
 /// @throws InputError when a log cannot be read, or contact times do not differ
 Limit limit_of(const std::vector<std::string>& logs, const std::string& run, double from,
-               std::optional<double> within = {});
+    std::optional<double> within = {});
 
 std::string table(const Limit& limit);
 std::string to_json(const Limit& limit);
@@ -125,7 +126,7 @@ struct ContactAudit {
   std::uint64_t missed_at_walls = 0, missed_between_balls = 0;
   std::vector<Judged> judged;
   std::vector<SlipBin> slips;
-  double wall_distance = 0;    ///< median from the case's walls to where balls left their flights [m]
+  double wall_distance = 0;  ///< median from the case's walls to where balls left their flights [m]
   double wall_resolution = 0;  ///< resolution of that distance by the frames [m]
   std::vector<GeometryCause> causes;
   double dose_rate = 0, dose_rate_half_width = 0;  ///< [W]
@@ -137,16 +138,17 @@ struct ContactAudit {
 };
 
 /// @throws InputError when the log cannot be read or is of other balls
-ContactAudit audit_contacts(const CaseSpec& spec, const std::string& log, const std::atomic<bool>* interrupt);
+ContactAudit audit_contacts(
+    const CaseSpec& spec, const std::string& log, const std::atomic<bool>* interrupt);
 
 std::string table(const ContactAudit& audit);
 std::string to_json(const ContactAudit& audit);
 std::string contact_audit_keys();
 std::string to_junit(const ContactAudit& audit);
 
-/// Finds how far from the walls balls leave their flights, and the numbers with which it vanishes. @param
-/// contacts of single balls
+/// Finds how far from the walls balls leave their flights, and the numbers with which it vanishes.
+/// @param contacts of single balls
 void judge_places(const CaseSpec& spec, const std::vector<Contact>& contacts,
-                  const std::atomic<bool>* interrupt, ContactAudit& audit);
+    const std::atomic<bool>* interrupt, ContactAudit& audit);
 
 }  // namespace edmill::dem

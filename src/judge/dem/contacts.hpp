@@ -1,5 +1,5 @@
-// Frames of DEM codes, contacts of finite duration between those in which balls fly freely, and their logs,
-// which `edmill import` writes and `audit`, `compare` and `limit` read. docs/dem.md
+// Frames of DEM codes, contacts of finite duration between those in which balls fly freely, and
+// their logs, which `edmill import` writes and `audit`, `compare` and `limit` read. docs/dem.md
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ inline double norm(const Vector& a) { return edmill::norm<double>(a); }
 /// Facts about a dump that may be missing from the file.
 struct DumpFormat {
   std::optional<double> time_step;  ///< [s]; of files without times
-  std::string units = "si";         ///< "si", "cgs", "mm", "micro" or "nano"; else those in the file
+  std::string units = "si";  ///< "si", "cgs", "mm", "micro" or "nano"; else those in the file
 };
 
 /// Facts in a deck: its lines `timestep`, `units`, `# frame vessel` and `# facets`.
@@ -49,9 +49,9 @@ struct Frame {
   std::vector<model::BallState<double>> balls;
 };
 
-/// Reads frames in bounded memory: a dump of LAMMPS or LIGGGHTS, text or binary, or a table with a column
-/// `time` whose rows of one time are a frame. Columns may be in any order, unknown ones are skipped, and an
-/// incomplete last frame is dropped.
+/// Reads frames in bounded memory: a dump of LAMMPS or LIGGGHTS, text or binary, or a table with a
+/// column `time` whose rows of one time are a frame. Columns may be in any order, unknown ones are
+/// skipped, and an incomplete last frame is dropped.
 class FrameReader {
  public:
   /// @param balls  of the case @throws InputError when the file cannot be read
@@ -63,7 +63,6 @@ class FrameReader {
   /// Masses [kg] and radii [m] of the first frame, where the file has them.
   const std::vector<double>& masses() const { return masses_; }
   const std::vector<double>& radii() const { return radii_; }
-
  private:
   struct FrameRow {
     long id = 0;
@@ -106,31 +105,30 @@ class FrameReader {
   double last_time_;
 };
 
-/// Kinds of contacts. `wall` and `pair` are single ones, by which laws are measured. In a `missed` one bodies
-/// overlap and fly on. In a `jump` a ball moves farther than its velocities allow.
+/// Kinds of contacts. `wall` and `pair` are single ones, by which laws are measured. In a `missed`
+/// one bodies overlap and fly on. In a `jump` a ball moves farther than its velocities allow.
 enum class ContactClass { wall, pair, several, lasting, unexplained, missed, jump };
-inline constexpr std::array<const char*, 7> contact_class_names{"wall",        "pair",   "several", "lasting",
-                                                                "unexplained", "missed", "jump"};
+inline constexpr std::array<const char*, 7> contact_class_names{
+    "wall", "pair", "several", "lasting", "unexplained", "missed", "jump"};
 constexpr const char* name_of(ContactClass kind) {
   return contact_class_names[static_cast<std::size_t>(kind)];
 }
 constexpr bool is_single(ContactClass kind) {
   return kind == ContactClass::wall || kind == ContactClass::pair;
 }
-template <class Value>
-using ByClass = std::array<Value, contact_class_names.size()>;
+template <class Value> using ByClass = std::array<Value, contact_class_names.size()>;
 
-/// One contact, or a group of bodies whose contacts overlap in time. The states of a single contact are those
-/// at the touch and at the detachment, extrapolated from the flights before and after; those of other
-/// contacts are taken from the last frame before and the first frame after.
+/// One contact, or a group of bodies whose contacts overlap in time. The states of a single contact
+/// are those at the touch and at the detachment, extrapolated from the flights before and after;
+/// those of other contacts are taken from the last frame before and the first frame after.
 struct Contact {
   ContactClass kind{};
   double begin = 0, end = 0;             ///< [s]
   double free_until = 0, free_from = 0;  ///< the last frame before and the first after it [s]
   int bodies = 1;                        ///< number of balls
   int ball = 0;                          ///< the one with the lowest number
-  int partner = -1;                      ///< number of the wall or ball; -1 unless there is exactly one
-  double dose = 0;                       ///< energy lost by all balls, by the energy balance [J]
+  int partner = -1;  ///< number of the wall or ball; -1 unless there is exactly one
+  double dose = 0;   ///< energy lost by all balls, by the energy balance [J]
   BallState before = {}, after = {};
   BallState partner_before = {}, partner_after = {};  ///< of a pair
 };
@@ -142,7 +140,7 @@ struct FrameStatistics {
   Vector gravity_half_width{0, 0, 0};  ///< of its 95 % interval
   double kick = 0;                     ///< velocity changes below are noise [m/s]
   double contact_time = 0;             ///< median of the time in which a ball does not fly [s]
-  double way_factor = 0;               ///< median ratio of displacements to those by velocities; 0 if unknown
+  double way_factor = 0;  ///< median ratio of displacements to those by velocities; 0 if unknown
 };
 
 /// @pre at least three frames
@@ -159,7 +157,6 @@ class ContactFinder {
   void add(Frame frame);
   /// Ends the record. Contacts that are open at the last frame are dropped, except lasting ones.
   void finish();
-
  private:
   /// A stretch in which a ball does not fly, from the last frame before to the first after it.
   struct Stretch {
@@ -170,10 +167,11 @@ class ContactFinder {
   using Group = std::vector<Stretch>;
   /// An overlap of a ball with a wall or another ball over consecutive frames.
   struct Overlap {
-    double begin = 0;                       ///< time of the last frame before [s]
-    double last = 0;                        ///< depth in the last frame [m]
-    double depth = 0, growth = 0;           ///< largest so far [m], [m/s]
-    std::array<bool, 2> flies{true, true};  ///< whether the ball, or its partner, flew freely throughout
+    double begin = 0;              ///< time of the last frame before [s]
+    double last = 0;               ///< depth in the last frame [m]
+    double depth = 0, growth = 0;  ///< largest so far [m], [m/s]
+    std::array<bool, 2> flies{
+        true, true};  ///< whether the ball, or its partner, flew freely throughout
   };
   using BodyPair = std::array<int, 2>;  ///< the ball, and the other one or -1 - wall
 
@@ -247,7 +245,6 @@ class ContactLogWriter {
   ContactLogWriter();
   void add(const Contact& contact);
   void write(std::ostream& out, const ContactLogFacts& facts);
-
  private:
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> rows_;
 };
@@ -262,7 +259,6 @@ class ContactLogReader {
   const ContactLogFacts& facts() const { return facts_; }
   /// The next contact; nothing at the end. @throws InputError with the bad lines
   std::optional<Contact> next();
-
  private:
   std::optional<Contact> parse();
 

@@ -14,14 +14,13 @@ namespace edmill::dem {
 namespace {
 
 /// Indices in `names`; y and z follow x.
-constexpr std::size_t id = 0, x = 1, vx = 4, wx = 7, mass = 10, radius = 11, diameter = 12, scaled_x = 13,
-                      moment = 16, image_x = 17, count = 20;
+constexpr std::size_t id = 0, x = 1, vx = 4, wx = 7, mass = 10, radius = 11, diameter = 12,
+                      scaled_x = 13, moment = 16, image_x = 17, count = 20;
 /// Columns of a frame, under the names that codes give them.
-constexpr std::array<const char*, 2> names[count] = {
-    {"id", "ball"}, {"x", "xu"},   {"y", "yu"},      {"z", "zu"},      {"vx"},
-    {"vy"},         {"vz"},        {"omegax", "wx"}, {"omegay", "wy"}, {"omegaz", "wz"},
-    {"mass"},       {"radius"},    {"diameter"},     {"xs", "xsu"},    {"ys", "ysu"},
-    {"zs", "zsu"},  {"time", "t"}, {"ix"},           {"iy"},           {"iz"}};
+constexpr std::array<const char*, 2> names[count] = {{"id", "ball"}, {"x", "xu"}, {"y", "yu"},
+    {"z", "zu"}, {"vx"}, {"vy"}, {"vz"}, {"omegax", "wx"}, {"omegay", "wy"}, {"omegaz", "wz"},
+    {"mass"}, {"radius"}, {"diameter"}, {"xs", "xsu"}, {"ys", "ysu"}, {"zs", "zsu"}, {"time", "t"},
+    {"ix"}, {"iy"}, {"iz"}};
 
 /// Splits a line at spaces, tabs, commas and semicolons; quotes are dropped.
 std::vector<std::string> words(const std::string& line) {
@@ -48,14 +47,14 @@ class Bytes {
  public:
   Bytes(std::istream& in, const std::string& name) : in_(in), name_(name) {}
 
-  template <class T>
-  T take() {
+  template <class T> T take() {
     T value;
     read(reinterpret_cast<char*>(&value), sizeof value);
     return value;
   }
   std::string text(int length) {
-    if (length < 0 || length > longest_text) fail(fmt::format("a text of {} bytes", length), "a short one");
+    if (length < 0 || length > longest_text)
+      fail(fmt::format("a text of {} bytes", length), "a short one");
     std::string value(length, ' ');
     read(value.data(), value.size());
     return value;
@@ -63,7 +62,6 @@ class Bytes {
   [[noreturn]] void fail(const std::string& found, const std::string& expected) const {
     throw InputError(fmt::format("{}: binary dump: found {}, expected {}", name_, found, expected));
   }
-
  private:
   void read(char* to, std::size_t bytes) {
     if (!in_.read(to, static_cast<std::streamsize>(bytes))) throw EndOfFile();
@@ -76,9 +74,10 @@ class Bytes {
 /// Reads the format. The older one, without column names, begins with the step, 0 or more.
 void read_format(Bytes& in) {
   const auto length = in.take<std::int64_t>();
-  if (length >= 0 || in.text(static_cast<int>(-std::max<std::int64_t>(length, -longest_text))) != magic)
+  if (length >= 0 ||
+      in.text(static_cast<int>(-std::max<std::int64_t>(length, -longest_text))) != magic)
     in.fail("the format of LAMMPS before 2021, which does not name its columns, or another file",
-            "a dump custom of a later LAMMPS, or the text that its binary2txt makes");
+        "a dump custom of a later LAMMPS, or the text that its binary2txt makes");
   if (const auto one = in.take<std::int32_t>(); one != 1)
     in.fail("numbers in the byte order of another machine", "that of this machine");
   if (const auto revision = in.take<std::int32_t>(); revision != 2)
@@ -95,7 +94,8 @@ std::vector<double> read_values(Bytes& in, std::size_t size) {
       in.fail(fmt::format("a part of {} values", count), fmt::format("at most {}", size));
     for (std::int32_t k = 0; k < count; ++k) values.push_back(in.take<double>());
   }
-  if (values.size() != size) in.fail(fmt::format("{} values", values.size()), fmt::format("{}", size));
+  if (values.size() != size)
+    in.fail(fmt::format("{} values", values.size()), fmt::format("{}", size));
   return values;
 }
 
@@ -112,7 +112,8 @@ DeckFacts facts_of_deck(const std::string& deck) {
     if (w.size() == 3 && w[0] == "#" && w[1] == "facets") {
       const double facets = io::number_in(w[2]).value_or(0);
       if (!(facets >= 3 && facets <= 1e6 && facets == std::floor(facets)))
-        throw InputError(fmt::format("{}: found {} facets, expected at least 3", deck, io::in_quotes(w[2])));
+        throw InputError(
+            fmt::format("{}: found {} facets, expected at least 3", deck, io::in_quotes(w[2])));
       facts.facets = static_cast<int>(facets);
     }
     if (w.size() < 2 || w[0].starts_with("#")) continue;
@@ -123,19 +124,15 @@ DeckFacts facts_of_deck(const std::string& deck) {
     const bool is_known = step && *step > 0 && std::isfinite(*step);
     const bool is_other = facts.time_step && facts.time_step != step;
     if ((!is_known || is_other) && facts.no_time_step.empty())
-      facts.no_time_step =
-          fmt::format("{}:{}: found {}, expected {}: give --timestep", deck, number, io::in_quotes(line),
-                      is_known ? "one time step" : "a time step as a number");
+      facts.no_time_step = fmt::format("{}:{}: found {}, expected {}: give --timestep", deck,
+          number, io::in_quotes(line), is_known ? "one time step" : "a time step as a number");
     facts.time_step = step.value_or(0);
   }
   return facts;
 }
 
 FrameReader::FrameReader(const std::string& file, const DumpFormat& format, std::size_t balls)
-    : name_(file),
-      in_(file, "a dump of LAMMPS or LIGGGHTS"),
-      format_(format),
-      count_(balls),
+    : name_(file), in_(file, "a dump of LAMMPS or LIGGGHTS"), format_(format), count_(balls),
       last_time_(-std::numeric_limits<double>::infinity()) {}
 
 bool FrameReader::line() {
@@ -158,13 +155,10 @@ double FrameReader::number(const std::string& text, bool is_finite) const {
 
 /// Sets the units, which are known by now, and the columns of the rows that follow.
 void FrameReader::set_columns(const std::vector<std::string>& columns) {
-  static constexpr Units known[] = {{"si", 1, 1, 1},
-                                    {"cgs", 1e-2, 1, 1e-3},
-                                    {"mm", 1e-3, 1, 1},
-                                    {"micro", 1e-6, 1e-6, 1e-15},
-                                    {"nano", 1e-9, 1e-9, 1e-21}};
+  static constexpr Units known[] = {{"si", 1, 1, 1}, {"cgs", 1e-2, 1, 1e-3}, {"mm", 1e-3, 1, 1},
+      {"micro", 1e-6, 1e-6, 1e-15}, {"nano", 1e-9, 1e-9, 1e-21}};
   const auto* units = std::find_if(std::begin(known), std::end(known),
-                                   [&](const auto& one) { return one.name == format_.units; });
+      [&](const auto& one) { return one.name == format_.units; });
   if (units == std::end(known)) fail("units '" + format_.units + "'", "si, cgs, mm, micro or nano");
   units_ = *units;
   if (!columns.empty() && columns == names_) return;
@@ -183,14 +177,15 @@ void FrameReader::set_columns(const std::vector<std::string>& columns) {
     if (places_[x + k] < 0 && places_[scaled_x + k] < 0) missing.emplace_back(names[x + k][0]);
   if (!missing.empty())
     fail(fmt::format("columns without {}", fmt::join(missing, ", ")),
-         "all of id x y z vx vy vz omegax omegay omegaz");
+        "all of id x y z vx vy vz omegax omegay omegaz");
   for (std::size_t k = 0; k < 3; ++k) {
     const bool is_scaled = places_[x + k] < 0;
     const auto& place = names_[places_[(is_scaled ? scaled_x : x) + k]];
     if (place.ends_with('u')) places_[image_x + k] = -1;  // unwrapped already
     if (is_tilted_ && (is_scaled || places_[image_x + k] >= 0))
-      fail(fmt::format("the column {} of a triclinic box", is_scaled ? place : names[image_x + k][0]),
-           "xu yu zu of such a box: dump them");
+      fail(fmt::format(
+               "the column {} of a triclinic box", is_scaled ? place : names[image_x + k][0]),
+          "xu yu zu of such a box: dump them");
   }
 }
 
@@ -198,12 +193,14 @@ FrameReader::FrameRow FrameReader::row() const {
   std::vector<double> values;
   for (const auto& word : words(line_)) {
     const auto column = static_cast<int>(values.size());
-    if (values.size() == names_.size()) fail("more values than columns", fmt::format("{}", names_.size()));
+    if (values.size() == names_.size())
+      fail("more values than columns", fmt::format("{}", names_.size()));
     const bool is_known = std::count(places_.begin(), places_.end(), column) > 0;
     values.push_back(is_known ? number(word) : 0);
   }
   if (values.size() < names_.size())
-    fail(fmt::format("{} values", values.size()), fmt::format("{}, one for each column", names_.size()));
+    fail(fmt::format("{} values", values.size()),
+        fmt::format("{}, one for each column", names_.size()));
   return row_of(values);
 }
 
@@ -230,10 +227,11 @@ FrameReader::FrameRow FrameReader::row_of(const std::vector<double>& values) con
 
 void FrameReader::finish(std::vector<FrameRow> rows, double time, Frame& frame) {
   if (rows.size() != count_)
-    fail(fmt::format("{} balls in a frame", rows.size()), fmt::format("{}, as in the case", count_));
+    fail(
+        fmt::format("{} balls in a frame", rows.size()), fmt::format("{}, as in the case", count_));
   std::sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
-  if (const auto twice = std::adjacent_find(rows.begin(), rows.end(),
-                                            [](const auto& a, const auto& b) { return a.id == b.id; });
+  if (const auto twice = std::adjacent_find(
+          rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.id == b.id; });
       twice != rows.end())
     fail(fmt::format("ball {} twice in a frame", twice->id), "each once");
   std::vector<long> ids;
@@ -245,8 +243,8 @@ void FrameReader::finish(std::vector<FrameRow> rows, double time, Frame& frame) 
     const double sizes = row.mass.value_or(1) + row.radius.value_or(1);
     if (!(norm(s.velocity) < fastest && std::isfinite(s.position.sum() + s.spin.sum() + sizes)))
       fail(fmt::format("ball {} with a velocity of {:.4g}, {:.4g}, {:.4g} m/s at {:.6g} s", row.id,
-                       s.velocity[0], s.velocity[1], s.velocity[2], time),
-           "finite values and less than 1e6 m/s: the code has become unstable");
+               s.velocity[0], s.velocity[1], s.velocity[2], time),
+          "finite values and less than 1e6 m/s: the code has become unstable");
     ids.push_back(row.id);
     frame.balls.push_back(row.state);
   }
@@ -270,9 +268,9 @@ bool FrameReader::next(Frame& frame) {
     // A binary dump begins with a length, negated, or a step, whose lowest byte is most often 0.
     const int first = in_.peek();
     const bool is_binary = first == 0 || first == 256 - static_cast<int>(magic.size());
-    next_ = is_binary      ? &FrameReader::next_of_binary
-            : first == 'I' ? &FrameReader::next_of_dump
-                           : &FrameReader::next_of_table;
+    next_ = is_binary  ? &FrameReader::next_of_binary
+        : first == 'I' ? &FrameReader::next_of_dump
+                       : &FrameReader::next_of_table;
   }
   return (this->*next_)(frame);
 }
@@ -287,7 +285,8 @@ bool FrameReader::next_of_binary(Frame& frame) try {
   Bytes in(in_, name_);
   read_format(in);
   const auto step = static_cast<double>(in.take<std::int64_t>());
-  if (const auto balls = in.take<std::int64_t>(); balls < 0 || static_cast<std::size_t>(balls) != count_)
+  if (const auto balls = in.take<std::int64_t>();
+      balls < 0 || static_cast<std::size_t>(balls) != count_)
     in.fail(fmt::format("{} balls", balls), fmt::format("{}, as in the case", count_));
   const auto triclinic = in.take<std::int32_t>();
   for (int k = 0; k < 6; ++k) in.take<std::int32_t>();  // kinds of boundaries
@@ -323,7 +322,8 @@ bool FrameReader::next_of_table(Frame& frame) {
     if (!line()) return false;
     if (words(line_).empty() || line_.starts_with("#")) continue;
     set_columns(words(line_));
-    if (places_[moment] < 0) fail("columns without time", "time id x y z vx vy vz omegax omegay omegaz");
+    if (places_[moment] < 0)
+      fail("columns without time", "time id x y z vx vy vz omegax omegay omegaz");
   }
   std::vector<FrameRow> rows;
   if (waiting_) rows.push_back(*std::exchange(waiting_, std::nullopt));

@@ -44,7 +44,8 @@ class Geometry {
       for (int w = 0; w < vessel.walls(); ++w) {
         // A body has faces along the walls, too: those that are far away are not meant.
         const auto& at = state.position;
-        if (vessel.has_bodies() && vessel.gap(pose, c.ball, w, at) > vessel.ball(c.ball).radius) continue;
+        if (vessel.has_bodies() && vessel.gap(pose, c.ball, w, at) > vessel.ball(c.ball).radius)
+          continue;
         if (const double along = dot(vessel.normal(pose, c.ball, w, at), impulse); along > best) {
           best = along;
           wall = w;
@@ -71,11 +72,11 @@ class Geometry {
     const MovingVessel vessel(built->mill, built->balls, facets_);
     for (const auto& m : meetings_)
       gaps.push_back(vessel.gap(vessel.at(m.time + assumed.log.delay), m.ball, m.wall, m.position) +
-                     (m.wall == moved ? outward : 0));
+          (m.wall == moved ? outward : 0));
     return gaps;
   }
-  /// Deviation of the walls [m]: the largest of the medians of single walls, of which a mistake may move one.
-  /// Frames blur positions symmetrically: the median of signed gaps is known better.
+  /// Deviation of the walls [m]: the largest of the medians of single walls, of which a mistake may
+  /// move one. Frames blur positions symmetrically: the median of signed gaps is known better.
   double of(const std::vector<double>& gaps) const {
     if (gaps.empty()) return INFINITY;
     std::vector<std::vector<double>> by_wall(nominal_.walls);
@@ -130,16 +131,15 @@ class Geometry {
       if (std::abs(step) < 1e-7 * c.change) break;
     }
     const double half_width = 1.96 * 1.4826 * left / std::sqrt(curvature);
-    return GeometryCause{
-        .key = c.key,
-        .text = fmt::format("{}, the case has {}", identify::value_text(c.dimension, best, half_width),
-                            identify::value_text(c.dimension, c.value)),
+    return GeometryCause{.key = c.key,
+        .text =
+            fmt::format("{}, the case has {}", identify::value_text(c.dimension, best, half_width),
+                identify::value_text(c.dimension, c.value)),
         .value = best,
         .half_width = half_width,
         .expected = c.value,
         .left = left};
   }
-
  private:
   Assumed nominal_;
   int facets_;
@@ -149,8 +149,8 @@ class Geometry {
 
 void add_numbers(const Assumed& nominal, std::vector<Candidate>& list) {
   for (const auto& p : identify::numbers_of(nominal)) {
-    if (!(p.key.starts_with("mill.") || p.key.starts_with("vessel.") || p.key.starts_with("body.") ||
-          p.is_diameter))
+    if (!(p.key.starts_with("mill.") || p.key.starts_with("vessel.") ||
+            p.key.starts_with("body.") || p.is_diameter))
       continue;
     auto& starts = list.emplace_back(Candidate{p}).first_values;
     for (const double share : {0.001, 0.003, 0.01, 0.03, 0.05, 0.1, 0.2, 0.5})
@@ -165,21 +165,22 @@ void add_phases(const Assumed& nominal, std::vector<Candidate>& list) {
   for (int k = 1; k < 16; ++k) starts.push_back(turn * (k <= 8 ? k : k - 16) / 16);
   const double period = casefile::period_of(nominal.spec.mill).to<double>();
   const auto add = [&](const std::string& key, const std::function<void(Assumed&, double)>& set) {
-    list.push_back({{.key = key, .dimension = Dimension::angle, .set = set, .first_values = starts}});
+    list.push_back(
+        {{.key = key, .dimension = Dimension::angle, .set = set, .first_values = starts}});
   };
   add("phase of the drive", [=](Assumed& a, double x) { a.log.delay = x / turn * period; });
   const auto* vibratory = std::get_if<model::Vibratory<casefile::Quantity>>(&nominal.spec.mill);
   if (vibratory)
     list.push_back({{.key = "factor of mill.amplitude",
-                     .value = 1,
-                     .change = 1e-3,
-                     .set =
-                         [](Assumed& a, double x) {
-                           auto& mill = std::get<model::Vibratory<casefile::Quantity>>(a.spec.mill);
-                           for (auto* vector : {&mill.amplitude, &mill.quarter})
-                             for (auto& q : *vector) q = identify::exactly(x * q.template to<double>());
-                         },
-                     .first_values = {0.5, 0.9, 0.95, 1.05, 1.1, 1.5, 2}}});
+        .value = 1,
+        .change = 1e-3,
+        .set =
+            [](Assumed& a, double x) {
+              auto& mill = std::get<model::Vibratory<casefile::Quantity>>(a.spec.mill);
+              for (auto* vector : {&mill.amplitude, &mill.quarter})
+                for (auto& q : *vector) q = identify::exactly(x * q.template to<double>());
+            },
+        .first_values = {0.5, 0.9, 0.95, 1.05, 1.1, 1.5, 2}}});
   for (std::size_t axis = 0; vibratory && axis < 3; ++axis) {
     if (vibratory->amplitude[axis].zero() && vibratory->quarter[axis].zero()) continue;
     add(fmt::format("phase of mill.amplitude along {}", "xyz"[axis]), [axis](Assumed& a, double x) {
@@ -196,17 +197,17 @@ void add_walls(const CaseSpec& spec, std::vector<Candidate>& list) {
   const std::vector<double> starts{-1e-3, -3e-4, -1e-4, 1e-4, 3e-4, 1e-3};
   for (int wall = 0; wall < partners.walls(); ++wall)
     list.push_back({{.key = "place of " + partners[wall].label,
-                     .dimension = Dimension::length,
-                     .change = 1e-3,
-                     .set = {},
-                     .first_values = starts},
-                    wall});
+                        .dimension = Dimension::length,
+                        .change = 1e-3,
+                        .set = {},
+                        .first_values = starts},
+        wall});
 }
 
 }  // namespace
 
 void judge_places(const CaseSpec& spec, const std::vector<Contact>& contacts,
-                  const std::atomic<bool>* interrupt, ContactAudit& audit) {
+    const std::atomic<bool>* interrupt, ContactAudit& audit) {
   const Geometry geometry(spec, contacts, audit.facts);
   if (!geometry.known()) return;
   audit.wall_distance = geometry.distance;
@@ -222,14 +223,15 @@ void judge_places(const CaseSpec& spec, const std::vector<Contact>& contacts,
     if (interrupt && *interrupt) break;
     const auto cause = geometry.fit(candidate);
     if (!cause || cause->left > 2 * geometry.resolution) continue;
-    // A deviation that frames barely resolve counts only if a number clearly differs from the case's. A wrong
-    // velocity of the walls moves the places where balls leave their flights, too.
+    // A deviation that frames barely resolve counts only if a number clearly differs from the
+    // case's. A wrong velocity of the walls moves the places where balls leave their flights, too.
     const double half_widths = audit.wall_velocity_differs() ? 8 : 3;
     const bool is_clear = 2 * cause->left <= geometry.distance &&
-                          std::abs(cause->value - cause->expected) > half_widths * cause->half_width;
+        std::abs(cause->value - cause->expected) > half_widths * cause->half_width;
     if (!met || is_clear) audit.causes.push_back(*cause);
   }
-  std::sort(audit.causes.begin(), audit.causes.end(), [](auto& a, auto& b) { return a.left < b.left; });
+  std::sort(
+      audit.causes.begin(), audit.causes.end(), [](auto& a, auto& b) { return a.left < b.left; });
 }
 
 }  // namespace edmill::dem

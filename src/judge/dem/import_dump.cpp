@@ -16,7 +16,7 @@ using Properties = model::BallProperties<double>;
 
 /// The ratio of a dump's value to the case's farthest from 1, but for rounding; 0 if it has none.
 double factor_of(const std::vector<double>& dump, const std::vector<Properties>& balls,
-                 double Properties::*own) {
+    double Properties::*own) {
   if (dump.empty()) return 0;
   double factor = dump[0] / (balls[0].*own);
   for (std::size_t k = 1; k < dump.size(); ++k)
@@ -66,7 +66,8 @@ Imported import_dump(const CaseSpec& spec, const ImportOptions& options) {
   std::vector<Frame> head;
   for (Frame frame; head.size() < first_frames && next(frame);) head.push_back(frame);
   if (head.size() < 3)
-    throw InputError(fmt::format("{}: found {} frames, expected at least 3", options.dump, head.size()));
+    throw InputError(
+        fmt::format("{}: found {} frames, expected at least 3", options.dump, head.size()));
   Imported result{.log = options.log};
   auto& facts = result.facts;
   facts.dump = options.dump;
@@ -82,7 +83,8 @@ Imported import_dump(const CaseSpec& spec, const ImportOptions& options) {
   facts.first = head.front().time;
   const auto take = [&](Frame frame) {
     facts.last = frame.time;
-    if (++facts.frames % 1024 == 0 && options.progress) options.progress(frame.time, facts.contacts);
+    if (++facts.frames % 1024 == 0 && options.progress)
+      options.progress(frame.time, facts.contacts);
     finder.add(std::move(frame));
   };
   for (auto& frame : head) take(std::move(frame));
@@ -118,9 +120,9 @@ std::string table(const Imported& r) {
   return fmt::format(
       "{}: {} frames, {:.3g} s apart, {:g} s to {:g} s{}\n{} contacts, to {}\n\n{}\n"
       "  milling dose, by the balance of energy: {:.6g} J, {:.4g} W\n",
-      f.dump, f.frames, f.statistics.interval, f.first, f.last, r.interrupted ? " (interrupted)" : "",
-      f.contacts, r.log, class_table(f.doses, r.counts), f.dose(),
-      f.duration() > 0 ? f.dose() / f.duration() : 0);
+      f.dump, f.frames, f.statistics.interval, f.first, f.last,
+      r.interrupted ? " (interrupted)" : "", f.contacts, r.log, class_table(f.doses, r.counts),
+      f.dose(), f.duration() > 0 ? f.dose() / f.duration() : 0);
 }
 
 }  // namespace edmill::dem

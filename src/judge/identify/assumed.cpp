@@ -17,13 +17,16 @@ namespace {
 /// Transforms the vectors of an event from another frame to that of the laboratory.
 void to_laboratory(LoggedEvent& event, LogFrame from, const Mill& mill) {
   const auto frame = audit::vessel_at(mill, event.time, false);
-  const auto turned = [&](const Vec& v) { return Vec(frame.x * v[0] + frame.y * v[1] + frame.z * v[2]); };
+  const auto turned = [&](const Vec& v) {
+    return Vec(frame.x * v[0] + frame.y * v[1] + frame.z * v[2]);
+  };
   const bool moves = from == LogFrame::vessel;
   for (auto& body : event.body) {
     body.position = turned(body.position);
     if (moves) body.position += frame.centre;
-    const Vec of_vessel =
-        moves ? audit::wall_velocities[0].at({frame, frame, body.position, body.position}) : Vec(0, 0, 0);
+    const Vec of_vessel = moves
+        ? audit::wall_velocities[0].at({frame, frame, body.position, body.position})
+        : Vec(0, 0, 0);
     for (auto* v : {&body.velocity_before, &body.velocity_after}) *v = turned(*v) + of_vessel;
     for (auto* w : {&body.spin_before, &body.spin_after}) {
       *w = turned(*w);
@@ -50,7 +53,8 @@ void LogChange::apply(LoggedEvent& event, const Mill& mill) const {
   event.slip_speed *= speeds;
   for (auto& body : event.body) {
     body.position = axes_of_positions.of(body.position * positions);
-    for (auto* v : {&body.velocity_before, &body.velocity_after}) *v = axes_of_velocities.of(*v * velocities);
+    for (auto* v : {&body.velocity_before, &body.velocity_after})
+      *v = axes_of_velocities.of(*v * velocities);
     for (auto* w : {&body.spin_before, &body.spin_after}) *w = axes_of_spins.of(*w * spins);
     if (reversed_in_time) {
       std::swap(body.velocity_before, body.velocity_after);
@@ -92,7 +96,7 @@ std::optional<Case> Assumed::built() const {
   result.balls = balls;
   const auto& vessel = result.mill.vessel;
   const bool room = std::none_of(balls.begin(), balls.end(),
-                                 [&](const auto& ball) { return vessel.inset(ball.radius).is_empty(); });
+      [&](const auto& ball) { return vessel.inset(ball.radius).is_empty(); });
   if (!room || result.mill.wall_count() != walls) return std::nullopt;
   return result;
 }
@@ -121,21 +125,22 @@ std::vector<BallGroup> ball_groups(const CaseSpec& spec) {
 }
 
 std::vector<SharedSubset> subsets_of(const CaseSpec& spec, const Case& the_case,
-                                     const std::vector<LoggedEvent>& events,
-                                     const std::vector<Branches>& branches) {
+    const std::vector<LoggedEvent>& events, const std::vector<Branches>& branches) {
   std::vector<SharedSubset> list;
   const auto add = [&](std::string name, bool of_flights, auto contains) {
     list.push_back(std::make_shared<Subset>(Subset{std::move(name), contains, of_flights}));
   };
   const auto of_impacts = [&](std::string name, auto holds) {
-    add(std::move(name), false,
-        [&events, holds](const RowPlace& at) { return !at.of_flight && holds(events[at.event], at.event); });
+    add(std::move(name), false, [&events, holds](const RowPlace& at) {
+      return !at.of_flight && holds(events[at.event], at.event);
+    });
   };
   of_impacts("with walls", [](auto& e, auto) { return e.with_wall; });
   of_impacts("between balls", [](auto& e, auto) { return !e.with_wall; });
   const auto walls = the_case.mill.walls();
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall)
-    of_impacts("at " + walls[wall].meaning, [=](auto& e, auto) { return e.with_wall && e.partner == wall; });
+    of_impacts("at " + walls[wall].meaning,
+        [=](auto& e, auto) { return e.with_wall && e.partner == wall; });
   /// Adds the impacts at the walls that satisfy `is_one`, if these are several but not all.
   const auto at_walls = [&](const std::string& name, const auto& is_one) {
     std::vector<bool> at;
@@ -150,12 +155,12 @@ std::vector<SharedSubset> subsets_of(const CaseSpec& spec, const Case& the_case,
   at_walls("bodies in the vessel", [&](int k) { return mill.body_of(k) != nullptr; });
   for (std::size_t k = 0; k < spec.materials.size() && !spec.wall_materials.empty(); ++k)
     at_walls("walls of " + spec.materials[k].name,
-             [&](int wall) { return spec.wall_materials[wall] == static_cast<int>(k) + 1; });
+        [&](int wall) { return spec.wall_materials[wall] == static_cast<int>(k) + 1; });
   const auto groups = ball_groups(spec);
   for (const auto& group : groups)
     if (groups.size() > 1 && group.last - group.first > 1)
       of_impacts("in impacts of " + group.key,
-                 [group](auto& e, auto) { return takes_part(e, group.first, group.last); });
+          [group](auto& e, auto) { return takes_part(e, group.first, group.last); });
   const auto of_branch = [&](const char* name, bool Branches::*member, bool value) {
     of_impacts(name, [=, &branches](const LoggedEvent&, std::size_t k) {
       return branches[k].known && branches[k].*member == value;
@@ -167,17 +172,19 @@ std::vector<SharedSubset> subsets_of(const CaseSpec& spec, const Case& the_case,
   of_branch("where the restitution applies", &Branches::at_least_separation, false);
   const auto& balls = the_case.balls;
   of_impacts("between balls that are not alike",
-             [&balls](auto& e, auto) { return !e.with_wall && !(balls[e.ball] == balls[e.partner]); });
+      [&balls](auto& e, auto) { return !e.with_wall && !(balls[e.ball] == balls[e.partner]); });
   // Rows of both bodies, those of the energy, are affected by a change of either body.
-  add("on the partner", false,
-      [&events](const RowPlace& at) { return !at.of_flight && at.body != 0 && !events[at.event].with_wall; });
-  add("on the ball, not its partner", false,
-      [&events](const RowPlace& at) { return !at.of_flight && at.body != 1 && !events[at.event].with_wall; });
+  add("on the partner", false, [&events](const RowPlace& at) {
+    return !at.of_flight && at.body != 0 && !events[at.event].with_wall;
+  });
+  add("on the ball, not its partner", false, [&events](const RowPlace& at) {
+    return !at.of_flight && at.body != 1 && !events[at.event].with_wall;
+  });
   constexpr int most_balls = 40;
   const int count = static_cast<int>(balls.size());
   for (int ball = 0; ball < count && count <= most_balls && count > 1; ++ball) {
     of_impacts(fmt::format("in impacts of ball {}", ball),
-               [ball](auto& e, auto) { return takes_part(e, ball, ball + 1); });
+        [ball](auto& e, auto) { return takes_part(e, ball, ball + 1); });
     add(fmt::format("on ball {}", ball), true, [&events, ball](const RowPlace& at) {
       const auto& event = events[at.event];
       return at.body < 0 ? takes_part(event, ball, ball + 1) : event.ball_at(at.body) == ball;
@@ -210,9 +217,9 @@ Joints reversed(Joints joints) {
 
 void add(Assumptions& list, std::string key, std::string text, std::function<void(Assumed&)> make) {
   list.push_back({.key = std::move(key),
-                  .set = [make = std::move(make)](Assumed& a, double) { make(a); },
-                  .first_values = {1},
-                  .mistake = std::move(text)});
+      .set = [make = std::move(make)](Assumed& a, double) { make(a); },
+      .first_values = {1},
+      .mistake = std::move(text)});
 }
 
 void add_motions(const Assumed& nominal, Assumptions& list) {
@@ -228,8 +235,8 @@ void add_motions(const Assumed& nominal, Assumptions& list) {
     back.angle = -back.angle;
     for (auto& swing : back.swings) swing.amplitude = -swing.amplitude;
     add_joints("order of rotations",
-               "R_x(gamma) R_z(theta), as (2.14) is printed, in place of R_z(theta) R_x(gamma)",
-               {joints[0], joints[1], back, joints[2], joints[0]});
+        "R_x(gamma) R_z(theta), as (2.14) is printed, in place of R_z(theta) R_x(gamma)",
+        {joints[0], joints[1], back, joints[2], joints[0]});
     auto turned = joints;
     for (auto& swing : turned[2].swings) swing.amplitude = -swing.amplitude;
     add_joints("sign of gamma", "-gamma_max sin(phase) in place of gamma_max sin(phase)", turned);
@@ -237,8 +244,8 @@ void add_motions(const Assumed& nominal, Assumptions& list) {
   const auto moves = [](const auto& joint) { return !joint.speed.zero() || !joint.swings.empty(); };
   if (std::any_of(joints.begin(), joints.end(), moves))
     add_joints("direction of rotation",
-               is_spex ? "the drive turns the other way" : "all joints move the other way in time",
-               reversed(joints));
+        is_spex ? "the drive turns the other way" : "all joints move the other way in time",
+        reversed(joints));
 }
 
 /// Factors by which a wrong unit, or a diameter in place of a radius, changes a number.
@@ -250,11 +257,10 @@ struct Factor {
   bool changes(const Assumption& p) const {
     const bool turns = p.dimension == Dimension::angular_speed;
     return of == On::any || (of == On::angle && (turns || p.dimension == Dimension::angle)) ||
-           (of == On::angular_speed && turns) || (of == On::diameter && p.is_diameter);
+        (of == On::angular_speed && turns) || (of == On::diameter && p.is_diameter);
   }
 };
-constexpr Factor factors[] = {
-    {Factor::On::any, 1e3, "1000: its unit"},
+constexpr Factor factors[] = {{Factor::On::any, 1e3, "1000: its unit"},
     {Factor::On::any, 1e-3, "1/1000: its unit"},
     {Factor::On::angle, pi / 180, "pi/180: degrees taken for radians, or the reverse"},
     {Factor::On::angle, 180 / pi, "180/pi: degrees taken for radians, or the reverse"},
@@ -272,7 +278,7 @@ void add_factors(const Assumptions& numbers, Assumptions& list) {
       const double value = factor.by * p.value;
       add(list, p.key,
           fmt::format("{} in place of {}, a factor of {}", value_text(p.dimension, value),
-                      value_text(p.dimension, p.value), factor.text),
+              value_text(p.dimension, p.value), factor.text),
           [set = p.set, value](Assumed& a) { set(a, value); });
       list.back().by_factor = true;
     }
@@ -289,10 +295,10 @@ void add_units(const Available& has, Assumptions& list) {
     double LogChange::*factor;
     const char *small, *unit;
   };
-  const Columns with_units[] = {
-      {true, "times", &LogChange::time, "ms", "s"},
+  const Columns with_units[] = {{true, "times", &LogChange::time, "ms", "s"},
       {ball.position, "positions", &LogChange::positions, "mm", "m"},
-      {ball.velocity_before || ball.velocity_after, "velocities", &LogChange::velocities, "mm/s", "m/s"},
+      {ball.velocity_before || ball.velocity_after, "velocities", &LogChange::velocities, "mm/s",
+          "m/s"},
       {has.milling_dose || has.wall_work, "energies", &LogChange::energies, "mJ", "J"},
       {has.approach_speed, "speeds", &LogChange::speeds, "mm/s", "m/s"}};
   for (const auto& c : with_units) {
@@ -313,8 +319,7 @@ void add_axes(const Available& has, Assumptions& list) {
     const char* name;
     Axes LogChange::*axes;
   };
-  const Vectors vectors[] = {
-      {ball.position, "positions", &LogChange::axes_of_positions},
+  const Vectors vectors[] = {{ball.position, "positions", &LogChange::axes_of_positions},
       {ball.velocity_before || ball.velocity_after, "velocities", &LogChange::axes_of_velocities},
       {ball.spin_before || ball.spin_after, "spins", &LogChange::axes_of_spins}};
   const bool all = vectors[0].logged && vectors[1].logged && vectors[2].logged;
@@ -325,7 +330,8 @@ void add_axes(const Available& has, Assumptions& list) {
       std::string text;
       for (std::size_t k = 0; k < 3; ++k) {
         axes.sign[k] = signs >> k & 1 ? -1 : 1;
-        text += fmt::format("{}{}{}", k > 0 ? ", " : "", axes.sign[k] < 0 ? "-" : "", "xyz"[axes.from[k]]);
+        text += fmt::format(
+            "{}{}{}", k > 0 ? ", " : "", axes.sign[k] < 0 ? "-" : "", "xyz"[axes.from[k]]);
       }
       if (axes == Axes{}) continue;
       text += " of the log are x, y, z of the case";
@@ -335,7 +341,8 @@ void add_axes(const Available& has, Assumptions& list) {
         });
       for (const auto& v : vectors)
         if (v.logged)
-          add(list, std::string("the log's ") + v.name, text, [=](Assumed& a) { a.log.*v.axes = axes; });
+          add(list, std::string("the log's ") + v.name, text,
+              [=](Assumed& a) { a.log.*v.axes = axes; });
     }
   } while (std::next_permutation(from.begin(), from.end()));
 }
@@ -366,10 +373,10 @@ void add_formulas(const Assumed& nominal, Assumptions& list) {
   const auto alike = [&](const auto& ball) { return ball == nominal.balls.front(); };
   if (std::all_of(nominal.balls.begin(), nominal.balls.end(), alike)) return;
   for (const auto& [form, text] :
-       {std::pair(Form::limit_of_sliding, "1 + 1/J, as (2.24) is printed, in the limit of sliding"),
-        std::pair(Form::friction, "1 + 1/J, as (2.24) is printed, in the impulse too"),
-        std::pair(Form::masses, "each takes half of the relative change, as for equal masses"),
-        std::pair(Form::exchanged_masses, "the masses are exchanged")})
+      {std::pair(Form::limit_of_sliding, "1 + 1/J, as (2.24) is printed, in the limit of sliding"),
+          std::pair(Form::friction, "1 + 1/J, as (2.24) is printed, in the impulse too"),
+          std::pair(Form::masses, "each takes half of the relative change, as for equal masses"),
+          std::pair(Form::exchanged_masses, "the masses are exchanged")})
     add(list, "impacts of balls that are not alike (2.24')", text,
         [form = form](Assumed& a) { a.terms.equal_balls = form; });
 }
@@ -382,8 +389,8 @@ void add_exchanged_balls(const Assumed& nominal, Assumptions& list) {
   for (int i = 0; i < count; ++i)
     for (int j = i + 1; j < count; ++j)
       if (!(nominal.balls[i] == nominal.balls[j]))
-        add(list, "the log's numbers of balls", fmt::format("balls {} and {} taken for each other", i, j),
-            [=](Assumed& a) {
+        add(list, "the log's numbers of balls",
+            fmt::format("balls {} and {} taken for each other", i, j), [=](Assumed& a) {
               a.log.exchanged = {i, j};
             });
 }

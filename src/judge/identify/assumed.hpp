@@ -12,8 +12,8 @@
 
 namespace edmill::identify {
 
-using audit::Available, audit::Case, audit::LoggedEvent, audit::LoggedImpact, audit::Mill, audit::Terms,
-    audit::Vec, audit::dot, audit::size, audit::unknown;
+using audit::Available, audit::Case, audit::LoggedEvent, audit::LoggedImpact, audit::Mill,
+    audit::Terms, audit::Vec, audit::dot, audit::size, audit::unknown;
 using casefile::CaseSpec, casefile::Quantity;
 
 /// Axes of vectors, permuted and turned: component k is sign[k] times component from[k] of the log.
@@ -23,7 +23,9 @@ struct Axes {
   bool operator==(const Axes&) const = default;
   Vec of(const Vec& v) const;
   /// 1, or -1 for a mirror image of the axes.
-  int handedness() const { return ((from[1] - from[0] + 3) % 3 == 1 ? 1 : -1) * sign[0] * sign[1] * sign[2]; }
+  int handedness() const {
+    return ((from[1] - from[0] + 3) % 3 == 1 ? 1 : -1) * sign[0] * sign[1] * sign[2];
+  }
 };
 
 /// Frame of the vectors in a log.
@@ -72,8 +74,7 @@ using SharedSubset = std::shared_ptr<const Subset>;
 
 /// @param branches  by event; both must outlive the subsets
 std::vector<SharedSubset> subsets_of(const CaseSpec& spec, const Case& the_case,
-                                     const std::vector<LoggedEvent>& events,
-                                     const std::vector<Branches>& branches);
+    const std::vector<LoggedEvent>& events, const std::vector<Branches>& branches);
 
 struct Assumed;
 
@@ -82,8 +83,8 @@ struct Restricted {
   std::function<void(Assumed&)> make;
 };
 
-/// Values that may explain a log. The balls are those of the built case; the mill follows from the file's
-/// exact quantities, so that every mill, vessel and law is varied by its own parameters.
+/// Values that may explain a log. The balls are those of the built case; the mill follows from the
+/// file's exact quantities, so that every mill, vessel and law is varied by its own parameters.
 struct Assumed {
   CaseSpec spec;
   std::vector<model::BallProperties<double>> balls;
@@ -95,7 +96,8 @@ struct Assumed {
   std::map<std::array<std::size_t, 2>, double> phases = {};
   std::vector<Restricted> restricted = {};  ///< for parts of the log only
 
-  /// The case with these values; nothing if its file is refused, a ball does not fit or walls differ.
+  /// The case with these values; nothing if its file is refused, a ball does not fit or walls
+  /// differ.
   std::optional<Case> built() const;
   CaseSpec case_file() const;
   /// True if a case file can express all but the log's conventions: an audit can test it.
@@ -129,13 +131,13 @@ struct Assumption {
   double cycle = 0;           ///< period of a phase, in the unit of the number; 0 for others
   std::string equation = {};  ///< in docs/theory.md, of a term; empty for a number of the case
   bool of_impacts = true;     ///< false if only rows of flights depend on it
-  double prior = 0;           ///< cost in Schwarz's criterion, as for a choice among parts of the log
+  double prior = 0;  ///< cost in Schwarz's criterion, as for a choice among parts of the log
   /// For a number of another contact law: the law that the case has in its place; `value` is nan.
   std::string in_place_of = {};
   std::vector<double> first_values = {};  ///< starting values of such a number or of a mistake
-  std::string mistake = {};               ///< "R_x(gamma) R_z(theta) in place of ..."; empty for a number
-  bool by_factor = false;                 ///< mistake that multiplies a number, like a wrong unit
-  bool of_motion = false;                 ///< mistake that replaces the mill, and with it its numbers
+  std::string mistake = {};  ///< "R_x(gamma) R_z(theta) in place of ..."; empty for a number
+  bool by_factor = false;    ///< mistake that multiplies a number, like a wrong unit
+  bool of_motion = false;    ///< mistake that replaces the mill, and with it its numbers
 
   bool is_of_case() const { return first_values.empty(); }
   /// False for a mistake, which has no value.
@@ -150,8 +152,8 @@ struct Assumption {
     set(base, x);
     return base;
   }
-  /// Trial values to start fits from. They cover orders of magnitude of a number, the reversal and absence of
-  /// a term, one cycle of a phase; those of a speed miss no turn.
+  /// Trial values to start fits from. They cover orders of magnitude of a number, the reversal and
+  /// absence of a term, one cycle of a phase; those of a speed miss no turn.
   /// @param end  time of the last event that is used [s]
   std::vector<double> trial_values(double end) const;
 };
@@ -168,8 +170,8 @@ struct Found {
 auto fitted(auto& of) {
   std::size_t mistakes = 0;
   while (mistakes < of.found.size() && !of.found[mistakes].what.is_fitted()) ++mistakes;
-  return std::span<std::remove_reference_t<decltype(of.found[0])>>(of.found.data() + mistakes,
-                                                                   of.found.size() - mistakes);
+  return std::span<std::remove_reference_t<decltype(of.found[0])>>(
+      of.found.data() + mistakes, of.found.size() - mistakes);
 }
 
 /// All numbers of the mill, the vessel, gravity, the contact laws and the balls.

@@ -59,7 +59,8 @@ struct Problem {
   /// @param x  the numbers, each in its unit of a fit
   Hypothesis at(const VectorXd& x) const {
     Hypothesis moved = tried;
-    for (Eigen::Index k = 0; auto& number : fitted(moved)) number.value = x[k++] * number.what.change;
+    for (Eigen::Index k = 0; auto& number : fitted(moved))
+      number.value = x[k++] * number.what.change;
     return moved;
   }
   int operator()(const VectorXd& x, VectorXd& out) const {
@@ -88,13 +89,14 @@ VectorXd weights_of(const VectorXd& rows, double scale) {
   return (1 + rows.array().square() / (scale * scale)).inverse();
 }
 
-/// Sets the intervals: three standard deviations for noise of the size of the residuals, plus the effect of
-/// the worst shift of all rows by that size: rounding shifts rows together.
+/// Sets the intervals: three standard deviations for noise of the size of the residuals, plus the
+/// effect of the worst shift of all rows by that size: rounding shifts rows together.
 void set_half_widths(const Eigen::MatrixXd& j, const VectorXd& rows, Hypothesis& tried) {
   const auto weights = weights_of(rows, 1);
   double sum = 0, total = 0;
   for (Eigen::Index i = 0; i < weights.size(); ++i) {
-    if (j.row(i).isZero(0)) continue;  // depends on no parameter, and says nothing about their noise
+    if (j.row(i).isZero(0))
+      continue;  // depends on no parameter, and says nothing about their noise
     sum += weights[i] * rows[i] * rows[i];
     total += weights[i];
   }
@@ -114,11 +116,11 @@ void set_half_widths(const Eigen::MatrixXd& j, const VectorXd& rows, Hypothesis&
 }  // namespace
 
 /// Rows of an event for an assumed model, terms of the equations, and deviations of the log.
-audit::Rows LogResiduals::rows_of(std::size_t k, const Case& model, const LogChange& change,
-                                  const Terms& terms) const {
+audit::Rows LogResiduals::rows_of(
+    std::size_t k, const Case& model, const LogChange& change, const Terms& terms) const {
   LoggedEvent copy, copy_of_earlier;
-  const auto event_at = [&, is_changed = !(change == LogChange{})](std::size_t place,
-                                                                   LoggedEvent& own) -> const LoggedEvent& {
+  const auto event_at = [&, is_changed = !(change == LogChange{})](
+                            std::size_t place, LoggedEvent& own) -> const LoggedEvent& {
     if (!is_changed) return log_.events[place];
     own = log_.events[place];
     change.apply(own, model.mill);
@@ -136,8 +138,7 @@ audit::Rows LogResiduals::rows_of(std::size_t k, const Case& model, const LogCha
     if (terms.wall_velocity_delay != 0 || terms.wall_velocity_formula != 0) {
       const double time = event.time - terms.wall_velocity_delay;
       impact.set_wall_velocity(audit::wall_velocities[terms.wall_velocity_formula], model.mill,
-                               audit::vessel_at(model.mill, time, false),
-                               audit::vessel_at(model.mill, time, true));
+          audit::vessel_at(model.mill, time, false), audit::vessel_at(model.mill, time, true));
     }
     impact.wall_velocity *= terms.wall_velocity;
   }
@@ -148,22 +149,20 @@ audit::Rows LogResiduals::rows_of(std::size_t k, const Case& model, const LogCha
     const Before& begin = before_[k][body];
     if (begin.event < 0) continue;
     const LoggedEvent& earlier = event_at(begin.event, copy_of_earlier);
-    equations.of_flight({earlier.body[begin.body], event.body[body], log_.available.body[begin.body],
-                         log_.available.body[body], earlier.time, event.time,
-                         model.balls[event.ball_at(body)].radius, static_cast<int>(body)},
-                        model.mill.gravity, rows);
+    equations.of_flight(
+        {earlier.body[begin.body], event.body[body], log_.available.body[begin.body],
+            log_.available.body[body], earlier.time, event.time,
+            model.balls[event.ball_at(body)].radius, static_cast<int>(body)},
+        model.mill.gravity, rows);
   }
   std::erase_if(rows, [](const audit::Row& row) { return row.equation == Check::approach; });
   return rows;
 }
 
-LogResiduals::LogResiduals(const EventsAtHand& log, const audit::Tolerances& tolerances, const Case& nominal)
-    : log_(log),
-      tolerances_(tolerances),
-      before_(log.events.size()),
-      in_stall_(log.events.size()),
-      branches_(log.events.size()),
-      nominal_(nominal) {
+LogResiduals::LogResiduals(
+    const EventsAtHand& log, const audit::Tolerances& tolerances, const Case& nominal)
+    : log_(log), tolerances_(tolerances), before_(log.events.size()), in_stall_(log.events.size()),
+      branches_(log.events.size()), nominal_(nominal) {
   std::vector<Before> last(nominal.balls.size());
   audit::StallHistory stalls(nominal.mill, nominal.balls.size());
   for (std::size_t k = 0; k < log.events.size(); ++k) {
@@ -187,9 +186,9 @@ LogResiduals::LogResiduals(const EventsAtHand& log, const audit::Tolerances& tol
 Branches LogResiduals::branches_of(const LoggedEvent& event) const {
   const auto& has = log_.available;
   if (!has.positions(event.with_wall) || !has.velocities_before(event.with_wall)) return {};
-  const auto impact = audit::impact_of(
-      event, nominal_,
-      event.with_wall ? audit::vessel_at(nominal_.mill, event.time, false) : audit::VesselFrame{}, true);
+  const auto impact = audit::impact_of(event, nominal_,
+      event.with_wall ? audit::vessel_at(nominal_.mill, event.time, false) : audit::VesselFrame{},
+      true);
   const auto speeds = audit::speeds_before(impact);
   const double separation = impact.separation_speed(speeds.g_n), bounce = separation - speeds.g_n;
   // A contact sticks if twice the impulse does not change e_t.
@@ -197,7 +196,7 @@ Branches LogResiduals::branches_of(const LoggedEvent& event) const {
     return impact.tangential_restitution(impact.compliance, impulse, speeds.slip);
   };
   return {true, has.spins(event.with_wall) && e_t(bounce) == e_t(2 * bounce),
-          separation > impact.by_restitution(speeds.g_n)};
+      separation > impact.by_restitution(speeds.g_n)};
 }
 
 Residuals::Residuals(const LogResiduals& log, const std::vector<std::size_t>& events) : log_(&log) {
@@ -254,7 +253,8 @@ double misfit(const Residuals& sample, const VectorXd& rows) {
   double cost = 0;
   for (const auto& own : of_kind) {
     const double scale = std::max(median_size(own), perfect);
-    for (const double r : own) cost += 2 * std::log1p(r * r / (scale * scale)) + 2 * std::log(scale);
+    for (const double r : own)
+      cost += 2 * std::log1p(r * r / (scale * scale)) + 2 * std::log(scale);
   }
   return cost;
 }
@@ -262,7 +262,8 @@ double misfit(const Residuals& sample, const VectorXd& rows) {
 void fit(const Residuals& sample, Hypothesis& tried) {
   Problem problem{sample, tried};
   VectorXd x(problem.inputs());
-  for (Eigen::Index k = 0; const auto& number : fitted(tried)) x[k++] = number.value / number.what.change;
+  for (Eigen::Index k = 0; const auto& number : fitted(tried))
+    x[k++] = number.value / number.what.change;
   auto rows = sample.rows(tried.assumed());
   const auto scales = scales_for(rows);
   constexpr std::size_t most_rounds = 25;
@@ -294,8 +295,8 @@ void fit(const Residuals& sample, Hypothesis& tried) {
 }
 
 VectorXd sensitivity(const Residuals& sample, const Assumed& base, const VectorXd& rows,
-                     const Assumption& p) {  // A restitution or least separation speed of 0 may need a large
-                                             // step to have any effect.
+    const Assumption& p) {  // A restitution or least separation speed of 0 may need a large
+                            // step to have any effect.
   for (const double length : {1e-6, 1.0}) {
     if (!p.is_of_case() || (length == 1 && p.value != 0)) break;
     const double step = possible_step(base, p, p.value, length);

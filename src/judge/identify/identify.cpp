@@ -16,7 +16,8 @@ template <class Item>
 std::vector<Item> best_of(std::vector<std::pair<double, Item>> order, std::size_t most) {
   std::stable_sort(order.begin(), order.end(), [](auto& a, auto& b) { return a.first < b.first; });
   std::vector<Item> best;
-  for (std::size_t k = 0; k < std::min(most, order.size()); ++k) best.push_back(std::move(order[k].second));
+  for (std::size_t k = 0; k < std::min(most, order.size()); ++k)
+    best.push_back(std::move(order[k].second));
   return best;
 }
 
@@ -40,7 +41,9 @@ bool has_number_of_case(const Hypothesis& tried) {
 Assumptions of_parts(const Assumptions& numbers) {
   std::set<std::string> common;
   const auto last = [](const std::string& key) { return key.substr(key.rfind('.') + 1); };
-  const auto of_both = [](const std::string& key) { return std::count(key.begin(), key.end(), '.') == 1; };
+  const auto of_both = [](const std::string& key) {
+    return std::count(key.begin(), key.end(), '.') == 1;
+  };
   for (const auto& p : numbers)
     if (p.key.starts_with("contact.") && of_both(p.key)) common.insert(last(p.key));
   Assumptions list;
@@ -60,18 +63,12 @@ class Evidence {
  public:
   /// All arguments except the_case must outlive it. @pre the log has events
   /// @param violations  number that an audit of the unmodified case finds
-  Evidence(const EventsAtHand& log, const Options& options, const Case& the_case, const Assumed& nominal,
-           std::uint64_t violations)
-      : log_(log),
-        options_(options),
-        nominal_(nominal),
-        period_(the_case.mill.motion.period()),
+  Evidence(const EventsAtHand& log, const Options& options, const Case& the_case,
+      const Assumed& nominal, std::uint64_t violations)
+      : log_(log), options_(options), nominal_(nominal), period_(the_case.mill.motion.period()),
         residuals_(log, audit::tolerances_of(the_case, options), the_case),
         parts_(subsets_of(nominal.spec, the_case, log.events, residuals_.branches())),
-        few_(residuals_, {}),
-        many_(few_),
-        all_(few_),
-        violations_(violations) {
+        few_(residuals_, {}), many_(few_), all_(few_), violations_(violations) {
     std::vector<std::size_t> every(log_.events.size());
     std::iota(every.begin(), every.end(), std::size_t{0});
     all_ = Residuals(residuals_, every);
@@ -109,7 +106,8 @@ class Evidence {
     const double early = events[std::min<std::size_t>(79, events.size() - 1)].time - begin;
     const double span = end - begin, first = std::max(period_, early);
     windows_.clear();
-    for (double window = first; window < span; window *= 4) windows_.push_back(sample(begin + window, 160));
+    for (double window = first; window < span; window *= 4)
+      windows_.push_back(sample(begin + window, 160));
     windows_.push_back(sample(end, 300));
     few_ = sample(end, 80);
     many_ = sample(end, 1500);
@@ -124,8 +122,8 @@ class Evidence {
     for (const auto& number : fitted(tried)) tried.score += number.what.prior + std::log(rows);
   }
 
-  /// Extends a hypothesis by an assumption and fits all of its numbers together, from the value of the case
-  /// and from trial values that fit better.
+  /// Extends a hypothesis by an assumption and fits all of its numbers together, from the value of
+  /// the case and from trial values that fit better.
   Hypothesis with(const Hypothesis& base, const Assumption& p) const {
     const auto assumed = base.assumed();
     const auto& sample = p.is_periodic() ? early() : few_;
@@ -147,7 +145,8 @@ class Evidence {
   /// Fits with the final sample and audits with the result. @return whether it is accepted
   bool accept(Hypothesis& tried) const {
     if (!(score_of_case_ - tried.score >= strong_evidence)) return false;
-    if (vanished(whole(), tried.assumed()) < 0.5) return false;  // the final fit cannot make up for that
+    if (vanished(whole(), tried.assumed()) < 0.5)
+      return false;  // the final fit cannot make up for that
     tried.plainness = 0;
     if (!fitted(tried).empty()) fit(many_, tried);
     for (auto& number : fitted(tried))
@@ -161,7 +160,7 @@ class Evidence {
     }
     count_violations(tried);
     return tried.left <= tried.of && audit::accounts_for(tried.of - tried.left, tried.of) &&
-           10 * vanished(many_, tried.assumed()) >= 9;
+        10 * vanished(many_, tried.assumed()) >= 9;
   }
 
   struct Explained {
@@ -193,9 +192,10 @@ class Evidence {
       if (vanished[kind] > 0) contradicting += left[kind];
     constexpr std::size_t least_events = 5;  // a number fits one or two by chance
     const auto rows = explained.rows.size();
-    return audit::accounts_for(rows, rows + contradicting) && explained.events.size() >= least_events
-               ? explained
-               : Explained{};
+    return audit::accounts_for(rows, rows + contradicting) &&
+            explained.events.size() >= least_events
+        ? explained
+        : Explained{};
   }
 
   std::set<std::size_t> violating_events(const Assumed& assumed) const {
@@ -206,8 +206,8 @@ class Evidence {
     return events;
   }
 
-  /// Assumptions that improve the fit on top of `base` with one of their trial values, best first. This finds
-  /// mistakes, and numbers that matter only far from their nominal value.
+  /// Assumptions that improve the fit on top of `base` with one of their trial values, best first.
+  /// This finds mistakes, and numbers that matter only far from their nominal value.
   Assumptions by_trials(const Assumed& base, const Assumptions& list, std::size_t most) const {
     const double enough = misfit(few_, base) - strong_evidence;
     std::vector<std::pair<double, Assumption>> order;
@@ -231,8 +231,8 @@ class Evidence {
   }
 
   /// Numbers by how much they should improve `base` in a part with this share of violated rows.
-  Assumptions best_in_parts(const Assumed& base, const Assumptions& numbers, std::size_t most,
-                            double share) const {
+  Assumptions best_in_parts(
+      const Assumed& base, const Assumptions& numbers, std::size_t most, double share) const {
     const VectorXd rows = whole().rows(base);
     std::vector<SharedSubset> parts;
     for (const auto& part : parts_) {
@@ -252,7 +252,6 @@ class Evidence {
     for (auto& p : by_trials(base, restricted, most / 2)) best.push_back(std::move(p));
     return best;
   }
-
  private:
   Assumption in_part(const SharedSubset& part, const Assumption& p) const {
     return restricted_to(part, p, parts_.size());
@@ -261,8 +260,8 @@ class Evidence {
   const Residuals& whole() const { return windows_.back(); }
 
   /// Numbers ranked by a linear fit of the rows, or of those in parts without all of their effect.
-  Assumptions by_sensitivity(const Residuals& sample, const Assumed& base, const Assumptions& numbers,
-                             const std::vector<SharedSubset>& parts, std::size_t most) const {
+  Assumptions by_sensitivity(const Residuals& sample, const Assumed& base,
+      const Assumptions& numbers, const std::vector<SharedSubset>& parts, std::size_t most) const {
     const VectorXd rows = sample.rows(base);
     std::vector<std::pair<double, Assumption>> order;
     for (const auto& p : numbers) {
@@ -281,14 +280,16 @@ class Evidence {
     return best_of(std::move(order), most);
   }
 
-  /// Fits hypotheses with several starting values, over growing spans if with a speed. @return the best
+  /// Fits hypotheses with several starting values, over growing spans if with a speed. @return the
+  /// best
   Hypothesis best_fitted(std::vector<Hypothesis> list) const {
     for (auto& tried : list) {
-      const bool from_early =
-          std::any_of(tried.found.begin(), tried.found.end(), [](const Found& f) { return f.what.is_speed; });
+      const bool from_early = std::any_of(
+          tried.found.begin(), tried.found.end(), [](const Found& f) { return f.what.is_speed; });
       for (const auto& window : windows_) {
         const bool last = &window == &whole();
-        if (!fitted(tried).empty() && (last || (from_early && window.count() >= 12))) fit(window, tried);
+        if (!fitted(tried).empty() && (last || (from_early && window.count() >= 12)))
+          fit(window, tried);
       }
       judge(tried);
     }
@@ -353,34 +354,36 @@ class Evidence {
   double score_of_case_ = 0;
 };
 
-/// A stage of the search: the best hypotheses of one size, each extended by one mistake, one number, or one
-/// number in a part of the log. Stages without parts extend hypotheses about the whole log. With these bounds
-/// of its time verification/plain/faults_test.py finds its faults.
+/// A stage of the search: the best hypotheses of one size, each extended by one mistake, one
+/// number, or one number in a part of the log. Stages without parts extend hypotheses about the
+/// whole log. With these bounds of its time verification/plain/faults_test.py finds its faults.
 struct Stage {
-  const char* name;                                     ///< null: reported with the previous stage
-  std::size_t size, bases = 1;                          ///< size and number of the hypotheses that it extends
+  const char* name;             ///< null: reported with the previous stage
+  std::size_t size, bases = 1;  ///< size and number of the hypotheses that it extends
   std::size_t mistakes = 0, numbers = 0, in_parts = 0;  ///< how many are tried with each hypothesis
-  double share = 0.9;                                   ///< of the violated rows that a part must contain
+  double share = 0.9;  ///< of the violated rows that a part must contain
 };
-constexpr Stage stages[] = {
-    {.name = "single causes", .size = 0, .mistakes = 8, .numbers = 6},
+constexpr Stage stages[] = {{.name = "single causes", .size = 0, .mistakes = 8, .numbers = 6},
     {.name = "causes in a part of the log", .size = 0, .in_parts = 8},
     {.name = "two causes together", .size = 1, .bases = 10, .mistakes = 2, .numbers = 5},
     {.name = "two causes, of parts of the log", .size = 0, .in_parts = 4, .share = 0.2},
     {.name = nullptr, .size = 1, .bases = 10, .in_parts = 3},
-    {.name = "three causes together", .size = 2, .bases = 4, .mistakes = 2, .numbers = 3, .in_parts = 3}};
+    {.name = "three causes together",
+        .size = 2,
+        .bases = 4,
+        .mistakes = 2,
+        .numbers = 3,
+        .in_parts = 3}};
 
 class Searcher {
  public:
   Searcher(const CaseSpec& spec, Options options, Search search, Progress progress)
-      : search_(search),
-        progress_(std::move(progress)),
-        nominal_(assumed_of(spec)),
-        the_case_(casefile::build_case<double>(spec).the_case),
-        options_(std::move(options)) {
+      : search_(search), progress_(std::move(progress)), nominal_(assumed_of(spec)),
+        the_case_(casefile::build_case<double>(spec).the_case), options_(std::move(options)) {
     options_.examples = 0;
     options_.progress = nullptr;
-    log_ = audit::read_events(the_case_, options_, search == Search::all ? most_events : most_for_single);
+    log_ = audit::read_events(
+        the_case_, options_, search == Search::all ? most_events : most_for_single);
     interrupt_ = std::exchange(options_.interrupt, nullptr);  // audits must not end early
     numbers_ = numbers_of(nominal_);
     mistakes_ = mistakes_of(nominal_, numbers_, log_.available);
@@ -395,7 +398,6 @@ class Searcher {
       result.stepping.step_by_depth.reset();
     return result;
   }
-
  private:
   void find_causes(Identification& result) {
     result.search = search_;
@@ -468,7 +470,8 @@ class Searcher {
       };
       if (stage.mistakes > 0) add(evidence_->by_trials(assumed, mistakes_, stage.mistakes));
       if (stage.numbers > 0) add(evidence_->best_numbers(assumed, numbers_, stage.numbers));
-      if (stage.in_parts > 0) add(evidence_->best_in_parts(assumed, numbers_, stage.in_parts, stage.share));
+      if (stage.in_parts > 0)
+        add(evidence_->best_in_parts(assumed, numbers_, stage.in_parts, stage.share));
       if (stage.size == 0 && stage.numbers > 0)
         for (const auto& p : numbers_)
           if (p.is_periodic()) add({p});
@@ -494,10 +497,10 @@ class Searcher {
 
   Cause cause_of(const Hypothesis& h) const {
     return {.found = h.found,
-            .explains = h.of - std::min(h.of, h.left),
-            .of = h.of,
-            .others = h.others,
-            .gain = evidence_->score_of_case() - h.score};
+        .explains = h.of - std::min(h.of, h.left),
+        .of = h.of,
+        .others = h.others,
+        .gain = evidence_->score_of_case() - h.score};
   }
 
   /// The best accepted hypothesis. A larger one must explain half of what a smaller one leaves.
@@ -528,7 +531,7 @@ class Searcher {
     for (auto h : best_of_size(1, tried_.size(), true)) {
       auto own = evidence_->explained_by(h);
       const auto known = std::count_if(own.rows.begin(), own.rows.end(),
-                                       [&](std::size_t row) { return explained.contains(row); });
+          [&](std::size_t row) { return explained.contains(row); });
       if (own.rows.empty() || 10 * static_cast<std::size_t>(known) > own.rows.size()) continue;
       h.of = violating;
       h.left = violating - own.events.size();
@@ -551,8 +554,8 @@ class Searcher {
 
 }  // namespace
 
-Identification identify(const CaseSpec& spec, const Options& options, Search search,
-                        const Progress& progress) {
+Identification identify(
+    const CaseSpec& spec, const Options& options, Search search, const Progress& progress) {
   return Searcher(spec, options, search, progress).run();
 }
 

@@ -43,8 +43,8 @@ std::string table(const TimeStepping& found);
 struct Cause {
   std::vector<Found> found = {};       ///< mistakes first
   std::uint64_t explains = 0, of = 0;  ///< violations
-  std::string others = {};             ///< kinds of the violations that it does not explain, if known
-  double gain = 0;                     ///< improvement of Schwarz's criterion by the cause
+  std::string others = {};  ///< kinds of the violations that it does not explain, if known
+  double gain = 0;          ///< improvement of Schwarz's criterion by the cause
   /// For logs without states: impacts that a run reproduces, and could in spite of rounding.
   std::uint64_t follows = 0, could_follow = 0;
   std::vector<std::string> alike = {};  ///< other causes that this log cannot distinguish from it
@@ -53,8 +53,8 @@ struct Cause {
   std::string text() const;
 };
 
-/// Extent of a search. `single`: one value or mistake for the whole log. `all`: also causes in parts of the
-/// log, two and three causes together, and runs of the case.
+/// Extent of a search. `single`: one value or mistake for the whole log. `all`: also causes in
+/// parts of the log, two and three causes together, and runs of the case.
 enum class Search { single, all };
 
 struct SearchedFor {
@@ -64,7 +64,7 @@ struct SearchedFor {
 
 struct Identification {
   std::uint64_t events = 0, violations = 0;  ///< used in the search
-  std::vector<Cause> causes;                 ///< the best first; empty where nothing explains the log
+  std::vector<Cause> causes;  ///< the best first; empty where nothing explains the log
   /// For logs without positions: impacts that a run reproduces, and if only rounding limits it.
   std::optional<std::uint64_t> follows;
   bool follows_all = false;
@@ -81,14 +81,14 @@ using Progress = std::function<void(const std::string& stage)>;
 /// Searches the first events of a log. @param options of the audit; its log is read again
 /// @throws InputError
 Identification identify(const CaseSpec& spec, const Options& options, Search search = Search::all,
-                        const Progress& progress = {});
+    const Progress& progress = {});
 
-/// Searches causes for a log without states: runs the case with other values, from its own initial state, and
-/// compares the impacts with those of the log. docs/audit.md, "Causes"
+/// Searches causes for a log without states: runs the case with other values, from its own initial
+/// state, and compares the impacts with those of the log. docs/audit.md, "Causes"
 /// @param is_interrupted  called between runs; true ends the search
 /// @return how many the case reproduces, and the best cause that reproduces nine tenths
-Identification replay(const Assumed& nominal, const Assumptions& assumptions, const EventsAtHand& log,
-                      const std::function<bool()>& is_interrupted);
+Identification replay(const Assumed& nominal, const Assumptions& assumptions,
+    const EventsAtHand& log, const std::function<bool()>& is_interrupted);
 
 std::string table(const Identification& found);
 

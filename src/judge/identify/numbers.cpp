@@ -22,16 +22,15 @@ std::string with_axis(const std::string& key, int axis) {
 Assumption number(std::string key, Dimension dimension, double value, auto set) {
   const double size = std::abs(value);
   return {.key = std::move(key),
-          .dimension = dimension,
-          .value = value,
-          .change = size > 0 ? size : 1.0,
-          .set = set,
-          .has_unit = size > 0};
+      .dimension = dimension,
+      .value = value,
+      .change = size > 0 ? size : 1.0,
+      .set = set,
+      .has_unit = size > 0};
 }
 
 /// Visits each number of a motion, vessel or law: f(parameter, number, axis), axis -1 for a scalar.
-template <class Part, class F>
-void each_number(Part& part, F&& f) {
+template <class Part, class F> void each_number(Part& part, F&& f) {
   struct Visit {
     F& f;
     void operator()(const Parameter& p, Quantity& q) const { f(p, q, -1); }
@@ -65,10 +64,11 @@ void add_numbers(const std::string& of, const Assumed& nominal, auto member, Ass
 }
 
 /// Adds the numbers of the joints of a mill or a body; they are not keys of its type.
-/// @param chains  the joints in an assumed case, of each copy, which has a rotation more before the first
+/// @param chains  the joints in an assumed case, of each copy, which has a rotation more before the
+/// first
 void add_joints(const std::string& section, Assumed nominal,
-                const std::function<std::vector<std::vector<model::Joint<Quantity>>*>(Assumed&)>& chains,
-                Assumptions& list) {
+    const std::function<std::vector<std::vector<model::Joint<Quantity>>*>(Assumed&)>& chains,
+    Assumptions& list) {
   const auto joints = *chains(nominal).front();
   const auto turn = std::find_if(joints.begin(), joints.end(), [](auto& j) { return j.rotates; });
   for (std::size_t j = 0; j < joints.size(); ++j) {
@@ -80,11 +80,10 @@ void add_joints(const std::string& section, Assumed nominal,
       const bool turns = dimension == Dimension::angle || dimension == Dimension::angular_speed;
       const double unit = turns ? 2 * pi : 1;
       list.push_back(number(fmt::format("{}.joint.{}.{}", section, j, key), dimension,
-                            unit * value.to<double>(), [=, count = joints.size()](Assumed& a, double x) {
-                              for (auto* chain : chains(a))
-                                *member((*chain)[j + (behind ? chain->size() - count : 0)]) =
-                                    exactly(x / unit);
-                            }));
+          unit * value.to<double>(), [=, count = joints.size()](Assumed& a, double x) {
+            for (auto* chain : chains(a))
+              *member((*chain)[j + (behind ? chain->size() - count : 0)]) = exactly(x / unit);
+          }));
     };
     for (int axis = 0; axis < 3; ++axis)
       add(with_axis("translate", axis), Dimension::length, [=](auto& j) { return &j.shift[axis]; });
@@ -93,7 +92,8 @@ void add_joints(const std::string& section, Assumed nominal,
         [](auto& j) { return &j.speed; });
     if (joint.rotates && !joint.speed.zero()) list.back().is_speed = true;
     for (std::size_t s = 0; s < joint.swings.size(); ++s) {
-      add(fmt::format("swing.{}.amplitude", s), joint.rotates ? Dimension::angle : Dimension::length,
+      add(fmt::format("swing.{}.amplitude", s),
+          joint.rotates ? Dimension::angle : Dimension::length,
           [s](auto& j) { return &j.swings[s].amplitude; });
       add(fmt::format("swing.{}.speed", s), Dimension::angular_speed,
           [s](auto& j) { return &j.swings[s].frequency; });
@@ -171,7 +171,9 @@ void add_phases(const Assumed& nominal, Assumptions& list) {
       return fmt::format("mill, phase of joint {}, {} {}", j, moves, axis_text(joints[j]));
     };
     for (std::size_t s = 0; s < swings.size(); ++s)
-      add(j, s, name(fmt::format("swing.{}.phase", s), joints[j].rotates ? "a swing about" : "a swing along"),
+      add(j, s,
+          name(fmt::format("swing.{}.phase", s),
+              joints[j].rotates ? "a swing about" : "a swing along"),
           swings[s].phase);
     const bool listed = chain && !joints[j].angle.zero();
     if (joints[j].rotates && !joints[j].speed.zero() && !listed)
@@ -195,7 +197,7 @@ void add_gravity(const Assumed& nominal, Assumptions& list) {
   if (size == 0) {
     for (int axis = 0; axis < 3; ++axis) {
       list.push_back(number(with_axis("run.gravity", axis), Dimension::acceleration, 0,
-                            [=](Assumed& a, double x) { a.spec.gravity[axis] = exactly(x); }));
+          [=](Assumed& a, double x) { a.spec.gravity[axis] = exactly(x); }));
       list.back().change = 10;
     }
     return;
@@ -207,19 +209,20 @@ void add_gravity(const Assumed& nominal, Assumptions& list) {
   }));
   // Two tilts of the direction, towards the two axes that are closest to perpendicular to it.
   std::array<int, 3> axes = {0, 1, 2};
-  std::sort(axes.begin(), axes.end(), [&](int a, int b) { return std::abs(g[a]) < std::abs(g[b]); });
+  std::sort(
+      axes.begin(), axes.end(), [&](int a, int b) { return std::abs(g[a]) < std::abs(g[b]); });
   const int along = axes[2];
   for (int tilt = 0; tilt < 2; ++tilt) {
     const int axis = axes[tilt];
     auto p = number(with_axis("run.gravity, tilted towards", axis), Dimension::angle, 0,
-                    [=](Assumed& a, double x) {
-                      Vec now = gravity_of(a);
-                      const double c = std::cos(x), s = std::sin(x), side = g[along] < 0 ? -1 : 1;
-                      const double u = now[axis], v = now[along] * side;
-                      now[axis] = c * u + s * v;
-                      now[along] = (c * v - s * u) * side;
-                      put(a, now);
-                    });
+        [=](Assumed& a, double x) {
+          Vec now = gravity_of(a);
+          const double c = std::cos(x), s = std::sin(x), side = g[along] < 0 ? -1 : 1;
+          const double u = now[axis], v = now[along] * side;
+          now[axis] = c * u + s * v;
+          now[along] = (c * v - s * u) * side;
+          put(a, now);
+        });
     p.change = 0.1;
     list.push_back(std::move(p));
   }
@@ -239,10 +242,11 @@ struct OtherLaw {
   double change;
   std::vector<double> first_values;  ///< from which fits begin
 };
-const OtherLaw other_laws[] = {
-    {"constant", "restitution_tangential", Dimension::none, 0.1, {-0.9, -0.6, -0.3, 0, 0.3, 0.6, 0.9}},
+const OtherLaw other_laws[] = {{"constant", "restitution_tangential", Dimension::none, 0.1,
+                                   {-0.9, -0.6, -0.3, 0, 0.3, 0.6, 0.9}},
     {"walton-braun", "friction", Dimension::none, 0.1, {0.03, 0.1, 0.2, 0.4, 0.8}},
-    {"walton-braun", "restitution", Dimension::none, 0.1, {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}},
+    {"walton-braun", "restitution", Dimension::none, 0.1,
+        {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}},
     {"viscoelastic", "dissipative_time", Dimension::time, 1e-7, decades(1e-8, 1e-4)},
     {"elastic-plastic", "yield_pressure", Dimension::pressure, 1e9, decades(1e8, 1e11)}};
 
@@ -262,8 +266,7 @@ struct Entry {
 };
 
 /// Visits each number of a law: f(key, dimension, number).
-template <class F>
-void each_number_of(Law& law, F&& f) {
+template <class F> void each_number_of(Law& law, F&& f) {
   each_number(law.law, [&](const Parameter& p, Quantity& q, int) { f(p.key, p.dimension, q); });
   f("least_separation", Dimension::speed, law.least_separation);
 }
@@ -285,7 +288,9 @@ bool replace(Law& law, const OtherLaw& other, double value) {
   });
   each_number_of(law, [&](const char* key, Dimension, Quantity& q) {
     const auto same = std::find_if(own.begin(), own.end(), [&](auto& e) { return e.key == key; });
-    const auto value_there = key == other.number ? value : same != own.end() ? same->value : otherwise(key);
+    const auto value_there = key == other.number ? value
+        : same != own.end()                      ? same->value
+                                                 : otherwise(key);
     complete = complete && value_there;
     q = exactly(value_there.value_or(0));
   });
@@ -326,17 +331,18 @@ void add_other_laws(const Section& section, Assumed nominal, Assumptions& list) 
   for (const auto& other : other_laws) {
     Law tried = law;
     if (law.name() == other.model || !replace(tried, other, other.first_values.front())) continue;
-    list.push_back({.key = fmt::format("{}, law \"{}\": {}", section.key, other.model, other.number),
-                    .dimension = other.dimension,
-                    .value = std::numeric_limits<double>::quiet_NaN(),
-                    .change = other.change,
-                    .set =
-                        [laws = section.laws, &other](Assumed& a, double x) {
-                          for (Law* own : laws(a)) replace(*own, other, x);
-                        },
-                    .prior = 1,  // a number of the case's law is preferred if it fits as well
-                    .in_place_of = fmt::format("the law \"{}\"", law.name()),
-                    .first_values = other.first_values});
+    list.push_back(
+        {.key = fmt::format("{}, law \"{}\": {}", section.key, other.model, other.number),
+            .dimension = other.dimension,
+            .value = std::numeric_limits<double>::quiet_NaN(),
+            .change = other.change,
+            .set =
+                [laws = section.laws, &other](Assumed& a, double x) {
+                  for (Law* own : laws(a)) replace(*own, other, x);
+                },
+            .prior = 1,  // a number of the case's law is preferred if it fits as well
+            .in_place_of = fmt::format("the law \"{}\"", law.name()),
+            .first_values = other.first_values});
   }
 }
 
@@ -347,7 +353,9 @@ void add_laws(const Assumed& nominal, Assumptions& list) {
   std::vector<Section> sections;
   if (!spec.pairs_only) {
     if (spec.ball_ball.law.index() == spec.ball_wall.law.index())
-      sections.push_back({"contact", [](Assumed& a) { return Laws{&a.spec.ball_ball, &a.spec.ball_wall}; }});
+      sections.push_back({"contact", [](Assumed& a) {
+                            return Laws{&a.spec.ball_ball, &a.spec.ball_wall};
+                          }});
     sections.push_back({"contact.ball_ball", [](Assumed& a) { return Laws{&a.spec.ball_ball}; }});
     sections.push_back({"contact.ball_wall", [](Assumed& a) { return Laws{&a.spec.ball_wall}; }});
   }
@@ -355,19 +363,20 @@ void add_laws(const Assumed& nominal, Assumptions& list) {
   for (const auto& section : sections) add_other_laws(section, nominal, list);
   for (std::size_t k = 0; k < spec.pairs.size(); ++k)
     add_numbers_of(
-        {fmt::format("contact.pair.{}", k), [k](Assumed& a) { return Laws{&a.spec.pairs[k].law}; }}, nominal,
-        list);
+        {fmt::format("contact.pair.{}", k), [k](Assumed& a) { return Laws{&a.spec.pairs[k].law}; }},
+        nominal, list);
 }
 
 /// Adds the parameters of the balls [first, last), each scaled by one factor for all of them.
-void add_balls(const std::string& key, std::size_t first, std::size_t last, const casefile::BallSpec& spec,
-               Assumptions& list) {
+void add_balls(const std::string& key, std::size_t first, std::size_t last,
+    const casefile::BallSpec& spec, Assumptions& list) {
   using Spec = casefile::BallSpec;
   // Changes the balls themselves, whose diameters may differ, and their entries in the case.
   const auto each = [first, last](Assumed& a, Quantity Spec::*member, double x, auto&& change) {
     for (std::size_t k = first; k < last; ++k) change(a.balls[k]);
     const std::size_t explicit_ones = a.spec.balls.size();
-    for (std::size_t k = first; k < std::min(last, explicit_ones); ++k) a.spec.balls[k].*member = exactly(x);
+    for (std::size_t k = first; k < std::min(last, explicit_ones); ++k)
+      a.spec.balls[k].*member = exactly(x);
     std::size_t next = explicit_ones;
     for (auto& batch : a.spec.batches) {
       if (next >= first && next < last) batch.*member = exactly(x);
@@ -386,10 +395,10 @@ void add_balls(const std::string& key, std::size_t first, std::size_t last, cons
   list.push_back(number(key + ".density", Dimension::density, density, [=](Assumed& a, double x) {
     each(a, &Spec::density, x, [&](auto& ball) { ball.mass *= x / density; });
   }));
-  list.push_back(number(key + ".reduced_inertia", Dimension::none, spec.reduced_inertia.to<double>(),
-                        [=](Assumed& a, double x) {
-                          each(a, &Spec::reduced_inertia, x, [&](auto& ball) { ball.reduced_inertia = x; });
-                        }));
+  list.push_back(number(key + ".reduced_inertia", Dimension::none,
+      spec.reduced_inertia.to<double>(), [=](Assumed& a, double x) {
+        each(a, &Spec::reduced_inertia, x, [&](auto& ball) { ball.reduced_inertia = x; });
+      }));
 }
 
 void add_all_balls(const Assumed& nominal, Assumptions& list) {
@@ -402,7 +411,8 @@ void add_all_balls(const Assumed& nominal, Assumptions& list) {
     });
   };
   using Spec = casefile::BallSpec;
-  if (groups.size() == 1) return add_balls(groups[0].key, 0, nominal.balls.size(), *groups[0].spec, list);
+  if (groups.size() == 1)
+    return add_balls(groups[0].key, 0, nominal.balls.size(), *groups[0].spec, list);
   if (same(&Spec::diameter) && same(&Spec::density) && same(&Spec::reduced_inertia))
     add_balls("all balls", 0, nominal.balls.size(), *groups[0].spec, list);
   if (groups.size() <= most_groups)
@@ -417,8 +427,7 @@ struct TermRow {
   Dimension shift = Dimension::none;  ///< of a shift, 0 if correct; none: a factor, 1 if correct
   bool of_flights = false;            ///< else of impacts
 };
-constexpr TermRow term_rows[] = {
-    {"impulse of the friction", "(2.28')", &Terms::friction},
+constexpr TermRow term_rows[] = {{"impulse of the friction", "(2.28')", &Terms::friction},
     {"change of the velocity by the friction", "(2.34')", &Terms::friction_on_velocity},
     {"torque of the friction", "(2.35)", &Terms::torque},
     {"share M/m of the impulse", "(2.28')", &Terms::share},
@@ -437,23 +446,25 @@ constexpr TermRow term_rows[] = {
     {"gap at which bodies meet", "(2.17')", &Terms::contact_gap, Dimension::length},
     {"gravity in flights", "(2.1)", &Terms::gravity, Dimension::none, true},
     {"gravity in the places of flights", "(2.1)", &Terms::gravity_in_places, Dimension::none, true},
-    {"gravity in the velocities of flights", "(2.1)", &Terms::gravity_in_velocities, Dimension::none, true},
+    {"gravity in the velocities of flights", "(2.1)", &Terms::gravity_in_velocities,
+        Dimension::none, true},
     {"spin in flights", "(2.1)", &Terms::spin_in_flight, Dimension::none, true},
     {"time of flight, too long by", "(2.1)", &Terms::time_of_flight, Dimension::time, true},
-    {"age of the velocities before impacts", "(2.1)", &Terms::age_of_velocities, Dimension::time, true}};
+    {"age of the velocities before impacts", "(2.1)", &Terms::age_of_velocities, Dimension::time,
+        true}};
 
 void add_terms(Assumptions& list) {
   for (const auto& row : term_rows) {
     const bool is_factor = row.shift == Dimension::none;
     const double change = is_factor ? 1.0 : row.shift == Dimension::time ? 1e-5 : 1e-4;
     list.push_back({.key = row.name,
-                    .dimension = row.shift,
-                    .value = is_factor ? 1.0 : 0.0,
-                    .change = change,
-                    .set = [member = row.member](Assumed& a, double x) { a.terms.*member = x; },
-                    .equation = row.equation,
-                    .of_impacts = !row.of_flights,
-                    .prior = 1});  // a number of the case is preferred if it fits as well
+        .dimension = row.shift,
+        .value = is_factor ? 1.0 : 0.0,
+        .change = change,
+        .set = [member = row.member](Assumed& a, double x) { a.terms.*member = x; },
+        .equation = row.equation,
+        .of_impacts = !row.of_flights,
+        .prior = 1});  // a number of the case is preferred if it fits as well
   }
 }
 
@@ -462,13 +473,10 @@ struct Unit {
   const char* name;
   double size;
 };
-constexpr Unit units[] = {{Dimension::length, " mm", 1e-3},
-                          {Dimension::time, " ms", 1e-3},
-                          {Dimension::angle, " deg", pi / 180},
-                          {Dimension::speed, " m/s", 1},
-                          {Dimension::angular_speed, " rpm", 2 * pi / 60},
-                          {Dimension::acceleration, " m/s2", 1},
-                          {Dimension::density, " kg/m3", 1}};
+constexpr Unit units[] = {{Dimension::length, " mm", 1e-3}, {Dimension::time, " ms", 1e-3},
+    {Dimension::angle, " deg", pi / 180}, {Dimension::speed, " m/s", 1},
+    {Dimension::angular_speed, " rpm", 2 * pi / 60}, {Dimension::acceleration, " m/s2", 1},
+    {Dimension::density, " kg/m3", 1}};
 Unit unit_of(Dimension dimension, double value) {
   if (dimension == Dimension::pressure)
     return std::abs(value) < 1e9 ? Unit{dimension, " MPa", 1e6} : Unit{dimension, " GPa", 1e9};
@@ -499,7 +507,8 @@ std::vector<double> Assumption::trial_values(double end) const {
   } else if (value == 0) {
     values = {0.1 * change, change, 10 * change, -change};
   } else {
-    for (const double factor : {-1.0, 0.0, 0.1, 0.5, 0.75, 1.3, 2.0, 10.0}) values.push_back(factor * value);
+    for (const double factor : {-1.0, 0.0, 0.1, 0.5, 0.75, 1.3, 2.0, 10.0})
+      values.push_back(factor * value);
   }
   return values;
 }
@@ -509,14 +518,16 @@ Assumptions numbers_of(const Assumed& nominal) {
   if (std::holds_alternative<model::Chain<Quantity>>(nominal.spec.mill))
     add_joints(
         "mill", nominal,
-        [](Assumed& a) { return std::vector{&std::get<model::Chain<Quantity>>(a.spec.mill).given.list}; },
+        [](Assumed& a) {
+          return std::vector{&std::get<model::Chain<Quantity>>(a.spec.mill).given.list};
+        },
         list);
   else
     add_numbers("mill", nominal, &CaseSpec::mill, list);
   if (!std::holds_alternative<model::StillMill<Quantity>>(nominal.spec.mill)) {
     const double period = casefile::period_of(nominal.spec.mill).to<double>();
-    list.push_back(
-        number("phase of the drive", Dimension::time, 0, [](Assumed& a, double x) { a.log.delay = x; }));
+    list.push_back(number(
+        "phase of the drive", Dimension::time, 0, [](Assumed& a, double x) { a.log.delay = x; }));
     list.back().change = period / 10;
     list.back().cycle = period;
     add_phases(nominal, list);
@@ -555,7 +566,8 @@ std::string value_text(Dimension dimension, double value, double half_width) {
                v = std::abs(value) <= half_width && h < 1e-6 ? 0 : value / unit.size;
   if (!(h > 0) || !std::isfinite(h)) return fmt::format("{:.9g}{}", v, unit.name);
   const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(h))) + 1, 0, 15);
-  if (h < 1e-6 * std::max(std::abs(v), 1e-3)) return fmt::format("{:.9g} ± {:.1e}{}", v, h, unit.name);
+  if (h < 1e-6 * std::max(std::abs(v), 1e-3))
+    return fmt::format("{:.9g} ± {:.1e}{}", v, h, unit.name);
   return fmt::format("{:.{}f} ± {:.{}f}{}", v, decimals, h, decimals, unit.name);
 }
 

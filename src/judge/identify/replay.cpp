@@ -23,7 +23,8 @@ class Replay {
     const DriveClock<double> clock(period_);
     start_ = clock.elapsed({0, 0.0}, initial.start);
     const auto pose = mill.motion.pose(initial.start);
-    for (const auto& state : states_) places_.push_back(mill.motion.position_in_vessel(pose, state.position));
+    for (const auto& state : states_)
+      places_.push_back(mill.motion.position_in_vessel(pose, state.position));
     for (const auto& e : log.events) {
       if (!e.problem.empty() || log_.size() == most_impacts) break;
       log_.push_back(e);
@@ -69,9 +70,9 @@ class Replay {
       const auto source = run::make_source("double", spec, true);
       for (const auto& e : source->next(count))
         list.push_back({.ball = e.ball,
-                        .with_wall = e.with_wall,
-                        .partner = e.partner,
-                        .time = static_cast<double>(e.time) / assumed.log.time - assumed.log.delay});
+            .with_wall = e.with_wall,
+            .partner = e.partner,
+            .time = static_cast<double>(e.time) / assumed.log.time - assumed.log.delay});
     } catch (const InputError&) {  // balls that do not fit into this vessel
     } catch (const UndecidedError&) {
     }
@@ -88,10 +89,10 @@ class Replay {
   }
   std::size_t follows(const std::vector<Impact>& list) const { return common(list, log_); }
 
-  /// Differences in time between the impacts of a run and those of the log [s]. Each ball contributes its
-  /// first impacts, `depth` at most, up to the first one whose partner differs.
-  std::vector<double> differences(const std::vector<Impact>& list, std::size_t depth,
-                                  std::vector<std::size_t>& places) const {
+  /// Differences in time between the impacts of a run and those of the log [s]. Each ball
+  /// contributes its first impacts, `depth` at most, up to the first one whose partner differs.
+  std::vector<double> differences(
+      const std::vector<Impact>& list, std::size_t depth, std::vector<std::size_t>& places) const {
     std::vector<double> off;
     std::vector<std::size_t> next(states_.size(), 0), seen(states_.size(), 0);
     std::vector<std::vector<std::size_t>> of_ball(states_.size());
@@ -119,7 +120,6 @@ class Replay {
   double period() const { return period_; }
   /// Whether the balls start at their positions in the vessel frame or in the inertial one.
   bool in_vessel = false;
-
  private:
   std::vector<model::BallState<double>> states_;
   std::vector<Vec> places_;  ///< in the vessel [m]
@@ -136,8 +136,8 @@ double weighted_median(std::vector<std::pair<double, double>> values) {
   return 0;
 }
 
-/// Fits a number to the times of the first impacts of the log: least absolute deviations, with times linear
-/// in the number, over an increasing number of impacts of each ball.
+/// Fits a number to the times of the first impacts of the log: least absolute deviations, with
+/// times linear in the number, over an increasing number of impacts of each ball.
 /// @return the value, and its uncertainty from the scatter of the last impacts
 std::pair<double, double> fit_value(const Replay& runs, const Assumed& base, const Assumption& p) {
   double value = p.value, open = std::abs(p.change);
@@ -162,16 +162,16 @@ std::pair<double, double> fit_value(const Replay& runs, const Assumed& base, con
     std::vector<std::pair<double, double>> scatter;
     for (const auto& [by, weight] : steps) scatter.emplace_back(std::abs(by - move), weight);
     // The last term accounts for the rounding of times in two runs of the case.
-    open =
-        10 * weighted_median(scatter) + std::abs(move) * 1e-3 + 1e-12 * std::max(std::abs(value), p.change);
+    open = 10 * weighted_median(scatter) + std::abs(move) * 1e-3 +
+        1e-12 * std::max(std::abs(value), p.change);
   }
   return {value, open};
 }
 
 }  // namespace
 
-Identification replay(const Assumed& nominal, const Assumptions& assumptions, const EventsAtHand& log,
-                      const std::function<bool()>& is_interrupted) {
+Identification replay(const Assumed& nominal, const Assumptions& assumptions,
+    const EventsAtHand& log, const std::function<bool()>& is_interrupted) {
   Replay runs(nominal, log);
   Identification result;
   if (runs.count() < 20) {
@@ -187,7 +187,9 @@ Identification replay(const Assumed& nominal, const Assumptions& assumptions, co
     for (auto& ball : other.balls) ball.radius *= 1 + 1e-15;
     return std::max<std::size_t>(1, runs.common(list, runs.impacts(other, runs.count())));
   };
-  const auto enough = [&](std::size_t follows, std::size_t could) { return 10 * follows >= 9 * could; };
+  const auto enough = [&](std::size_t follows, std::size_t could) {
+    return 10 * follows >= 9 * could;
+  };
   result.follows_all = enough(without, horizon(nominal, case_itself));
   if (result.follows_all) return result;
 
@@ -206,9 +208,11 @@ Identification replay(const Assumed& nominal, const Assumptions& assumptions, co
       if (a.by_factor) continue;  // running a mill a thousand times as fast takes too long
       if (a.is_fitted()) {
         const auto [value, open] = fit_value(runs, nominal, a);
-        if (std::abs(value - a.value) > open) consider({.found = {{a, value, open}}}, a.on(nominal, value));
+        if (std::abs(value - a.value) > open)
+          consider({.found = {{a, value, open}}}, a.on(nominal, value));
       } else if (const Assumed assumed = a.on(nominal, 1);
-                 runs.follows(runs.impacts(assumed, 30)) >= std::min<std::size_t>(20, runs.count())) {
+                 runs.follows(runs.impacts(assumed, 30)) >=
+                 std::min<std::size_t>(20, runs.count())) {
         consider({.found = {{a}}}, assumed);
       }
     }

@@ -25,11 +25,12 @@ bool agree(const std::vector<double>& values) {
   return std::abs(quantile(values, 0.75) - quantile(values, 0.25)) < std::abs(middle);
 }
 
-/// The common step of two durations, by the continued fraction of their ratio. @param rounding  of a time [s]
+/// The common step of two durations, by the continued fraction of their ratio. @param rounding  of
+/// a time [s]
 std::optional<double> step_of(double one, double two, double rounding) {
   double p = 1, q = 0, p_before = 0, q_before = 1, rest = one / two;
-  const double most =
-      0.1 * std::sqrt(std::min(one, two) / rounding);  // beyond this, every ratio has such a fraction
+  const double most = 0.1 *
+      std::sqrt(std::min(one, two) / rounding);  // beyond this, every ratio has such a fraction
   for (int term = 0; term < 40; ++term) {
     const double whole = std::floor(rest);
     std::swap(p, p_before);
@@ -47,8 +48,8 @@ std::optional<double> step_of(double one, double two, double rounding) {
 std::optional<double> common_step(const std::vector<LoggedEvent>& events) {
   if (events.size() < least_number) return std::nullopt;
   const double begin = events.front().time, span = events.back().time - begin;
-  const double rounding =
-      2 * std::numeric_limits<double>::epsilon() * std::max(std::abs(begin), std::abs(begin + span));
+  const double rounding = 2 * std::numeric_limits<double>::epsilon() *
+      std::max(std::abs(begin), std::abs(begin + span));
   const auto holds = [&](double step) {
     if (span / step < static_cast<double>(events.size())) return false;
     return std::all_of(events.begin(), events.end(), [&](const LoggedEvent& event) {
@@ -58,7 +59,8 @@ std::optional<double> common_step(const std::vector<LoggedEvent>& events) {
   };
   std::optional<double> best;
   for (std::size_t k = 2; k < std::min<std::size_t>(events.size(), 100); ++k) {
-    const double one = events[k - 1].time - events[k - 2].time, two = events[k].time - events[k - 1].time;
+    const double one = events[k - 1].time - events[k - 2].time,
+                 two = events[k].time - events[k - 1].time;
     if (!(one > 100 * rounding) || !(two > 100 * rounding)) continue;
     const auto step = step_of(one, two, rounding);
     if (step && *step > 100 * rounding && (!best || *step > *best) && holds(*step)) best = step;
@@ -67,8 +69,8 @@ std::optional<double> common_step(const std::vector<LoggedEvent>& events) {
   return best;
 }
 
-/// True if delays are even up to a step, by a Kolmogorov-Smirnov test at 1 %, with a limit 0.1 larger for
-/// impacts within a step.
+/// True if delays are even up to a step, by a Kolmogorov-Smirnov test at 1 %, with a limit 0.1
+/// larger for impacts within a step.
 bool are_even(std::vector<double> delays, double step) {
   std::sort(delays.begin(), delays.end());
   const auto all = static_cast<double>(delays.size());
@@ -83,17 +85,16 @@ bool are_even(std::vector<double> delays, double step) {
 /// Delays of events [s], by the number of the wall, -1 for balls.
 using Delays = std::map<int, std::vector<double>>;
 
-/// The time step of a code that detects contacts at the first step after them; 0 without a sign of one. It
-/// delays all contacts alike; a misplaced wall or a wrong ball delays its own only.
+/// The time step of a code that detects contacts at the first step after them; 0 without a sign of
+/// one. It delays all contacts alike; a misplaced wall or a wrong ball delays its own only.
 double late_step(const Delays& delays) {
   std::vector<double> all;
   for (const auto& [partner, own] : delays) all.insert(all.end(), own.begin(), own.end());
   if (all.size() < least_number) return 0;
   const double step = quantile(all, 0.98) / 0.98;
   if (!(step > 0) || !are_even(all, step)) return 0;
-  const bool alike = std::all_of(delays.begin(), delays.end(), [&](const auto& of) {
-    return of.second.size() < least_number || are_even(of.second, step);
-  });
+  const bool alike = std::all_of(delays.begin(), delays.end(),
+      [&](const auto& of) { return of.second.size() < least_number || are_even(of.second, step); });
   return alike ? step : 0;
 }
 
@@ -129,7 +130,6 @@ class Measurements {
   std::vector<double> first_order;  ///< the step that each flight implies [s]
   /// For each flight that deviates only along its path, the logged duration minus its own [s].
   std::vector<double> surplus;
-
  private:
   /// Geometry of an impact and its depth.
   void add(std::size_t k) {
@@ -148,10 +148,9 @@ class Measurements {
     contact.effective_radius =
         event.with_wall ? ball.radius : ball.radius * other.radius / (ball.radius + other.radius);
     contact.approach = -impact.along(one.velocity_before - met);
-    contact.carrier =
-        event.with_wall
-            ? met
-            : Vec((one.velocity_before * ball.mass + met * other.mass) * (1 / (ball.mass + other.mass)));
+    contact.carrier = event.with_wall ? met
+                                      : Vec((one.velocity_before * ball.mass + met * other.mass) *
+                                            (1 / (ball.mass + other.mass)));
     const bool late = gap < -tolerances_.touch(event.time, event.with_wall);
     // The delay of a grazing contact cannot be determined.
     if (contact.approach > size(one.velocity_before) / 10)
@@ -166,21 +165,24 @@ class Measurements {
     if (!(dt > 0)) return;
     const Vec& g = case_.mill.gravity;
     const Vec off = came.position - (left.position + (left.velocity_after + g * (dt / 2)) * dt);
-    const double speed = size(left.velocity_after), noise = tolerances_.position(end.time, speed * dt, speed);
+    const double speed = size(left.velocity_after),
+                 noise = tolerances_.position(end.time, speed * dt, speed);
     auto &first = contacts[from], &second = contacts[to];
     // A late departure displaces the ball by the delay times its velocity at the end of the flight.
     const double leaving = dot(Vec(left.velocity_after + g * dt - first.carrier), first.normal);
     const double coming = dot(Vec(came.velocity_before - second.carrier), second.normal);
     const bool large = size(off) > 3 * noise;
-    // The ball leaves later than logged, or arrives earlier than logged. While bodies are in contact the
-    // force between them moves the ball off its parabola, along the impulse.
+    // The ball leaves later than logged, or arrives earlier than logged. While bodies are in
+    // contact the force between them moves the ball off its parabola, along the impulse.
     const auto duration = [&](const audit::BodyState& body, const Vec& normal, double speed) {
       const Vec impulse = body.velocity_after - body.velocity_before;
       const Vec across = off - impulse * (dot(off, impulse) / dot(impulse, impulse));
       return 3 * size(across) < size(off) ? -dot(off, normal) / speed : no_duration;
     };
-    if (large && std::abs(leaving) > 0.05) first.duration_from_begin = duration(left, first.normal, leaving);
-    if (large && std::abs(coming) > 0.05) second.duration_from_end = duration(came, second.normal, coming);
+    if (large && std::abs(leaving) > 0.05)
+      first.duration_from_begin = duration(left, first.normal, leaving);
+    if (large && std::abs(coming) > 0.05)
+      second.duration_from_end = duration(came, second.normal, coming);
     if (large && !is_along(came.velocity_before, Vec(came.velocity_after - came.velocity_before)) &&
         !is_along(came.velocity_before, Vec(left.velocity_after - left.velocity_before)))
       surplus.push_back(surplus_of(off, came.velocity_before, g, noise));
@@ -190,7 +192,8 @@ class Measurements {
     const Vec gained = came.velocity_before - (left.velocity_after + g * dt);
     const double fall = dot(off, g) / g_size;
     const double rest = std::max(size(Vec(off - g * (fall / g_size))), size(gained) * dt);
-    first_order.push_back(!large || 10 * rest <= std::abs(fall) ? 2 * fall / (g_size * dt) : unknown);
+    first_order.push_back(
+        !large || 10 * rest <= std::abs(fall) ? 2 * fall / (g_size * dt) : unknown);
   }
 
   /// True for parallel vectors: finite contacts and time steps displace balls along the impulse.
@@ -199,7 +202,9 @@ class Measurements {
   }
   /// Time by which a ball is late on its path [s]; unknown if it deviates from the path as well.
   static double surplus_of(const Vec& off, const Vec& velocity, const Vec& g, double noise) {
-    const auto along = [&](const Vec& way) { return -dot(way, velocity) / dot(velocity, velocity); };
+    const auto along = [&](const Vec& way) {
+      return -dot(way, velocity) / dot(velocity, velocity);
+    };
     double time = along(off);
     time = along(Vec(off + g * (time * time / 2)));
     const double rest = size(Vec(off + (velocity + g * (time / 2)) * time));
@@ -238,27 +243,28 @@ std::optional<SoftContacts> soft_contacts(const std::vector<LoggedContact>& cont
     if (!(c.approach > 0)) continue;
     // t = 2.868 (M^2 / (R E*^2 v))^(1/5)
     moduli.push_back(std::sqrt(std::pow(2.868 / t, 5) * c.effective_mass * c.effective_mass /
-                               (c.effective_radius * c.approach)));
+        (c.effective_radius * c.approach)));
     points.emplace_back(std::log(c.approach), std::log(t));
   }
   // Finite contacts require that nearly all durations are positive, and that they agree.
   if (durations.size() < least_number || 10 * durations.size() < 8 * known || !agree(durations))
     return std::nullopt;
   return SoftContacts{.duration = quantile(durations, 0.5),
-                      .low = quantile(durations, 0.25),
-                      .high = quantile(durations, 0.75),
-                      .at = at,
-                      .contacts = durations.size(),
-                      .exponent = exponent_of(std::move(points)),
-                      .spring = quantile(springs, 0.5),
-                      .modulus = moduli.empty() ? unknown : quantile(moduli, 0.5)};
+      .low = quantile(durations, 0.25),
+      .high = quantile(durations, 0.75),
+      .at = at,
+      .contacts = durations.size(),
+      .exponent = exponent_of(std::move(points)),
+      .spring = quantile(springs, 0.5),
+      .modulus = moduli.empty() ? unknown : quantile(moduli, 0.5)};
 }
 
-/// The error of single times, if that alone explains the deviations of flights: as many are too short as too
-/// long. With errors e of its two times that of a flight is sqrt(2) e.
+/// The error of single times, if that alone explains the deviations of flights: as many are too
+/// short as too long. With errors e of its two times that of a flight is sqrt(2) e.
 std::optional<double> jitter_of(std::vector<double> surplus) {
   surplus = mostly_known(std::move(surplus));
-  if (surplus.empty() || !(quantile(surplus, 0.25) < 0 && quantile(surplus, 0.75) > 0)) return std::nullopt;
+  if (surplus.empty() || !(quantile(surplus, 0.25) < 0 && quantile(surplus, 0.75) > 0))
+    return std::nullopt;
   double squares = 0;
   for (const double time : surplus) squares += time * time;
   return std::sqrt(squares / (2 * static_cast<double>(surplus.size())));
@@ -270,7 +276,8 @@ TimeStepping time_stepping(const EventsAtHand& log, const Case& the_case, const 
   TimeStepping result;
   result.step = common_step(log.events);
   const auto& has = log.available;
-  if (!has.positions(false) || !has.velocities_before(false) || !has.velocities_after(false)) return result;
+  if (!has.positions(false) || !has.velocities_before(false) || !has.velocities_after(false))
+    return result;
   Measurements measured(log, the_case, audit::tolerances_of(the_case, options));
   result.soft = soft_contacts(measured.contacts, LoggedAt::begin);
   const auto end = soft_contacts(measured.contacts, LoggedAt::end);
@@ -284,10 +291,12 @@ TimeStepping time_stepping(const EventsAtHand& log, const Case& the_case, const 
   if (orders.empty()) return result;
   const double middle = std::abs(quantile(orders, 0.5));
   const double step = result.step.value_or(result.step_by_depth.value_or(0));
-  if (agree(orders) && middle > 1e-9 && (step == 0 || middle > step / 10)) result.first_order_step = middle;
+  if (agree(orders) && middle > 1e-9 && (step == 0 || middle > step / 10))
+    result.first_order_step = middle;
   // Second order is reported only where a delay of a tenth of a step would be visible.
   const double scatter = quantile(orders, 0.75) - quantile(orders, 0.25);
-  result.second_order = !result.first_order_step && step > 0 && middle < step / 10 && scatter < step / 10;
+  result.second_order =
+      !result.first_order_step && step > 0 && middle < step / 10 && scatter < step / 10;
   return result;
 }
 

@@ -30,11 +30,11 @@ enum Name : std::size_t {
 };
 
 /// The vectors of a body's state, in the order of their columns.
-constexpr std::array<Vec3<double> BodyState::*, 5> state_vectors = {
-    &BodyState::position, &BodyState::velocity_before, &BodyState::spin_before, &BodyState::velocity_after,
+constexpr std::array<Vec3<double> BodyState::*, 5> state_vectors = {&BodyState::position,
+    &BodyState::velocity_before, &BodyState::spin_before, &BodyState::velocity_after,
     &BodyState::spin_after};
-constexpr std::array<bool Available::Body::*, 5> state_flags = {
-    &Available::Body::position, &Available::Body::velocity_before, &Available::Body::spin_before,
+constexpr std::array<bool Available::Body::*, 5> state_flags = {&Available::Body::position,
+    &Available::Body::velocity_before, &Available::Body::spin_before,
     &Available::Body::velocity_after, &Available::Body::spin_after};
 
 Dimension dimension_of(std::size_t name) {
@@ -42,8 +42,7 @@ Dimension dimension_of(std::size_t name) {
   if (name < first_value) return Dimension::none;
   if (name < first_state) return name < first_value + 2 ? Dimension::speed : Dimension::energy;
   static constexpr std::array<Dimension, 5> of_vectors = {Dimension::length, Dimension::speed,
-                                                          Dimension::angular_speed, Dimension::speed,
-                                                          Dimension::angular_speed};
+      Dimension::angular_speed, Dimension::speed, Dimension::angular_speed};
   return of_vectors[(name - first_state) % 15 / 3];
 }
 
@@ -65,8 +64,8 @@ const std::vector<std::string>& column_names() {
   return names;
 }
 
-std::vector<int> parse_walls(const std::string& text, const model::Partners& partners,
-                             const std::string& where) {
+std::vector<int> parse_walls(
+    const std::string& text, const model::Partners& partners, const std::string& where) {
   std::vector<int> walls(partners.walls());
   std::string labels;
   std::istringstream in(text);
@@ -78,8 +77,8 @@ std::vector<int> parse_walls(const std::string& text, const model::Partners& par
     labels += (k == 0 ? "" : ", ") + partners[k].label;
   }
   if (!good || !(in >> std::ws).eof())
-    throw InputError(fmt::format("{}: found {}, expected {} different numbers, one for each of: {}", where,
-                                 io::in_quotes(text), partners.walls(), labels));
+    throw InputError(fmt::format("{}: found {}, expected {} different numbers, one for each of: {}",
+        where, io::in_quotes(text), partners.walls(), labels));
   return walls;
 }
 
@@ -87,20 +86,18 @@ std::filesystem::path log_in(const std::filesystem::path& place) {
   if (!is_folder(place)) return place;
   const auto log = place / "collisions.csv";
   for (const auto* ending : {"", ".gz", ".zst"})
-    if (const std::filesystem::path file = log.string() + ending; io::is_readable(file.string())) return file;
+    if (const std::filesystem::path file = log.string() + ending; io::is_readable(file.string()))
+      return file;
   return log;
 }
 
 EventLog::EventLog(const std::filesystem::path& place, const LogConventions& conventions, int balls,
-                   int walls, double beyond, bool is_good)
-    : csv_(log_in(place), is_folder(place) ? "a collision log ([[output]] of type \"collisions\" in the case)"
-                                           : "a collision log"),
-      columns_(name_count),
-      is_good_(is_good),
-      first_ball_(conventions.first_ball),
-      balls_(balls),
-      walls_(conventions.walls.value_or(std::vector<int>(walls))),
-      beyond_(beyond) {
+    int walls, double beyond, bool is_good)
+    : csv_(log_in(place),
+          is_folder(place) ? "a collision log ([[output]] of type \"collisions\" in the case)"
+                           : "a collision log"),
+      columns_(name_count), is_good_(is_good), first_ball_(conventions.first_ball), balls_(balls),
+      walls_(conventions.walls.value_or(std::vector<int>(walls))), beyond_(beyond) {
   read_header(conventions);
 }
 
@@ -116,9 +113,10 @@ void EventLog::read_header(const LogConventions& conventions) {
   std::vector<std::string> problems;
   for (const auto& [ours, given] : conventions.columns) {
     const auto name = std::find(names.begin(), names.end(), ours);
-    const auto complain = [&problems, &ours = ours, &given = given](const std::string& found,
-                                                                    const std::string& expected) {
-      problems.push_back(fmt::format("column '{}={}': found {}, expected {}", ours, given, found, expected));
+    const auto complain = [&problems, &ours = ours, &given = given](
+                              const std::string& found, const std::string& expected) {
+      problems.push_back(
+          fmt::format("column '{}={}': found {}, expected {}", ours, given, found, expected));
     };
     if (name == names.end()) {
       complain(io::in_quotes(ours), "one of the names in docs/audit.md");
@@ -135,7 +133,7 @@ void EventLog::read_header(const LogConventions& conventions) {
         columns_[k].unit = value->to<double>();
       else
         complain("unit " + io::in_quotes(unit),
-                 dimension_of(k) == Dimension::none ? "no unit" : casefile::describe(dimension_of(k)));
+            dimension_of(k) == Dimension::none ? "no unit" : casefile::describe(dimension_of(k)));
       // The header may contain the unit as well.
       if (!in_header(column)) column = trimmed(column.substr(0, bracket));
     }
@@ -152,7 +150,8 @@ void EventLog::read_header(const LogConventions& conventions) {
   csv_.throw_problems();
   const bool with_kind = columns_[partner_kind_name].place.has_value();
   if (!conventions.walls)
-    for (int id = 0; id < static_cast<int>(walls_.size()); ++id) walls_[id] = with_kind ? id : -1 - id;
+    for (int id = 0; id < static_cast<int>(walls_.size()); ++id)
+      walls_[id] = with_kind ? id : -1 - id;
   available_.approach_speed = columns_[first_value].place.has_value();
   available_.slip_speed = columns_[first_value + 1].place.has_value();
   available_.milling_dose = columns_[first_value + 2].place.has_value();
@@ -196,23 +195,25 @@ bool EventLog::read_bodies(LoggedEvent& event) {
   }
   const int least = is_good_ ? 0 : -most;
   const bool good_wall = is_good_ && kind == "wall";
-  const char* const expected = good_wall  ? "the number of a wall"
-                               : is_good_ ? "the number of a ball"
-                                          : "the number of a ball or a wall";
+  const char* const expected = good_wall ? "the number of a wall"
+      : is_good_                         ? "the number of a ball"
+                                         : "the number of a ball or a wall";
   const auto ball = csv_.whole(*columns_[ball_name].place, "the number of a ball", least, most);
-  const auto partner =
-      csv_.whole(partner_column, expected, least, good_wall ? static_cast<int>(walls_.size()) - 1 : most);
+  const auto partner = csv_.whole(
+      partner_column, expected, least, good_wall ? static_cast<int>(walls_.size()) - 1 : most);
   if (!ball || !partner) return false;
   const auto wall = std::find(walls_.begin(), walls_.end(), *partner);
   event.with_wall = kind_column ? kind == "wall" : wall != walls_.end();
   event.ball = *ball - first_ball_;
-  event.partner = event.with_wall ? static_cast<int>(wall - walls_.begin()) : *partner - first_ball_;
+  event.partner =
+      event.with_wall ? static_cast<int>(wall - walls_.begin()) : *partner - first_ball_;
   const auto is_ball = [&](int k) { return k >= 0 && k < balls_; };
   const bool other = is_ball(event.partner) && event.partner != event.ball;
   event.unknown_body = !is_ball(event.ball) || !(event.with_wall ? wall != walls_.end() : other);
   if (!event.unknown_body) return true;
   if (is_good_) csv_.bad_field(partner_column, "another ball than the first");
-  event.problem = fmt::format("found ball {} with {} {}", *ball, event.with_wall ? "wall" : "ball", *partner);
+  event.problem =
+      fmt::format("found ball {} with {} {}", *ball, event.with_wall ? "wall" : "ball", *partner);
   return !is_good_;
 }
 
@@ -225,7 +226,7 @@ std::optional<LoggedEvent> EventLog::read() {
     event.time = *time;
     if (is_good_ && event.time < latest_) {
       csv_.bad_field(*columns_[time_name].place,
-                     fmt::format("a time not before {} s, that of the line above", latest_));
+          fmt::format("a time not before {} s, that of the line above", latest_));
       continue;
     }
     if (!(std::abs(event.time) < beyond_)) {
@@ -249,7 +250,8 @@ std::optional<LoggedEvent> EventLog::read() {
     if (!good) continue;
     if (event.time < latest_) event.earlier_by = latest_ - event.time;
     // Rounding alone does not change the order of two lines.
-    if (event.earlier_by <= rounding_of(latest_)) event.time += std::exchange(event.earlier_by, 0.0);
+    if (event.earlier_by <= rounding_of(latest_))
+      event.time += std::exchange(event.earlier_by, 0.0);
     latest_ = std::max(latest_, event.time);
     return event;
   }
@@ -262,7 +264,8 @@ std::optional<LoggedEvent> EventLog::next() {
     at_end_ = !event;
     if (at_end_) break;
     const auto later = [](double time, const LoggedEvent& other) { return time < other.time; };
-    ahead_.insert(std::upper_bound(ahead_.begin(), ahead_.end(), event->time, later), std::move(*event));
+    ahead_.insert(
+        std::upper_bound(ahead_.begin(), ahead_.end(), event->time, later), std::move(*event));
   }
   if (ahead_.empty()) {
     csv_.throw_problems();
@@ -293,7 +296,7 @@ LogScan scan_log(const std::filesystem::path& place) {
   const auto found = root.find("start_time");
   if (found == root.end() || !found->is_number())
     throw InputError(fmt::format("{}: start_time: {}, expected a time in s", summary.string(),
-                                 found == root.end() ? "missing" : "found " + io::in_quotes(found->dump())));
+        found == root.end() ? "missing" : "found " + io::in_quotes(found->dump())));
   scan.statistics_start = found->get<double>();
   const auto counts = root.value("collisions", nlohmann::json::object());
   int walls = 0;

@@ -18,24 +18,26 @@
 
 namespace edmill::logs {
 
-/// Uncertainty of a logged time by rounding [s]: half a unit in the last place for each of whole drive
-/// periods and what exceeds them, their sum, a change of unit, and the way back to periods.
-inline double rounding_of(double time) { return 2 * std::numeric_limits<double>::epsilon() * std::abs(time); }
+/// Uncertainty of a logged time by rounding [s]: half a unit in the last place for each of whole
+/// drive periods and what exceeds them, their sum, a change of unit, and the way back to periods.
+inline double rounding_of(double time) {
+  return 2 * std::numeric_limits<double>::epsilon() * std::abs(time);
+}
 
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// A body of an impact: position, and velocity and spin before and after. Inertial frame, SI.
 struct BodyState {
-  Vec3<double> position{0, 0, 0}, velocity_before{0, 0, 0}, spin_before{0, 0, 0}, velocity_after{0, 0, 0},
-      spin_after{0, 0, 0};
+  Vec3<double> position{0, 0, 0}, velocity_before{0, 0, 0}, spin_before{0, 0, 0},
+      velocity_after{0, 0, 0}, spin_after{0, 0, 0};
 };
 
 /// An impact, with the states of its bodies if the log has them.
 struct LoggedEvent : model::ImpactRecord<double> {
   std::array<BodyState, 2> body{};  ///< the ball and, for balls, its partner
-  double earlier_by = 0;            ///< time by which it precedes an earlier line [s]; 0 if it does not
-  std::string problem{};            ///< why the event cannot be checked: "found nan in column vx_before"
-  bool unknown_body = false;        ///< the problem is a ball or wall that does not exist
+  double earlier_by = 0;      ///< time by which it precedes an earlier line [s]; 0 if it does not
+  std::string problem{};      ///< why the event cannot be checked: "found nan in column vx_before"
+  bool unknown_body = false;  ///< the problem is a ball or wall that does not exist
 
   std::size_t count() const { return with_wall ? 1 : 2; }  ///< of balls
   int ball_at(std::size_t place) const { return place == 0 ? ball : partner; }
@@ -56,9 +58,10 @@ struct Available {
   bool spins(bool with_wall) const {
     return both(with_wall, &Body::spin_before) && both(with_wall, &Body::spin_after);
   }
-
  private:
-  bool both(bool with_wall, bool Body::*part) const { return body[0].*part && (with_wall || body[1].*part); }
+  bool both(bool with_wall, bool Body::*part) const {
+    return body[0].*part && (with_wall || body[1].*part);
+  }
 };
 
 struct LogConventions {
@@ -70,14 +73,14 @@ struct LogConventions {
 
 /// Parses the numbers of the walls in a log, "-1, -2, -3".
 /// @throws InputError naming `where` unless there is a different whole number for each wall
-std::vector<int> parse_walls(const std::string& text, const model::Partners& partners,
-                             const std::string& where);
+std::vector<int> parse_walls(
+    const std::string& text, const model::Partners& partners, const std::string& where);
 
 /// The log file of a path: the file itself, or collisions.csv, perhaps compressed, in a folder.
 std::filesystem::path log_in(const std::filesystem::path& place);
 
-/// Reads a log in bounded memory. It reads ahead by `window` events, so that those slightly out of order come
-/// in order of time. Columns may be in any order; unknown ones are skipped.
+/// Reads a log in bounded memory. It reads ahead by `window` events, so that those slightly out of
+/// order come in order of time. Columns may be in any order; unknown ones are skipped.
 class EventLog {
  public:
   static constexpr std::size_t window = 256;
@@ -88,8 +91,8 @@ class EventLog {
   /// @param beyond        a time of this magnitude or more is invalid [s]
   /// @throws InputError with every problem of the mapping and the header
   /// @param is_good       as in the other constructor
-  EventLog(const std::filesystem::path& place, const LogConventions& conventions, int balls, int walls,
-           double beyond, bool is_good = false);
+  EventLog(const std::filesystem::path& place, const LogConventions& conventions, int balls,
+      int walls, double beyond, bool is_good = false);
   /// Opens a log that must be free of errors: in order of time, with finite values and the columns
   /// partner_kind and approach_speed. States are not read; any numbers of bodies are accepted.
   explicit EventLog(const std::filesystem::path& place);
@@ -102,7 +105,6 @@ class EventLog {
   bool has(std::size_t quantity) const;
   const Available& available() const { return available_; }
   const std::string& file() const { return csv_.file(); }
-
  private:
   struct Column {
     std::optional<std::size_t> place;
@@ -132,14 +134,13 @@ enum class Verdict { agree, differ, too_few, not_compared };
 const std::vector<std::string>& column_names();
 
 /// A value for each quantity of model::logged_quantities.
-template <class T>
-using OfEach = std::array<T, model::logged_count>;
+template <class T> using OfEach = std::array<T, model::logged_count>;
 
 struct LogScan {
   std::string file;
   std::uint64_t events = 0;
-  int walls = 0;                    ///< number in the summary beside the log, or up to the last one met
-  double first = 0, last = 0;       ///< times [s]
+  int walls = 0;               ///< number in the summary beside the log, or up to the last one met
+  double first = 0, last = 0;  ///< times [s]
   OfEach<double> mean_magnitude{};  ///< of each column; 0 for an absent one
   OfEach<bool> has{};
   /// From the summary.json beside a log in a folder, when there is one.

@@ -21,8 +21,8 @@ double fraction(const Axis& axis, double value) {
 }
 
 /// A <text> of a style [px].
-pugi::xml_node add_text(pugi::xml_node parent, const char* style, double x, double y,
-                        const std::string& text) {
+pugi::xml_node add_text(
+    pugi::xml_node parent, const char* style, double x, double y, const std::string& text) {
   return add(parent, "text", {{"class", style}, {"x", pixel(x)}, {"y", pixel(y)}}, text);
 }
 
@@ -32,8 +32,8 @@ void add_y_title(pugi::xml_node axis, double x, double y, const std::string& tex
       fmt::format("rotate(-90 {} {})", pixel(x), pixel(y)).c_str();
 }
 
-/// The plot area within the margins that the labels need [px], and the positions of values in it. Values
-/// outside are moved to a position slightly beyond the frame, where they are clipped.
+/// The plot area within the margins that the labels need [px], and the positions of values in it.
+/// Values outside are moved to a position slightly beyond the frame, where they are clipped.
 class Frame {
  public:
   explicit Frame(const Chart& chart) : chart_(chart) {
@@ -56,8 +56,12 @@ class Frame {
     const Axis& axis = chart_.y;
     return axis.logarithmic ? log_ticks(axis.low, axis.high) : linear_ticks(axis.low, axis.high);
   }
-  double x(double value) const { return left + bounded(fraction(chart_.x, value)) * (right - left); }
-  double y(double value) const { return bottom - bounded(fraction(chart_.y, value)) * (bottom - top); }
+  double x(double value) const {
+    return left + bounded(fraction(chart_.x, value)) * (right - left);
+  }
+  double y(double value) const {
+    return bottom - bounded(fraction(chart_.y, value)) * (bottom - top);
+  }
   /// "M12 34": a step of a path.
   std::string step(const char* pen, double x_value, double y_value) const {
     return fmt::format("{}{} {}", pen, pixel(x(x_value)), pixel(y(y_value)));
@@ -65,7 +69,6 @@ class Frame {
 
   static constexpr double width = 460, height = 280, top = 14, bottom = 232;
   double left = least_left, right = most_right;
-
  private:
   static constexpr double least_left = 70, most_right = 448;
   static double bounded(double fraction) { return std::clamp(fraction, -0.05, 1.05); }
@@ -105,13 +108,16 @@ std::string path_of(const Band& band, const Frame& frame) {
   return path + "Z";
 }
 
-void add_line(pugi::xml_node parent, const char* style, double x1, double y1, double x2, double y2) {
+void add_line(
+    pugi::xml_node parent, const char* style, double x1, double y1, double x2, double y2) {
   add(parent, "line",
-      {{"class", style}, {"x1", pixel(x1)}, {"y1", pixel(y1)}, {"x2", pixel(x2)}, {"y2", pixel(y2)}});
+      {{"class", style}, {"x1", pixel(x1)}, {"y1", pixel(y1)}, {"x2", pixel(x2)},
+          {"y2", pixel(y2)}});
 }
 
 void add_axes(pugi::xml_node svg, const Chart& chart, const Frame& f) {
-  auto x_axis = add(svg, "g", {{"class", "axis x-axis"}}), y_axis = add(svg, "g", {{"class", "axis y-axis"}});
+  auto x_axis = add(svg, "g", {{"class", "axis x-axis"}}),
+       y_axis = add(svg, "g", {{"class", "axis y-axis"}});
   for (const auto& tick : f.x_ticks()) {
     const double x = f.x(tick.place);
     add_line(x_axis, "tick", x, f.bottom, x, f.bottom + (tick.label.empty() ? 3 : 5));
@@ -142,7 +148,8 @@ void add_legend(pugi::xml_node figure, const Chart& chart) {
 
 using std::numbers::pi;
 
-void add_cell(pugi::xml_node parent, const std::string& path, const HeatMap& map, const HeatCell& cell) {
+void add_cell(
+    pugi::xml_node parent, const std::string& path, const HeatMap& map, const HeatCell& cell) {
   auto node = add(parent, "path", {{"d", path}, {"fill", heat_colour(cell.value / map.highest)}});
   add(node, "title", {}, readable(cell.value, 3) + map.value.substr(map.value.find(" [") + 1));
 }
@@ -151,13 +158,13 @@ void add_cell(pugi::xml_node parent, const std::string& path, const HeatMap& map
 std::string sector(const HeatCell& c, double scale, double cx, double cy) {
   const auto place = [&](double radius, double angle) {
     return fmt::format("{} {}", pixel(cx + scale * radius * std::cos(angle)),
-                       pixel(cy - scale * radius * std::sin(angle)));
+        pixel(cy - scale * radius * std::sin(angle)));
   };
   const std::string outer = pixel(scale * c.y_high), inner = pixel(scale * c.y_low);
   const int large = c.x_high - c.x_low > pi ? 1 : 0;
-  return fmt::format("M{}A{} {} 0 {} 0 {}L{}A{} {} 0 {} 1 {}Z", place(c.y_high, c.x_low), outer, outer, large,
-                     place(c.y_high, c.x_high), place(c.y_low, c.x_high), inner, inner, large,
-                     place(c.y_low, c.x_low));
+  return fmt::format("M{}A{} {} 0 {} 0 {}L{}A{} {} 0 {} 1 {}Z", place(c.y_high, c.x_low), outer,
+      outer, large, place(c.y_high, c.x_high), place(c.y_low, c.x_high), inner, inner, large,
+      place(c.y_low, c.x_low));
 }
 
 constexpr double bar = 12, bar_gap = 5;
@@ -173,14 +180,11 @@ void add_scale(pugi::xml_node svg, const HeatMap& map, double x, double top, dou
   const double height = (bottom - top) / parts;
   for (int k = 0; k < parts; ++k)
     add(scale, "rect",
-        {{"x", pixel(x)},
-         {"y", pixel(bottom - (k + 1) * height)},
-         {"width", pixel(bar)},
-         {"height", pixel(height + 0.5)},
-         {"fill", heat_colour((k + 0.5) / parts)}});
+        {{"x", pixel(x)}, {"y", pixel(bottom - (k + 1) * height)}, {"width", pixel(bar)},
+            {"height", pixel(height + 0.5)}, {"fill", heat_colour((k + 0.5) / parts)}});
   for (const auto& tick : linear_ticks(0, map.highest, 6))
-    add_text(scale, "label after", x + bar + bar_gap, bottom - (bottom - top) * tick.place / map.highest + 4,
-             tick.label);
+    add_text(scale, "label after", x + bar + bar_gap,
+        bottom - (bottom - top) * tick.place / map.highest + 4, tick.label);
   add_text(scale, "axis-title end", x + scale_width(map), top - 12, map.value);
 }
 
@@ -195,7 +199,7 @@ void draw_disc(pugi::xml_node figure, const HeatMap& map) {
   for (int k = 0; k < 4; ++k) {
     const double c = std::cos(k * pi / 2), s = std::sin(k * pi / 2);
     add_text(axis, "label", cx + (radius + 20) * c, cy - (radius + 12) * s + 4,
-             fmt::format("{}\u00b0", 90 * k));
+        fmt::format("{}\u00b0", 90 * k));
   }
   add_text(axis, "axis-title", cx, height - 6, map.x.title);
   add_scale(svg, map, scale_left, 50, 226);
@@ -220,10 +224,11 @@ void draw_sheet(pugi::xml_node figure, const HeatMap& map) {
   auto cells = add(svg, "g", {{"class", "cells"}});
   for (const auto& c : map.cells)
     add_cell(cells,
-             fmt::format("M{0} {1}H{2}V{3}H{0}Z", pixel(x(c.x_low)), pixel(y(c.y_low)), pixel(x(c.x_high)),
-                         pixel(y(c.y_high))),
-             map, c);
-  auto x_axis = add(svg, "g", {{"class", "axis x-axis"}}), y_axis = add(svg, "g", {{"class", "axis y-axis"}});
+        fmt::format("M{0} {1}H{2}V{3}H{0}Z", pixel(x(c.x_low)), pixel(y(c.y_low)),
+            pixel(x(c.x_high)), pixel(y(c.y_high))),
+        map, c);
+  auto x_axis = add(svg, "g", {{"class", "axis x-axis"}}),
+       y_axis = add(svg, "g", {{"class", "axis y-axis"}});
   for (const auto& tick : x_ticks(map, right - left))
     add_text(x_axis, "label", x(tick.place), bottom + 16, tick.label);
   for (const auto& tick : rows) add_text(y_axis, "label", left - 6, y(tick.place) + 4, tick.label);
@@ -234,17 +239,20 @@ void draw_sheet(pugi::xml_node figure, const HeatMap& map) {
 
 }  // namespace
 
-pugi::xml_node add(pugi::xml_node parent, const char* name, Attributes attributes, std::string_view text) {
+pugi::xml_node add(
+    pugi::xml_node parent, const char* name, Attributes attributes, std::string_view text) {
   auto node = parent.append_child(name);
-  for (const auto& [key, value] : attributes) node.append_attribute(key) = clean_text(value).c_str();
+  for (const auto& [key, value] : attributes)
+    node.append_attribute(key) = clean_text(value).c_str();
   if (!text.empty()) node.append_child(pugi::node_pcdata).set_value(clean_text(text).c_str());
   return node;
 }
 
 std::string html_of(const pugi::xml_document& document) {
   std::ostringstream out;
-  document.save(out, "", pugi::format_raw | pugi::format_no_declaration | pugi::format_no_empty_element_tags,
-                pugi::encoding_utf8);
+  document.save(out, "",
+      pugi::format_raw | pugi::format_no_declaration | pugi::format_no_empty_element_tags,
+      pugi::encoding_utf8);
   return out.str();
 }
 
@@ -263,7 +271,9 @@ Points hull_of(Points points) {
     for (auto p = begin; p != end; ++p) {
       while (hull.size() >= base + 2) {
         const auto &a = hull[hull.size() - 2], &b = hull.back();
-        if ((b.first - a.first) * (p->second - a.second) - (b.second - a.second) * (p->first - a.first) > 0)
+        if ((b.first - a.first) * (p->second - a.second) -
+                (b.second - a.second) * (p->first - a.first) >
+            0)
           break;
         hull.pop_back();
       }
@@ -277,11 +287,10 @@ Points hull_of(Points points) {
 }
 
 pugi::xml_node add_drawing(pugi::xml_node parent, const std::string& id, const std::string& title,
-                           const std::string& description, double width, double height) {
+    const std::string& description, double width, double height) {
   auto svg = add(parent, "svg",
-                 {{"viewBox", fmt::format("0 0 {} {}", pixel(width), pixel(height))},
-                  {"role", "img"},
-                  {"aria-labelledby", id + "-title " + id + "-desc"}});
+      {{"viewBox", fmt::format("0 0 {} {}", pixel(width), pixel(height))}, {"role", "img"},
+          {"aria-labelledby", id + "-title " + id + "-desc"}});
   add(svg, "title", {{"id", id + "-title"}}, title);
   add(svg, "desc", {{"id", id + "-desc"}}, description);
   return svg;
@@ -295,10 +304,8 @@ void draw(pugi::xml_node parent, const Chart& chart) {
   auto svg = add_drawing(figure, chart.id, chart.title, chart.description, f.width, f.height);
   const std::string clip = chart.id + "-frame";
   add(add(add(svg, "defs"), "clipPath", {{"id", clip}}), "rect",
-      {{"x", pixel(f.left)},
-       {"y", pixel(f.top - 1)},
-       {"width", pixel(f.right - f.left)},
-       {"height", pixel(f.bottom - f.top + 1)}});
+      {{"x", pixel(f.left)}, {"y", pixel(f.top - 1)}, {"width", pixel(f.right - f.left)},
+          {"height", pixel(f.bottom - f.top + 1)}});
   add_axes(svg, chart, f);
   auto inside = add(svg, "g", {{"clip-path", "url(#" + clip + ")"}});
   for (const auto& band : chart.bands)
@@ -307,14 +314,13 @@ void draw(pugi::xml_node parent, const Chart& chart) {
     const double x = f.x(mark.x);
     add_line(inside, "mark", x, f.top, x, f.bottom);
     const bool room = x < (f.left + f.right) / 2;
-    add_text(inside, room ? "mark-text" : "mark-text before", x + (room ? 5 : -5), f.top + 10, mark.text);
+    add_text(inside, room ? "mark-text" : "mark-text before", x + (room ? 5 : -5), f.top + 10,
+        mark.text);
   }
   for (const auto& curve : chart.curves)
     add(inside, "path",
-        {{"class", "curve " + curve.colour},
-         {"d", path_of(curve, f)},
-         {"data-name", curve.name},
-         {"data-points", points_of(curve)}});
+        {{"class", "curve " + curve.colour}, {"d", path_of(curve, f)}, {"data-name", curve.name},
+            {"data-points", points_of(curve)}});
 }
 
 void save(std::ostream& out, const Chart& chart) {
@@ -333,21 +339,22 @@ void save(std::ostream& out, const Chart& chart) {
 
 std::string heat_colour(double share) {
   // Every eighth of matplotlib's viridis (public domain, CC0); straight lines between.
-  static constexpr std::array stops{0x440154, 0x472c7a, 0x3b518b, 0x2c718e, 0x21908d,
-                                    0x27ad81, 0x5cc863, 0xaadc32, 0xfde725};
+  static constexpr std::array stops{
+      0x440154, 0x472c7a, 0x3b518b, 0x2c718e, 0x21908d, 0x27ad81, 0x5cc863, 0xaadc32, 0xfde725};
   const double place = std::clamp(share, 0.0, 1.0) * 8;
   const auto k = std::min<std::size_t>(7, static_cast<std::size_t>(place));
   std::string colour = "#";
   for (const int shift : {16, 8, 0}) {
     const double low = (stops[k] >> shift) & 255, high = (stops[k + 1] >> shift) & 255;
-    colour += fmt::format("{:02x}", std::lround(low + (place - static_cast<double>(k)) * (high - low)));
+    colour +=
+        fmt::format("{:02x}", std::lround(low + (place - static_cast<double>(k)) * (high - low)));
   }
   return colour;
 }
 
 void draw(pugi::xml_node parent, const HeatMap& map) {
-  auto figure =
-      add(parent, "figure", {{"class", map.disc ? "chart heat disc" : "chart heat"}, {"id", map.id}});
+  auto figure = add(
+      parent, "figure", {{"class", map.disc ? "chart heat disc" : "chart heat"}, {"id", map.id}});
   add(figure, "figcaption", {}, map.title);
   if (map.disc)
     draw_disc(figure, map);

@@ -1,5 +1,5 @@
-// HTML and SVG built as a tree, so that every text in it is escaped; charts and heat maps as SVG. Colours of
-// charts are CSS classes of the page.
+// HTML and SVG built as a tree, so that every text in it is escaped; charts and heat maps as SVG.
+// Colours of charts are CSS classes of the page.
 #pragma once
 
 #include <initializer_list>
@@ -16,7 +16,7 @@ using Attributes = std::initializer_list<std::pair<const char*, std::string>>;
 
 /// A new element at the end of `parent`.
 pugi::xml_node add(pugi::xml_node parent, const char* name, Attributes attributes = {},
-                   std::string_view text = {});
+    std::string_view text = {});
 
 /// HTML text of a document, without self-closing tags, which HTML lacks, or added white space.
 std::string html_of(const pugi::xml_document& document);
@@ -93,7 +93,7 @@ void save(std::ostream& out, const Chart& chart);
 
 /// An <svg> with title and description, for readers who cannot see it.
 pugi::xml_node add_drawing(pugi::xml_node parent, const std::string& id, const std::string& title,
-                           const std::string& description, double width, double height);
+    const std::string& description, double width, double height);
 
 /// "12.3", for places in a drawing.
 std::string pixel(double place);

@@ -12,8 +12,8 @@ namespace {
 const std::string minus = "\u2212";
 
 std::string superscript(int number) {
-  static const char* const digits[] = {"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074",
-                                       "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
+  static const char* const digits[] = {"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074", "\u2075",
+      "\u2076", "\u2077", "\u2078", "\u2079"};
   std::string text = number < 0 ? "\u207b" : "";
   for (const char c : std::to_string(std::abs(number))) text += digits[c - '0'];
   return text;
@@ -42,7 +42,7 @@ std::string power_of_ten(int exponent) {
 
 std::string scientific(double value, int exponent, int digits) {
   return fixed(value / std::pow(10.0, exponent), std::max(0, digits - 1)) + " \u00d7 10" +
-         superscript(exponent);
+      superscript(exponent);
 }
 
 std::string without_zeros(const std::string& text) {
@@ -68,9 +68,12 @@ std::vector<Tick> linear_ticks(double low, double high, int most) {
     for (const int factor : {1, 2, 5}) {
       // Steps are integers over or times a power of ten, so that 3 steps of 0.1 are 0.3.
       const double scale = std::pow(10.0, std::abs(exponent));
-      const auto place = [&](double k) { return exponent < 0 ? k * factor / scale : k * factor * scale; };
+      const auto place = [&](double k) {
+        return exponent < 0 ? k * factor / scale : k * factor * scale;
+      };
       const double step = place(1), slack = 1e-9 * range;
-      const double first = std::ceil((low - slack) / step), last = std::floor((high + slack) / step);
+      const double first = std::ceil((low - slack) / step),
+                   last = std::floor((high + slack) / step);
       if (last - first + 1 > most) continue;
       std::vector<Tick> ticks;
       const double largest = std::max(std::abs(low), std::abs(high));
@@ -78,7 +81,8 @@ std::vector<Tick> linear_ticks(double low, double high, int most) {
       const bool scientific = (largest >= 1e5 || largest < 1e-3) && step > 1e-3 * largest;
       for (double k = first; k <= last; ++k) {
         const double value = place(k);
-        ticks.push_back({value, scientific ? tick_label(value) : fixed(value, std::max(0, -exponent))});
+        ticks.push_back(
+            {value, scientific ? tick_label(value) : fixed(value, std::max(0, -exponent))});
       }
       return ticks;
     }
@@ -88,7 +92,8 @@ std::vector<Tick> fitting_ticks(double low, double high, int most, double room) 
   constexpr double apart = 8;
   for (;; --most) {
     auto ticks = linear_ticks(low, high, most);
-    if (most <= 2 || static_cast<double>(ticks.size()) * (width_of(ticks) + apart) <= room) return ticks;
+    if (most <= 2 || static_cast<double>(ticks.size()) * (width_of(ticks) + apart) <= room)
+      return ticks;
   }
 }
 
@@ -110,8 +115,9 @@ std::vector<Tick> log_ticks(double low, double high, int most) {
 double width_of(const std::string& label) {
   constexpr double letter = 7.8;
   // Characters of more than one byte have continuations.
-  return letter * static_cast<double>(
-                      std::count_if(label.begin(), label.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+  return letter * static_cast<double>(std::count_if(label.begin(), label.end(), [](char c) {
+    return (c & 0xC0) != 0x80;
+  }));
 }
 
 double width_of(const std::vector<Tick>& ticks) {
@@ -121,7 +127,8 @@ double width_of(const std::vector<Tick>& ticks) {
 }
 
 std::string readable(double value, int digits) {
-  if (!std::isfinite(value)) return std::isnan(value) ? "\u2013" : value < 0 ? minus + "\u221e" : "\u221e";
+  if (!std::isfinite(value))
+    return std::isnan(value) ? "\u2013" : value < 0 ? minus + "\u221e" : "\u221e";
   if (value == 0) return "0";
   const int exponent = exponent_of(value, digits);
   if (exponent >= -3 && exponent < std::max(7, digits))
@@ -132,7 +139,8 @@ std::string readable(double value, int digits) {
 std::string brief(double value, int digits) { return without_zeros(readable(value, digits)); }
 
 std::pair<std::string, std::string> with_interval(double value, double half_width) {
-  if (!(half_width > 0) || !std::isfinite(half_width)) return {readable(value), readable(half_width, 2)};
+  if (!(half_width > 0) || !std::isfinite(half_width))
+    return {readable(value), readable(half_width, 2)};
   const int exponent = exponent_of(half_width, 2);
   if (exponent < -5 || exponent > 6 || std::abs(value) < half_width)
     return {readable(value, 2), readable(half_width, 2)};

@@ -12,15 +12,15 @@ struct Tick {
   std::string label;  ///< empty for a mark between the labelled ones
 };
 
-/// Multiples of 1, 2 or 5 times a power of ten inside [low, high], at most `most` of them (and two at least
-/// when `most` > 3). @pre low < high
+/// Multiples of 1, 2 or 5 times a power of ten inside [low, high], at most `most` of them (and two
+/// at least when `most` > 3). @pre low < high
 std::vector<Tick> linear_ticks(double low, double high, int most = 6);
 
 /// Linear ticks, but fewer of them if their labels side by side would not fit. @param room  [px]
 std::vector<Tick> fitting_ticks(double low, double high, int most, double room);
 
-/// Powers of ten inside [low, high], about `most` of them with labels, and unlabelled multiples 2 to 9
-/// between them if there are few decades. @pre 0 < low < high
+/// Powers of ten inside [low, high], about `most` of them with labels, and unlabelled multiples 2
+/// to 9 between them if there are few decades. @pre 0 < low < high
 std::vector<Tick> log_ticks(double low, double high, int most = 7);
 
 /// Width of a label, or of the widest of several, in the largest font of the pages [px].

@@ -28,15 +28,15 @@ Eigen::VectorXd vector_of(const pugi::xml_node& node, const char* name, Eigen::I
   const auto numbers = numbers_of(node.attribute(name));
   if (numbers.empty()) return Eigen::VectorXd::Zero(width);
   if (static_cast<Eigen::Index>(numbers.size()) != width)
-    throw InputError(fmt::format("found {} numbers, expected {} for '{}' of <{}>", numbers.size(), width,
-                                 name, node.name()));
+    throw InputError(fmt::format("found {} numbers, expected {} for '{}' of <{}>", numbers.size(),
+        width, name, node.name()));
   return Eigen::Map<const Eigen::VectorXd>(numbers.data(), width);
 }
 
-/// The values of a field of a Transform during the playback: those of its interpolator, NAME_path or
-/// NAME_turn, or a constant without one.
+/// The values of a field of a Transform during the playback: those of its interpolator, NAME_path
+/// or NAME_turn, or a constant without one.
 Track track_of(const pugi::xml_node& transform, const char* field, const char* interpolator,
-               const char* ending, Eigen::Index width) {
+    const char* ending, Eigen::Index width) {
   const std::string name = std::string(transform.attribute("DEF").as_string()) + ending;
   const auto scene = transform.root().child("X3D").child("Scene");
   const auto path = scene.find_child_by_attribute(interpolator, "DEF", name.c_str());
@@ -44,8 +44,9 @@ Track track_of(const pugi::xml_node& transform, const char* field, const char* i
   auto keys = numbers_of(path.attribute("key"));
   const auto values = numbers_of(path.attribute("keyValue"));
   if (keys.empty() || values.size() != keys.size() * static_cast<std::size_t>(width))
-    throw InputError(fmt::format("found {} keys and {} numbers in '{}', expected {} numbers for each key",
-                                 keys.size(), values.size(), name, width));
+    throw InputError(
+        fmt::format("found {} keys and {} numbers in '{}', expected {} numbers for each key",
+            keys.size(), values.size(), name, width));
   const auto count = static_cast<Eigen::Index>(keys.size());
   return {std::move(keys), Eigen::Map<const Eigen::MatrixXd>(values.data(), width, count)};
 }
@@ -68,15 +69,15 @@ model::Mesh mesh_of(const pugi::xml_node& faces) {
   model::Mesh mesh;
   const auto points = numbers_of(faces.child("Coordinate").attribute("point"));
   if (points.size() % 3 != 0)
-    throw InputError(
-        fmt::format("found {} numbers in the points of a wall, expected 3 for each", points.size()));
+    throw InputError(fmt::format(
+        "found {} numbers in the points of a wall, expected 3 for each", points.size()));
   for (std::size_t k = 0; k < points.size(); k += 3)
     mesh.points.emplace_back(points[k], points[k + 1], points[k + 2]);
   mesh.faces.emplace_back();
   for (const double number : numbers_of(faces.attribute("coordIndex"))) {
     if (!(number < static_cast<double>(mesh.points.size())))
-      throw InputError(fmt::format("found corner {} of a wall, expected less than its {} points", number,
-                                   mesh.points.size()));
+      throw InputError(fmt::format("found corner {} of a wall, expected less than its {} points",
+          number, mesh.points.size()));
     if (number < 0)
       mesh.faces.emplace_back();
     else
@@ -91,12 +92,9 @@ MovingVessel vessel_of(const pugi::xml_node& transform) {
     return wall.child("Shape") ? wall.child("Shape") : wall;  // a piston has a Transform around it
   };
   const auto first = shape_of(transform.first_child());
-  MovingVessel vessel{{},
-                      {},
-                      colour_of(first),
-                      1 - material_of(first).attribute("transparency").as_double(),
-                      place_of(transform),
-                      track_of(transform, "rotation", "OrientationInterpolator", "_turn", 4)};
+  MovingVessel vessel{{}, {}, colour_of(first),
+      1 - material_of(first).attribute("transparency").as_double(), place_of(transform),
+      track_of(transform, "rotation", "OrientationInterpolator", "_turn", 4)};
   for (const auto& wall : transform.children()) {
     vessel.walls.push_back(mesh_of(shape_of(wall).child("IndexedFaceSet")));
     vessel.shifts.push_back(place_of(wall));
@@ -110,11 +108,8 @@ Animation animation_of(const pugi::xml_node& scene) {
     throw InputError("found X3D without moving vessel, expected an animation");
   const auto view = scene.child("Viewpoint");
   Animation animation{scene.child("TimeSensor").attribute("cycleInterval").as_double(),
-                      vector_of(view, "position", 3),
-                      vector_of(view, "centerOfRotation", 3),
-                      vessel_of(vessel),
-                      {},
-                      {}};
+      vector_of(view, "position", 3), vector_of(view, "centerOfRotation", 3), vessel_of(vessel), {},
+      {}};
   for (const auto& transform : scene.children("Transform")) {
     const auto shape = transform.child("Shape");
     if (std::string_view(transform.attribute("DEF").as_string()).starts_with("body_"))
@@ -130,13 +125,12 @@ Animation animation_of(const pugi::xml_node& scene) {
 constexpr std::size_t most_places = 100000;
 
 /// Adds numbers to a JSON array, rounded to multiples of 1 / steps.
-template <class Vector>
-void append(Json& array, const Vector& numbers, double steps) {
+template <class Vector> void append(Json& array, const Vector& numbers, double steps) {
   for (const double x : numbers) array.push_back(std::round(x * steps) / steps);
 }
 
-/// Steps per millimetre to which positions are rounded, so that a step is less than a pixel for the viewer:
-/// 100 at distances from 100 mm to 1 m.
+/// Steps per millimetre to which positions are rounded, so that a step is less than a pixel for the
+/// viewer: 100 at distances from 100 mm to 1 m.
 double steps_of(const Animation& animation) {
   const double distance = 1000 * norm<double>(Vec3<double>(animation.eye - animation.target));
   return std::pow(10, 4 - std::floor(std::log10(distance)));
@@ -150,8 +144,8 @@ Json millimetres(const Vec3<double>& place, double steps) {
 
 /// The fraction of the playback at each frame.
 std::vector<double> fractions_of(const Animation& animation) {
-  const auto steps =
-      std::clamp<std::size_t>(most_places / std::max<std::size_t>(1, animation.spheres.size()), 40, 640);
+  const auto steps = std::clamp<std::size_t>(
+      most_places / std::max<std::size_t>(1, animation.spheres.size()), 40, 640);
   std::vector<double> fractions;
   for (std::size_t frame = 0; frame <= steps; ++frame)
     fractions.push_back(static_cast<double>(frame) / static_cast<double>(steps));
@@ -163,10 +157,12 @@ Json walls_of(const MovingVessel& vessel, const std::vector<double>& fractions, 
   Json walls = Json::array();
   for (std::size_t k = 0; k < vessel.walls.size(); ++k) {
     Json points = Json::array(), shifts = Json::array();
-    for (const auto& point : vessel.walls[k].points) points.push_back(millimetres(point, 10 * steps));
+    for (const auto& point : vessel.walls[k].points)
+      points.push_back(millimetres(point, 10 * steps));
     walls.push_back({{"points", std::move(points)}, {"flat", vessel.walls[k].faces.size() == 1}});
     if (vessel.shifts[k].keys.size() < 2) continue;
-    for (const double fraction : fractions) append(shifts, 1000 * vessel.shifts[k].at(fraction), 10 * steps);
+    for (const double fraction : fractions)
+      append(shifts, 1000 * vessel.shifts[k].at(fraction), 10 * steps);
     walls.back()["shifts"] = std::move(shifts);
   }
   return walls;
@@ -174,15 +170,16 @@ Json walls_of(const MovingVessel& vessel, const std::vector<double>& fractions, 
 
 /// Adds <script type="application/json" id="frames">, which page.js plays. Lengths in millimetres:
 ///   {duration, eye, target,
-///    vessel: {walls: [{points, flat, shifts}], colour, opacity, poses: [x, y, z, qx, qy, qz, qw of each
-///    frame]}, bodies: [{points, colour, poses}], spheres: {radii, colours, places: [x, y, z of each sphere,
-///    frame by frame]}}
+///    vessel: {walls: [{points, flat, shifts}], colour, opacity, poses: [x, y, z, qx, qy, qz, qw of
+///    each frame]}, bodies: [{points, colour, poses}], spheres: {radii, colours, places: [x, y, z
+///    of each sphere, frame by frame]}}
 /// Frames divide the playback into equal parts, from its beginning to its end.
 void add_frames(pugi::xml_node parent, const Animation& animation) {
   const auto& vessel = animation.vessel;
   const auto fractions = fractions_of(animation);
   const double steps = steps_of(animation);
-  Json poses = Json::array(), places = Json::array(), radii = Json::array(), colours = Json::array();
+  Json poses = Json::array(), places = Json::array(), radii = Json::array(),
+       colours = Json::array();
   for (const auto& sphere : animation.spheres) {
     radii.push_back(1000 * sphere.radius);
     colours.push_back(sphere.colour);
@@ -195,23 +192,21 @@ void add_frames(pugi::xml_node parent, const Animation& animation) {
   for (const auto& body : animation.bodies) {
     Json own = Json::array();
     for (const double fraction : fractions) append_pose(own, body.pose(fraction));
-    bodies.push_back(
-        {{"points", walls_of(body, fractions, steps)[0]["points"]}, {"colour", body.colour}, {"poses", own}});
+    bodies.push_back({{"points", walls_of(body, fractions, steps)[0]["points"]},
+        {"colour", body.colour}, {"poses", own}});
   }
   for (const double fraction : fractions) {
     append_pose(poses, vessel.pose(fraction));
-    for (const auto& sphere : animation.spheres) append(places, 1000 * sphere.place.at(fraction), steps);
+    for (const auto& sphere : animation.spheres)
+      append(places, 1000 * sphere.place.at(fraction), steps);
   }
-  const Json scene = {{"duration", animation.duration},
-                      {"eye", millimetres(animation.eye, steps)},
-                      {"target", millimetres(animation.target, steps)},
-                      {"vessel",
-                       {{"walls", walls_of(vessel, fractions, steps)},
-                        {"colour", vessel.colour},
-                        {"opacity", vessel.opacity},
-                        {"poses", poses}}},
-                      {"bodies", bodies},
-                      {"spheres", {{"radii", radii}, {"colours", colours}, {"places", places}}}};
+  const Json scene = {{"duration", animation.duration}, {"eye", millimetres(animation.eye, steps)},
+      {"target", millimetres(animation.target, steps)},
+      {"vessel",
+          {{"walls", walls_of(vessel, fractions, steps)}, {"colour", vessel.colour},
+              {"opacity", vessel.opacity}, {"poses", poses}}},
+      {"bodies", bodies},
+      {"spheres", {{"radii", radii}, {"colours", colours}, {"places", places}}}};
   add(parent, "script", {{"type", "application/json"}, {"id", "frames"}}, scene.dump());
 }
 
@@ -228,21 +223,18 @@ void add_player(pugi::xml_node section, const Animation& animation, double speed
   auto controls = add(player, "div", {{"class", "controls"}});
   add(controls, "button", {{"type", "button"}, {"id", "play"}}, "Play");
   add(controls, "input",
-      {{"type", "range"},
-       {"id", "time"},
-       {"min", "0"},
-       {"max", fmt::format("{}", 1000 * animation.duration * speed)},
-       {"step", "any"},
-       {"autocomplete", "off"},
-       {"value", "0"},
-       {"aria-label", "Time from the beginning of the animation"}});
+      {{"type", "range"}, {"id", "time"}, {"min", "0"},
+          {"max", fmt::format("{}", 1000 * animation.duration * speed)}, {"step", "any"},
+          {"autocomplete", "off"}, {"value", "0"},
+          {"aria-label", "Time from the beginning of the animation"}});
   add(controls, "span", {{"id", "clock"}, {"aria-hidden", "true"}}, "0.0 ms");
   auto ride = add(player, "label");
   add(ride, "input", {{"type", "checkbox"}, {"id", "ride"}, {"autocomplete", "off"}});
   add(ride, "span", {}, " ride with the jar");
-  add_note(player, pace(speed) +
-                       ". The mark on the jar shows how it turns, the dashed line the way of its middle. "
-                       "Drag to rotate, scroll to zoom; by keyboard the arrows, + and -.");
+  add_note(player,
+      pace(speed) +
+          ". The mark on the jar shows how it turns, the dashed line the way of its middle. "
+          "Drag to rotate, scroll to zoom; by keyboard the arrows, + and -.");
 }
 
 }  // namespace
@@ -263,7 +255,8 @@ Eigen::VectorXd Track::at(double fraction) const {
 Eigen::Isometry3d MovingVessel::pose(double fraction) const {
   const auto [before, after, share] = turn.between(fraction);
   const auto turned = [&](Eigen::Index key) {
-    return Eigen::Quaterniond(Eigen::AngleAxisd(turn.values(3, key), turn.values.col(key).head<3>()));
+    return Eigen::Quaterniond(
+        Eigen::AngleAxisd(turn.values(3, key), turn.values.col(key).head<3>()));
   };
   const Vec3<double> origin = place.at(fraction);
   return Eigen::Translation3d(origin) * turned(before).slerp(share, turned(after));
@@ -273,8 +266,8 @@ Animation read_animation(const std::filesystem::path& file) {
   pugi::xml_document document;
   const auto result = document.load_file(file.c_str());
   if (!result)
-    throw InputError(fmt::format("{}: invalid XML at byte {} ({}), expected an animation", file.string(),
-                                 result.offset, result.description()));
+    throw InputError(fmt::format("{}: invalid XML at byte {} ({}), expected an animation",
+        file.string(), result.offset, result.description()));
   try {
     return animation_of(document.child("X3D").child("Scene"));
   } catch (const InputError& error) {

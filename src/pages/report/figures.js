@@ -1,4 +1,5 @@
-// What every page offers: figures as files, and units of the reader's choice. Without scripts the page shows all numbers in SI.
+// What every page offers: figures as files, and units of the reader's choice. Without scripts the
+// page shows all numbers in SI.
 "use strict";
 
 /** Saves a blob under a name. */

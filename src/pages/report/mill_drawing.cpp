@@ -30,8 +30,8 @@ struct View {
   Flat of(const Vec3<double>& p) const { return {p[right], sign * p[up]}; }
 };
 constexpr std::array views = {View{"along z: x to the right, y up", 0, 1, 1},
-                              View{"along x: z to the right, y up", 2, 1, 1},
-                              View{"along y: x to the right, z down", 0, 2, -1}};
+    View{"along x: z to the right, y up", 2, 1, 1},
+    View{"along y: x to the right, z down", 0, 2, -1}};
 
 constexpr double panel = 260, margin = 24, heading = 28;  // [px]
 constexpr int samples = 360;
@@ -68,8 +68,8 @@ std::vector<JointMark> joints_of(const ChainMotion<double>& chain, double size) 
     before.list.push_back(joint);
     const auto behind = ChainMotion<double>(before).pose(start);
     if (joint.rotates) {
-      const Vec3<double> axis =
-          ChainMotion<double>::direction_to_inertial(here, {joint.axis[0], joint.axis[1], joint.axis[2]});
+      const Vec3<double> axis = ChainMotion<double>::direction_to_inertial(
+          here, {joint.axis[0], joint.axis[1], joint.axis[2]});
       marks.push_back({true, here.centre, here.centre + axis * (size / norm<double>(axis))});
     } else {
       marks.push_back({false, here.centre, behind.centre});
@@ -81,8 +81,8 @@ std::vector<JointMark> joints_of(const ChainMotion<double>& chain, double size) 
 Pictured picture(const model::Mill<double>& mill) {
   Pictured p;
   const auto corners = corners_of(mill.vessel);
-  const auto farthest =
-      *std::ranges::max_element(corners, {}, [](const auto& corner) { return squared_norm<double>(corner); });
+  const auto farthest = *std::ranges::max_element(
+      corners, {}, [](const auto& corner) { return squared_norm<double>(corner); });
   for (int k = 0; k <= samples; ++k) {
     const auto pose = mill.motion.pose(Instant<double>{0, mill.motion.period() * k / samples});
     p.centre.push_back(mill.motion.to_inertial(pose, Vec3<double>::Zero()));
@@ -103,7 +103,9 @@ struct Panel {
   double left, scale;
   Flat middle;
 
-  double x(const Flat& p) const { return left + margin + panel / 2 + (p.first - middle.first) * scale; }
+  double x(const Flat& p) const {
+    return left + margin + panel / 2 + (p.first - middle.first) * scale;
+  }
   double y(const Flat& p) const { return heading + panel / 2 - (p.second - middle.second) * scale; }
 
   plot::Points flat(const Points& points) const {
@@ -113,7 +115,8 @@ struct Panel {
   }
   void path(const char* style, const plot::Points& points, const char* end) {
     std::string d;
-    for (const auto& p : points) d += fmt::format("{}{} {}", d.empty() ? "M" : "L", pixel(x(p)), pixel(y(p)));
+    for (const auto& p : points)
+      d += fmt::format("{}{} {}", d.empty() ? "M" : "L", pixel(x(p)), pixel(y(p)));
     add(svg, "path", {{"class", style}, {"d", d + end}});
   }
   void line(const char* style, const Points& points) { path(style, flat(points), ""); }
@@ -128,7 +131,8 @@ struct Panel {
       line("axis", {mark.from - (mark.to - mark.from), mark.to});
     else
       line("arm", {mark.from, mark.to});
-    add(svg, "circle", {{"class", "joint"}, {"cx", pixel(x(at))}, {"cy", pixel(y(at))}, {"r", "3"}});
+    add(svg, "circle",
+        {{"class", "joint"}, {"cx", pixel(x(at))}, {"cy", pixel(y(at))}, {"r", "3"}});
     // Joints at one place have their numbers side by side.
     add(svg, "text",
         {{"x", pixel(x(at) + 5 + 12 * static_cast<double>(number - 1))}, {"y", pixel(y(at) - 5)}},
@@ -159,7 +163,7 @@ std::string mill_drawing(const model::Mill<double>& mill) {
 
   pugi::xml_document document;
   auto svg = plot::add_drawing(document, "mill", "The mill", "The vessel's motion in three views.",
-                               3 * (panel + margin) + margin, panel + heading + 3 * margin);
+      3 * (panel + margin) + margin, panel + heading + 3 * margin);
   svg.append_attribute("xmlns") = "http://www.w3.org/2000/svg";
   add(svg, "style", {}, style);
   double left = 0;
@@ -174,10 +178,11 @@ std::string mill_drawing(const model::Mill<double>& mill) {
     left += panel + margin;
   }
   const double bar = bar_length(scale), at = heading + panel + margin;
-  add(svg, "path", {{"class", "arm"}, {"d", fmt::format("M{} {}h{}", margin, at, pixel(bar * scale))}});
+  add(svg, "path",
+      {{"class", "arm"}, {"d", fmt::format("M{} {}h{}", margin, at, pixel(bar * scale))}});
   add(svg, "text", {{"x", pixel(margin + bar * scale + 6)}, {"y", pixel(at + 4)}},
-      fmt::format(
-          "{:g} mm; filled: the vessel at time 0; red, green: paths of its centre and of a point in {:g} s",
+      fmt::format("{:g} mm; filled: the vessel at time 0; red, green: paths of its centre and of a "
+                  "point in {:g} s",
           bar * 1000, mill.motion.period()));
   std::ostringstream out;
   document.save(out, " ");

@@ -1,4 +1,5 @@
-// A mill on a canvas: balls lit from above, and the outline of the vessel, which is convex, with the edges of its flat walls.
+// A mill on a canvas: balls lit from above, and the outline of the vessel, which is convex, with
+// the edges of its flat walls.
 "use strict";
 
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

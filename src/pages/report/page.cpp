@@ -48,7 +48,8 @@ std::vector<Term> read_terms() {
     Term term{*table["name"].value<std::string>(), *table["text"].value<std::string>(), {}};
     term.words.push_back(in_lower_case(term.name));
     if (const auto* also = table["also"].as_array())
-      for (const auto& word : *also) term.words.push_back(in_lower_case(*word.value<std::string>()));
+      for (const auto& word : *also)
+        term.words.push_back(in_lower_case(*word.value<std::string>()));
     terms.push_back(std::move(term));
   }
   return terms;
@@ -59,7 +60,8 @@ bool is_letter(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c
 bool has_word(const std::string& text, const std::string& word) {
   for (auto at = text.find(word); at != text.npos; at = text.find(word, at + 1)) {
     const auto end = at + word.size();
-    if ((at == 0 || !is_letter(text[at - 1])) && (end == text.size() || !is_letter(text[end]))) return true;
+    if ((at == 0 || !is_letter(text[at - 1])) && (end == text.size() || !is_letter(text[end])))
+      return true;
   }
   return false;
 }
@@ -101,22 +103,24 @@ std::string page_of(const Page& page) {
   using namespace fmt::literals;
   add_terms(page.main.first_child());
   return fmt::format(fmt::runtime(page_html),  //
-                     "title"_a = escaped(page.title), "subtitle"_a = escaped(page.subtitle),
-                     "program"_a = escaped(fmt::format("edmill {} ({})", page.version, page.commit)),
-                     "main"_a = plot::html_of(page.main), "style"_a = page_css,
-                     "contents"_a = contents_of(page.main),
-                     "player"_a = fmt::format("<script>\n{}</script>\n", figures_js) + page.scripts);
+      "title"_a = escaped(page.title), "subtitle"_a = escaped(page.subtitle),
+      "program"_a = escaped(fmt::format("edmill {} ({})", page.version, page.commit)),
+      "main"_a = plot::html_of(page.main), "style"_a = page_css,
+      "contents"_a = contents_of(page.main),
+      "player"_a = fmt::format("<script>\n{}</script>\n", figures_js) + page.scripts);
 }
 
 std::string typeset(const std::string& label) {
   std::string name;
-  for (const char c : label) name += c != '-' ? std::string(1, c) : name.ends_with(' ') ? "\u2212" : "\u2013";
+  for (const char c : label)
+    name += c != '-' ? std::string(1, c) : name.ends_with(' ') ? "\u2212" : "\u2013";
   return name;
 }
 
 std::string partner_colour(const model::Partners& partners, int place) {
   if (place == partners.ball_ball()) return "c3";
-  return "c" + std::to_string(place < 3 ? place : 5 + (place - 3) % 3);  // c4 is that of all impacts
+  return "c" +
+      std::to_string(place < 3 ? place : 5 + (place - 3) % 3);  // c4 is that of all impacts
 }
 
 std::string run_colour(std::size_t place) { return "c" + std::to_string(place % 8); }
@@ -128,16 +132,16 @@ std::vector<MainRate> main_rates(const io::Facts& f) {
   std::optional<RateOf> energy;
   if (const auto joules = f.find("impact_energy_by_dose/median"))
     energy = RateOf{*joules, std::nullopt}.in_units_of(1e-3);
-  return {{"milling time", "h", time},
-          {"milling dose rate", "W", rate_in(f, "milling_dose_rate")},
-          {"specific milling dose rate", "W/kg", rate_in(f, "specific_milling_dose_rate")},
-          {"impact energy, median by dose", "mJ", energy},
-          {"impacts above 1 m/s", "1/s", rate_in(f, "fast_impact_rate")},
-          {"mean impact speed", "m/s", rate_in(f, "mean_impact_speed")}};
+  return {{"milling time", "h", time}, {"milling dose rate", "W", rate_in(f, "milling_dose_rate")},
+      {"specific milling dose rate", "W/kg", rate_in(f, "specific_milling_dose_rate")},
+      {"impact energy, median by dose", "mJ", energy},
+      {"impacts above 1 m/s", "1/s", rate_in(f, "fast_impact_rate")},
+      {"mean impact speed", "m/s", rate_in(f, "mean_impact_speed")}};
 }
 
 std::string time_window(const io::Facts& f) {
-  return fmt::format("{} s to {} s", brief(f.number("start_time"), 12), brief(f.number("end_time"), 12));
+  return fmt::format(
+      "{} s to {} s", brief(f.number("start_time"), 12), brief(f.number("end_time"), 12));
 }
 
 std::string capitalised(std::string text) {
@@ -146,7 +150,7 @@ std::string capitalised(std::string text) {
 }
 
 plot::Curve bars(const std::string& name, const std::string& colour, double first, double width,
-                 const std::vector<double>& heights) {
+    const std::vector<double>& heights) {
   plot::Curve curve{name, colour, {}, true};
   const auto place = [&](std::size_t k) { return first + width * static_cast<double>(k); };
   for (std::size_t k = 0; k < heights.size(); ++k) curve.points.emplace_back(place(k), heights[k]);
@@ -159,13 +163,11 @@ std::string text_of(const RateOf& rate) {
   return rate.half_width ? value + " \u00b1 " + width : readable(rate.value);
 }
 
-void add_level(plot::Chart& chart, double left, double right, const RateOf& rate, const std::string& name,
-               const std::string& colour) {
+void add_level(plot::Chart& chart, double left, double right, const RateOf& rate,
+    const std::string& name, const std::string& colour) {
   const double half = rate.half_width.value_or(0);
-  chart.bands.push_back({colour,
-                         {left, right},
-                         {rate.value - half, rate.value - half},
-                         {rate.value + half, rate.value + half}});
+  chart.bands.push_back({colour, {left, right}, {rate.value - half, rate.value - half},
+      {rate.value + half, rate.value + half}});
   chart.curves.push_back({name, colour, {{left, rate.value}, {right, rate.value}}});
 }
 
@@ -186,11 +188,11 @@ void add_missing(pugi::xml_node section, const std::string& what, const std::str
 }
 
 void add_table(pugi::xml_node section, const std::string& id, const std::string& caption,
-               const std::vector<std::string>& headings, const Rows& rows) {
+    const std::vector<std::string>& headings, const Rows& rows) {
   add(section, "h3", {{"id", id}}, caption);
   // Wide tables scroll inside their own box, which can be focused by keyboard.
   auto box = add(section, "div",
-                 {{"class", "table"}, {"tabindex", "0"}, {"role", "region"}, {"aria-labelledby", id}});
+      {{"class", "table"}, {"tabindex", "0"}, {"role", "region"}, {"aria-labelledby", id}});
   auto table = add(box, "table", {{"aria-labelledby", id}});
   auto head = add(add(table, "thead"), "tr");
   for (const auto& heading : headings) add(head, "th", {{"scope", "col"}}, heading);

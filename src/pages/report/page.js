@@ -1,4 +1,5 @@
-// Plays the mill: the frames of the page's JSON, on demand. Lengths in millimetres, times in milliseconds.
+// Plays the mill: the frames of the page's JSON, on demand. Lengths in millimetres, times in
+// milliseconds.
 "use strict";
 
 /** Values of a list between two of its frames. */

@@ -28,14 +28,14 @@ void name_runs(std::vector<RunFolder>& runs) {
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const auto own = (runs[k].place / "").parent_path().filename().string();
     const bool alone = std::ranges::count_if(runs, [&](const RunFolder& r) {
-                         return (r.place / "").parent_path().filename() == own;
-                       }) == 1;
+      return (r.place / "").parent_path().filename() == own;
+    }) == 1;
     runs[k].name = alone ? own : fmt::format("{} ({})", runs[k].place.string(), k + 1);
   }
 }
 
-/// Whether two rates differ: the 95 % interval of their difference, by half-widths in quadrature, leaves out
-/// zero. Nothing where a rate has no interval.
+/// Whether two rates differ: the 95 % interval of their difference, by half-widths in quadrature,
+/// leaves out zero. Nothing where a rate has no interval.
 std::optional<bool> differ(const RateOf& a, const RateOf& b) {
   if (!a.half_width || !b.half_width) return std::nullopt;
   return std::abs(a.value - b.value) > std::hypot(*a.half_width, *b.half_width);
@@ -49,7 +49,9 @@ std::string against(const RateOf& rate, const RateOf& first) {
     const double percent = 100 * (rate.value / first.value - 1);
     change = fmt::format("{}{:.1f} %", percent < 0 ? "\u2212" : "+", std::abs(percent));
   }
-  return !apart ? change + ", no interval" : *apart ? change + ", significant" : change + ", not significant";
+  return !apart ? change + ", no interval"
+      : *apart  ? change + ", significant"
+                : change + ", not significant";
 }
 
 void add_rates_of(pugi::xml_node main, const std::vector<RunFolder>& runs) {
@@ -75,36 +77,35 @@ void add_rates_of(pugi::xml_node main, const std::vector<RunFolder>& runs) {
   }
   add_table(section, "rates-of-runs", "Rates of the runs", headings, rows);
   add_note(section,
-           "\u00b1: 95 % interval of the run. A difference is significant where the 95 % interval of "
-           "the difference, the half-widths added in quadrature, leaves out zero; of twenty comparisons "
-           "of equal mills one is so by chance.");
+      "\u00b1: 95 % interval of the run. A difference is significant where the 95 % interval of "
+      "the difference, the half-widths added in quadrature, leaves out zero; of twenty comparisons "
+      "of equal mills one is so by chance.");
 }
 
 /// Each dose rate as a bar with its interval, at the number of the run.
 void draw_dose_rates(pugi::xml_node grid, const std::vector<RunFolder>& runs) {
-  plot::Chart chart{"dose-rates",
-                    "Milling dose rate",
-                    "For each run a bar as high as its milling dose rate, with its 95 % interval.",
-                    {"number of the run", 0.4, static_cast<double>(runs.size()) + 0.6, false, true},
-                    {"milling dose rate [W]"}};
+  plot::Chart chart{"dose-rates", "Milling dose rate",
+      "For each run a bar as high as its milling dose rate, with its 95 % interval.",
+      {"number of the run", 0.4, static_cast<double>(runs.size()) + 0.6, false, true},
+      {"milling dose rate [W]"}};
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const auto rate = rate_in(runs[k].facts, "milling_dose_rate");
     if (!rate) continue;
     const double place = static_cast<double>(k) + 1;
     const auto colour = run_colour(k);
-    chart.bands.push_back({colour, {place - 0.25, place + 0.25}, {0, 0}, {rate->value, rate->value}});
-    add_level(chart, place - 0.25, place + 0.25, *rate, fmt::format("{}: {}", k + 1, runs[k].name), colour);
+    chart.bands.push_back(
+        {colour, {place - 0.25, place + 0.25}, {0, 0}, {rate->value, rate->value}});
+    add_level(chart, place - 0.25, place + 0.25, *rate, fmt::format("{}: {}", k + 1, runs[k].name),
+        colour);
     chart.y.high = std::max(chart.y.high, 1.1 * (rate->value + rate->half_width.value_or(0)));
   }
   draw(grid, chart);
 }
 
 void draw_over_time(pugi::xml_node grid, const std::vector<RunFolder>& runs) {
-  plot::Chart chart{"dose-rate",
-                    "Milling dose rate over time",
-                    "Lines of the milling dose rate of each run over the simulated time.",
-                    {"time [s]", 0, 0},
-                    {"milling dose rate [W]"}};
+  plot::Chart chart{"dose-rate", "Milling dose rate over time",
+      "Lines of the milling dose rate of each run over the simulated time.", {"time [s]", 0, 0},
+      {"milling dose rate [W]"}};
   for (std::size_t k = 0; k < runs.size(); ++k)
     if (const auto series = rate_of(runs[k], "milling_dose", 60)) {
       chart.curves.push_back({runs[k].name, run_colour(k), points_of(*series)});
@@ -121,7 +122,8 @@ void add_differences(pugi::xml_node main, const std::vector<RunFolder>& runs) {
     const auto& f = runs[k].facts;
     auto own = case_rows(runs[k]);
     own.push_back({"statistics", time_window(f)});
-    own.push_back({"seed, precision", fmt::format("{:.0f}, {}", f.number("seed"), f.text("precision"))});
+    own.push_back(
+        {"seed, precision", fmt::format("{:.0f}, {}", f.number("seed"), f.text("precision"))});
     own.push_back({"program", fmt::format("edmill {} ({})", f.text("version"), f.text("commit"))});
     for (const auto& fact : own) {
       auto row = std::ranges::find_if(rows, [&](const auto& r) { return r[0] == fact[0]; });
@@ -148,7 +150,8 @@ void add_differences(pugi::xml_node main, const std::vector<RunFolder>& runs) {
 }
 
 void add_warnings_of(pugi::xml_node main, const std::vector<RunFolder>& runs) {
-  if (std::ranges::all_of(runs, [](const RunFolder& run) { return run.facts.keys_of("warnings").empty(); }))
+  if (std::ranges::all_of(
+          runs, [](const RunFolder& run) { return run.facts.keys_of("warnings").empty(); }))
     return;
   auto list = add(add_section(main, "warnings", "Warnings"), "ul");
   for (const auto& run : runs)
@@ -167,8 +170,8 @@ std::string page_of_runs(const std::vector<RunFolder>& runs) {
   add_differences(main, runs);
   add_spectra_of(main, runs);
   const auto names = runs | std::views::transform(&RunFolder::name);
-  return page_of({fmt::format("{} runs compared", runs.size()), fmt::format("{}", fmt::join(names, ", ")),
-                  version(), commit(), document});
+  return page_of({fmt::format("{} runs compared", runs.size()),
+      fmt::format("{}", fmt::join(names, ", ")), version(), commit(), document});
 }
 
 /// Positions of the points in a chart: the values of the key that varies, if they are numbers of
@@ -195,12 +198,12 @@ struct Places {
       if (curve[k] == curves.size()) curves.push_back(name);
     }
   }
-
  private:
   static std::size_t number_of_values(const std::vector<Point>& points, const std::string& key) {
     std::set<std::string> values;
     for (const auto& point : points)
-      if (casefile::split_number(study::value_of(point, key))) values.insert(study::value_of(point, key));
+      if (casefile::split_number(study::value_of(point, key)))
+        values.insert(study::value_of(point, key));
     return values.size();
   }
   /// @return whether all values of this key are numbers of one unit
@@ -220,15 +223,13 @@ struct Places {
 };
 
 void draw_points(pugi::xml_node grid, const std::vector<Point>& points, const Places& places,
-                 const study::Quantity& what) {
+    const study::Quantity& what) {
   const auto [low, high] = std::ranges::minmax(places.x);
   const double room = high > low ? 0.08 * (high - low) : 0.6,
                width = places.over_a_key ? 0.25 * room : 0.5 * room;
-  plot::Chart chart{
-      what.name,
-      capitalised(what.title),
-      fmt::format(
-          "For each point a short line at its {}, within its 95 % interval; one for each steady state.",
+  plot::Chart chart{what.name, capitalised(what.title),
+      fmt::format("For each point a short line at its {}, within its 95 % interval; one for each "
+                  "steady state.",
           what.title),
       {places.title, low - room, high + room, false, !places.over_a_key},
       {fmt::format("{} [{}]", what.title, what.unit)}};
@@ -240,7 +241,7 @@ void draw_points(pugi::xml_node grid, const std::vector<Point>& points, const Pl
     const auto found = points[k].estimate(what);
     const auto level = [&](double mean, const std::optional<double>& half_width) {
       add_level(chart, places.x[k] - width, places.x[k] + width,
-                RateOf{mean, half_width}.in_units_of(what.size), "", curve.colour);
+          RateOf{mean, half_width}.in_units_of(what.size), "", curve.colour);
     };
     for (const auto& state : found.states) level(state.mean, state.half_width);
     if (!found.states.empty() || !found.mean) continue;
@@ -273,7 +274,8 @@ std::string command_of(const study::Job& job, const std::string& folder) {
 
 void add_runs(pugi::xml_node main, const std::vector<Point>& points) {
   auto section = add_section(main, "runs", "Runs");
-  add_note(section, "The record of each run, and the command that makes it again with a report of its own.");
+  add_note(section,
+      "The record of each run, and the command that makes it again with a report of its own.");
   for (std::size_t k = 0; k < points.size(); ++k) {
     auto details = add(section, "details", {{"class", "runs"}});
     add(details, "summary", {}, fmt::format("{}: {}", k + 1, study::name_of(points, k)));
@@ -294,7 +296,8 @@ void add_runs(pugi::xml_node main, const std::vector<Point>& points) {
       if (run.record && run.record->lasting())
         add(add(lines, "li"), "a", {{"href", "runs/" + run.job.digest + ".json"}},
             fmt::format("record of seed {}", run.seed));
-      add(add(lines, "li"), "code", {}, command_of(run.job, fmt::format("run-{}-{}", k + 1, run.seed)));
+      add(add(lines, "li"), "code", {},
+          command_of(run.job, fmt::format("run-{}-{}", k + 1, run.seed)));
     }
   }
 }
@@ -308,11 +311,13 @@ void write_comparison(const std::vector<std::string>& folders, const std::filesy
   io::NamedFile(file).write(page_of_runs(runs));
 }
 
-std::string study_page(const study::Study& study, const std::string& kind, const std::string& finding) {
+std::string study_page(
+    const study::Study& study, const std::string& kind, const std::string& finding) {
   const auto& points = study.points();
   pugi::xml_document document;
   auto main = add(document, "main");
-  if (!finding.empty()) add(add_section(main, "finding", "Finding"), "pre", {{"tabindex", "0"}}, finding);
+  if (!finding.empty())
+    add(add_section(main, "finding", "Finding"), "pre", {{"tabindex", "0"}}, finding);
   auto section = add_section(main, "points", "Points");
   std::vector<std::string> headings{"point", "name", "runs"};
   for (const auto& what : study::main_quantities()) headings.push_back(what.title);
@@ -320,8 +325,7 @@ std::string study_page(const study::Study& study, const std::string& kind, const
   for (std::size_t k = 0; k < points.size(); ++k) {
     const auto& point = points[k];
     const auto failed = point.failed();
-    std::vector<std::string> row{
-        std::to_string(k + 1), study::name_of(points, k),
+    std::vector<std::string> row{std::to_string(k + 1), study::name_of(points, k),
         std::to_string(point.done()) + (failed > 0 ? fmt::format(", {} failed", failed) : "")};
     for (const auto& what : study::main_quantities())
       row.push_back(study::text_of(point.estimate(what), what));
@@ -329,21 +333,21 @@ std::string study_page(const study::Study& study, const std::string& kind, const
   }
   add_table(section, "rates-of-points", "Rates", headings, rows);
   add_note(section,
-           "\u00b1: 95 % interval, from the intervals of the runs and their scatter; where seeds settle "
-           "in several steady states, each with the number of its runs. All numbers:");
+      "\u00b1: 95 % interval, from the intervals of the runs and their scatter; where seeds settle "
+      "in several steady states, each with the number of its runs. All numbers:");
   auto files = add(section, "ul");
-  add(add(files, "li"), "a", {{"href", study.name() + ".csv"}}, study.name() + ".csv: a row for each point");
+  add(add(files, "li"), "a", {{"href", study.name() + ".csv"}},
+      study.name() + ".csv: a row for each point");
   add(add(files, "li"), "a", {{"href", "runs.csv"}}, "runs.csv: a row for each run");
   auto grid = add(add_section(main, "charts", "Charts"), "div", {{"class", "charts"}});
   const Places places(points);
   for (const auto& what : study::main_quantities()) draw_points(grid, points, places, what);
   add_runs(main, points);
   const auto counts = study.counts();
-  return page_of(
-      {kind + ", " + std::filesystem::path(study.file()).filename().string(),
-       fmt::format("{} point{}, {} runs, {} failed{}", points.size(), points.size() == 1 ? "" : "s",
-                   counts.total, counts.failed, study.interrupted() ? ", interrupted" : ""),
-       version(), commit(), document});
+  return page_of({kind + ", " + std::filesystem::path(study.file()).filename().string(),
+      fmt::format("{} point{}, {} runs, {} failed{}", points.size(), points.size() == 1 ? "" : "s",
+          counts.total, counts.failed, study.interrupted() ? ", interrupted" : ""),
+      version(), commit(), document});
 }
 
 }  // namespace edmill::report

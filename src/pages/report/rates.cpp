@@ -1,5 +1,5 @@
-// Rates over time and by partner, speeds of the balls, and how errors grow: Lyapunov exponents of the run,
-// and those of its intervals.
+// Rates over time and by partner, speeds of the balls, and how errors grow: Lyapunov exponents of
+// the run, and those of its intervals.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,20 +19,20 @@ constexpr std::size_t most_points = 120;
 void add_dose_rate(pugi::xml_node grid, const RunFolder& run) {
   const auto series = rate_of(run, "milling_dose", most_points);
   if (!series)
-    return add_missing(
-        grid, "dose rate over time",
+    return add_missing(grid, "dose rate over time",
         "type = \"trends\", columns = [{ variable = \"milling_dose\", statistics = [\"rate\"] }]");
   const auto& f = run.facts;
   auto chart = over_time(run, "dose-rate", "Milling dose rate over time", "milling dose rate [W]");
   chart.curves.push_back({"", "c0", points_of(*series)});
   if (const auto rate = rate_in(f, "milling_dose_rate"); rate && rate->half_width) {
-    chart.curves[0].name = fmt::format("over {} s", readable(series->front().end - series->front().begin, 2));
-    add_level(chart, f.number("start_time"), f.number("end_time"), *rate, "mean with its 95 % interval",
-              "c1");
+    chart.curves[0].name =
+        fmt::format("over {} s", readable(series->front().end - series->front().begin, 2));
+    add_level(chart, f.number("start_time"), f.number("end_time"), *rate,
+        "mean with its 95 % interval", "c1");
   }
   chart.description =
       fmt::format("Line of the milling dose rate in watts from {} s to {} s of simulated time.",
-                  brief(chart.x.low), brief(chart.x.high));
+          brief(chart.x.low), brief(chart.x.high));
   draw_fitted(grid, chart);
 }
 
@@ -46,8 +46,7 @@ void add_collision_rates(pugi::xml_node grid, const RunFolder& run) {
     if (const auto all = rate_of(run, "collision", most_points))
       chart.curves.push_back({"all", "c4", points_of(*all)});
   if (chart.curves.empty())
-    return add_missing(
-        grid, "collision rates over time",
+    return add_missing(grid, "collision rates over time",
         "type = \"trends\", columns = [{ variable = \"collision\", statistics = [\"rate\"] }]");
   chart.description = "Lines of the collisions per second with each wall and between balls.";
   draw_fitted(grid, chart);
@@ -78,10 +77,10 @@ void add_partners(pugi::xml_node section, const RunFolder& run) {
     const double collisions = f.number("collisions/" + key);
     const auto rate = f.find("collision_rate/" + key);
     rows.push_back({name, brief(collisions, 12), rate ? readable(*rate) : "\u2013",
-                    duration > 0 ? readable(dose / duration) : "\u2013",
-                    whole_dose > 0 ? readable(100 * dose / whole_dose, 3) : "\u2013",
-                    collisions > 0 ? readable(1000 * dose / collisions, 3) : "\u2013",
-                    duration > 0 && area > 0 ? readable(dose / duration / area / 1e4, 3) : "\u2013"});
+        duration > 0 ? readable(dose / duration) : "\u2013",
+        whole_dose > 0 ? readable(100 * dose / whole_dose, 3) : "\u2013",
+        collisions > 0 ? readable(1000 * dose / collisions, 3) : "\u2013",
+        duration > 0 && area > 0 ? readable(dose / duration / area / 1e4, 3) : "\u2013"});
   };
   for (int k = 0; k < run.partners.count(); ++k) {
     const auto& [key, label, meaning] = run.partners[k];
@@ -89,14 +88,15 @@ void add_partners(pugi::xml_node section, const RunFolder& run) {
   }
   row("all", "total", whole_dose, 0);
   add_table(section, "by-partner", "Collisions and dose by partner",
-            {"with", "collisions", "[1/s]", "dose rate [W]", "share of the dose [%]", "mean dose [mJ]",
-             "dose rate per area [W/cm\u00b2]"},
-            rows);
+      {"with", "collisions", "[1/s]", "dose rate [W]", "share of the dose [%]", "mean dose [mJ]",
+          "dose rate per area [W/cm\u00b2]"},
+      rows);
   if (const auto rate = f.find("milling_dose_rate"))
-    add_note(section, fmt::format("Area: of the wall, or of all balls. A ball (of {}) has a part in {} W on "
-                                  "the average: an impact between balls counts half for either, one with a "
-                                  "wall whole.",
-                                  balls, readable(*rate / static_cast<double>(balls), 3)));
+    add_note(section,
+        fmt::format("Area: of the wall, or of all balls. A ball (of {}) has a part in {} W on "
+                    "the average: an impact between balls counts half for either, one with a "
+                    "wall whole.",
+            balls, readable(*rate / static_cast<double>(balls), 3)));
 }
 
 void add_cutoffs(pugi::xml_node section, const RunFolder& run) {
@@ -114,7 +114,8 @@ void add_cutoffs(pugi::xml_node section, const RunFolder& run) {
     auto& row = rows.emplace_back(1, brief(numbers[0]));
     for (const auto& column : columns) row.push_back(readable(numbers[table->column(column)]));
   }
-  add_table(section, "above-cutoffs", "Collisions per second at or above an approach speed", headings, rows);
+  add_table(section, "above-cutoffs", "Collisions per second at or above an approach speed",
+      headings, rows);
 }
 
 /// Mean, least and largest speed of the balls over time.
@@ -124,12 +125,12 @@ void add_speeds_over_time(pugi::xml_node grid, const RunFolder& run) {
   const std::vector wanted{Statistic::average, Statistic::minimum, Statistic::maximum};
   const auto table = run.table("trends_balls", "a table of trends of balls", 0, [&](const auto& o) {
     return o.columns.size() == 1 && o.columns[0].variable == speed && !o.columns[0].with_ball &&
-           o.columns[0].statistics == wanted;
+        o.columns[0].statistics == wanted;
   });
   if (!table)
     return add_missing(grid, "ball speeds over time",
-                       "type = \"trends_balls\", columns = [{ variable = \"speed\", "
-                       "statistics = [\"average\", \"minimum\", \"maximum\"] }]");
+        "type = \"trends_balls\", columns = [{ variable = \"speed\", "
+        "statistics = [\"average\", \"minimum\", \"maximum\"] }]");
   const auto& rows = table->numbers;
   auto chart = over_time(run, "ball-speeds-over-time", "Ball speeds over time", "speed [m/s]");
   // Groups of five: each point covers all phases of the drive that the report's table samples.
@@ -152,35 +153,34 @@ void add_speeds_over_time(pugi::xml_node grid, const RunFolder& run) {
   }
   chart.curves.push_back(std::move(mean));
   chart.bands.push_back(std::move(range));
-  chart.description = "Line of the balls' mean speed, within a band from the slowest to the fastest ball.";
+  chart.description =
+      "Line of the balls' mean speed, within a band from the slowest to the fastest ball.";
   draw_fitted(grid, chart);
 }
 
 void add_speed_frequency(pugi::xml_node grid, const RunFolder& run) {
   const int variable = *model::find_variable("ball_speed_before");
-  const auto table = run.table("frequency", "a table of frequencies", 1, [&](const auto& o) {
-    return o.only.empty() && o.frequency.variable.variable == variable;
-  });
+  const auto table = run.table("frequency", "a table of frequencies", 1,
+      [&](const auto& o) { return o.only.empty() && o.frequency.variable.variable == variable; });
   if (!table)
-    return add_missing(
-        grid, "distribution of ball speeds",
-        "type = \"frequency\", variable = \"ball_speed_before\", low = \"0 m/s\", high = \"10 m/s\"");
+    return add_missing(grid, "distribution of ball speeds",
+        "type = \"frequency\", variable = \"ball_speed_before\", low = \"0 m/s\", high = \"10 "
+        "m/s\"");
   const auto lower = table->column("lower"), upper = table->column("upper");
-  plot::Chart chart{"ball-speeds",
-                    "Speed of balls at their impacts",
-                    "Histograms of the ball's speed before an impact with a wall and with another ball.",
-                    {"speed before the impact [m/s]"},
-                    {"share of impacts [1/(m/s)]"}};
+  plot::Chart chart{"ball-speeds", "Speed of balls at their impacts",
+      "Histograms of the ball's speed before an impact with a wall and with another ball.",
+      {"speed before the impact [m/s]"}, {"share of impacts [1/(m/s)]"}};
   double last = 0;
   for (const auto& [name, column, colour] :
-       {std::tuple{"with walls", "walls", "c2"}, std::tuple{"with balls", "ball_ball", "c3"}}) {
+      {std::tuple{"with walls", "walls", "c2"}, std::tuple{"with balls", "ball_ball", "c3"}}) {
     const auto place = table->column(column);
     double all = 0;
     for (const auto& row : table->numbers) all += row[place];
     plot::Curve curve{name, colour, {}, true};
     for (const auto& row : table->numbers) {
       if (std::isnan(row[lower]) || std::isnan(row[upper])) continue;  // out of range
-      curve.points.emplace_back(row[lower], all > 0 ? row[place] / all / (row[upper] - row[lower]) : 0);
+      curve.points.emplace_back(
+          row[lower], all > 0 ? row[place] / all / (row[upper] - row[lower]) : 0);
       if (row[place] > 0) last = std::max(last, row[upper]);
       chart.x.low = std::min(chart.x.low, row[lower]);
       if (&row == &table->numbers.back() || std::isnan((&row)[1][upper]))
@@ -195,7 +195,7 @@ void add_speed_frequency(pugi::xml_node grid, const RunFolder& run) {
 }  // namespace
 
 plot::Chart over_time(const RunFolder& run, const std::string& id, const std::string& title,
-                      const std::string& y_title) {
+    const std::string& y_title) {
   const plot::Axis x{"time [s]", run.spec.initial_time.to<double>(), run.facts.number("end_time")};
   plot::Chart chart{.id = id, .title = title, .x = x, .y = {y_title}};
   if (const double start = run.facts.number("start_time"); start > chart.x.low)
@@ -237,7 +237,7 @@ void add_ball_speeds(pugi::xml_node main, const RunFolder& run) {
 
 void add_exponents(pugi::xml_node main, const RunFolder& run) {
   const auto table = run.table("lyapunov", "a table of Lyapunov exponents", 0,
-                               [](const auto& o) { return o.only.empty() && !o.timer.interval; });
+      [](const auto& o) { return o.only.empty() && !o.timer.interval; });
   if (!table) return;
   Rows rows;
   for (const auto& numbers : table->numbers) {
@@ -245,15 +245,17 @@ void add_exponents(pugi::xml_node main, const RunFolder& run) {
       return readable(numbers[table->column(column)], digits);
     };
     std::string value = cell("per_second", 4);
-    if (std::isfinite(numbers[table->column("half_width")])) value += " \u00b1 " + cell("half_width", 2);
-    rows.push_back({brief(numbers[0]), value, cell("per_collision", 3), cell("digits_per_impact", 3)});
+    if (std::isfinite(numbers[table->column("half_width")]))
+      value += " \u00b1 " + cell("half_width", 2);
+    rows.push_back(
+        {brief(numbers[0]), value, cell("per_collision", 3), cell("digits_per_impact", 3)});
   }
   auto section = add_section(main, "errors", "How errors grow");
   add_table(section, "lyapunov-exponents", "Lyapunov exponents",
-            {"exponent", "[1/s]", "per collision of a ball", "digits per impact"}, rows);
+      {"exponent", "[1/s]", "per collision of a ball", "digits per impact"}, rows);
   add_note(section,
-           "The distance of two motions that begin close together grows by e in 1/exponent seconds, on "
-           "the average. Errors of a code, and of its rounding, grow so, too.");
+      "The distance of two motions that begin close together grows by e in 1/exponent seconds, on "
+      "the average. Errors of a code, and of its rounding, grow so, too.");
 }
 
 }  // namespace edmill::report

@@ -1,5 +1,5 @@
-// Presentation of runs: self-contained HTML pages of a run, of several side by side and of a study; a table
-// for the terminal; a drawing of the mill.
+// Presentation of runs: self-contained HTML pages of a run, of several side by side and of a study;
+// a table for the terminal; a drawing of the mill.
 #pragma once
 
 #include <filesystem>
@@ -37,7 +37,8 @@ void write_comparison(const std::vector<std::string>& folders, const std::filesy
 /// The page of a sweep or an optimisation: rates of all points with their intervals.
 /// @param kind     "Sweep"
 /// @param finding  lines of text, such as what an optimisation found; none when empty
-std::string study_page(const study::Study& study, const std::string& kind, const std::string& finding);
+std::string study_page(
+    const study::Study& study, const std::string& kind, const std::string& finding);
 
 /// The results of a run on the terminal.
 std::string result_table(const io::Facts& summary, const model::Partners& partners);

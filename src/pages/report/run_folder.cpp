@@ -32,7 +32,7 @@ file = "trends_{}.csv"
 only = {{ {} }}
 columns = [{{ variable = "milling_dose", statistics = ["rate"] }}, {{ variable = "collision", statistics = ["rate"] }}]
 )",
-                     key, only);
+      key, only);
 }
 
 /// Order of magnitude of the largest dissipation in an impact [log10 J]: the heaviest ball at three
@@ -44,7 +44,8 @@ double largest_energy(const casefile::CaseSpec& spec) {
   const double square = centre * centre + walls * walls + 4 * norm<double>(mill.gravity) * extent;
   double heaviest = 0;
   spec.for_each_ball([&](const casefile::BallSpec& ball) {
-    heaviest = std::max(heaviest, ball.density.to<double>() * std::pow(ball.diameter.to<double>(), 3) / 2);
+    heaviest =
+        std::max(heaviest, ball.density.to<double>() * std::pow(ball.diameter.to<double>(), 3) / 2);
   });
   return std::log10(heaviest * square);
 }
@@ -53,7 +54,8 @@ double largest_energy(const casefile::CaseSpec& spec) {
 /// mills.
 std::string energy_spectra(const casefile::CaseSpec& spec) {
   const double most = largest_energy(spec);
-  const int top = std::isfinite(most) && (most < -6 || most > 0) ? static_cast<int>(std::ceil(most)) : 0;
+  const int top =
+      std::isfinite(most) && (most < -6 || most > 0) ? static_cast<int>(std::ceil(most)) : 0;
   return fmt::format(
       "\n[[output]]\ntype = \"spectra\"\nfolder = \"report\"\nfile = \"spectra_energy.csv\"\n"
       "low = \"1e{} J\"\nhigh = \"1e{} J\"\n",
@@ -64,7 +66,8 @@ std::string outputs_for(const casefile::CaseSpec& spec) {
   const auto partners = casefile::partners_of(spec);
   std::string text = std::string(outputs_toml) + energy_spectra(spec);
   for (int wall = 0; wall < partners.walls(); ++wall)
-    text += partner_trends(partners[wall].key, fmt::format("ball_ball = false, partner = {}", wall));
+    text +=
+        partner_trends(partners[wall].key, fmt::format("ball_ball = false, partner = {}", wall));
   return text + partner_trends(partners[partners.ball_ball()].key, "ball_ball = true");
 }
 
@@ -86,7 +89,8 @@ double duration_of(const std::string& file) {
 
 /// Drops a last interval that is shorter than the first: its rate has another variance.
 Series whole(Series s) {
-  if (s.size() > 1 && s.back().end - s.back().begin < (1 - 1e-6) * (s.front().end - s.front().begin))
+  if (s.size() > 1 &&
+      s.back().end - s.back().begin < (1 - 1e-6) * (s.front().end - s.front().begin))
     s.pop_back();
   return s;
 }
@@ -99,9 +103,8 @@ bool records(const casefile::OutputSpec& output, const model::Partners& partners
     expected = {{ball_ball, 1}};
   else if (partner >= 0)
     expected = {{ball_ball, 0}, {id, static_cast<std::uint64_t>(partner)}};
-  return std::ranges::is_permutation(output.only, expected, [](const auto& a, const auto& b) {
-    return a.variable == b.variable && a.value == b.value;
-  });
+  return std::ranges::is_permutation(output.only, expected,
+      [](const auto& a, const auto& b) { return a.variable == b.variable && a.value == b.value; });
 }
 
 /// The partners, with top and bottom in the labels, "cap -y (bottom)", for walls named by an axis
@@ -125,8 +128,8 @@ model::Partners with_top_and_bottom(const casefile::CaseSpec& spec) {
     for (int k = 0; k < samples; ++k) {
       const double share = k * golden - std::floor(k * golden);
       const auto pose = mill.motion.pose(Instant<double>{k * apart, period * share});
-      along +=
-          dot<double>(mill.motion.direction_to_inertial(pose, outward), mill.gravity) / gravity / samples;
+      along += dot<double>(mill.motion.direction_to_inertial(pose, outward), mill.gravity) /
+          gravity / samples;
     }
     if (std::abs(along) > 0.9) wall.label += along > 0 ? " (bottom)" : " (top)";
   }
@@ -144,18 +147,19 @@ RunFolder read_run_folder(const std::filesystem::path& place) {
   const auto file = place / "summary.json";
   for (const auto* page : {"sweep.html", "optimize.html", "seeds.html"})
     if (!std::filesystem::exists(file) && std::filesystem::exists(place / page))
-      throw InputError(
-          fmt::format("{}: found the folder of several runs, expected that of one run; their page is {}",
-                      place.string(), (place / page).string()));
-  RunFolder folder{place, io::facts_in(io::read_json(file, "the summary of a run"), file.string()), {}, {}};
+      throw InputError(fmt::format(
+          "{}: found the folder of several runs, expected that of one run; their page is {}",
+          place.string(), (place / page).string()));
+  RunFolder folder{
+      place, io::facts_in(io::read_json(file, "the summary of a run"), file.string()), {}, {}};
   const auto& facts = folder.facts;
   const bool reported = facts.flag("reported");
-  folder.spec = casefile::read_case_of_run((place / "case.toml").string(), facts.texts("settings"),
-                                           facts.text("case_digest"));
+  folder.spec = casefile::read_case_of_run(
+      (place / "case.toml").string(), facts.texts("settings"), facts.text("case_digest"));
   folder.partners = with_top_and_bottom(folder.spec);
   if (const auto found = walls_of(facts), expected = folder.partners.walls(); found != expected)
-    throw InputError(fmt::format("{}: collisions: found {} walls, expected the {} of the case", file.string(),
-                                 found, expected));
+    throw InputError(fmt::format("{}: collisions: found {} walls, expected the {} of the case",
+        file.string(), found, expected));
   if (reported) add_report_outputs(folder.spec);
   return folder;
 }
@@ -165,18 +169,19 @@ const casefile::OutputSpec* RunFolder::output(std::string_view type, const Fits&
     std::error_code ignored;
     const auto file = file_of(output);
     // The file of a record that never began is empty.
-    return std::filesystem::is_regular_file(file, ignored) && std::filesystem::file_size(file, ignored) > 0;
+    return std::filesystem::is_regular_file(file, ignored) &&
+        std::filesystem::file_size(file, ignored) > 0;
   };
   // The report's own outputs come last, and are certain to fit.
   for (auto output = spec.outputs.rbegin(); output != spec.outputs.rend(); ++output)
-    if (output->type == type && !output->append && output->timer.on && !output->file.ends_with(".h5") &&
-        is_written(*output) && fits(*output))
+    if (output->type == type && !output->append && output->timer.on &&
+        !output->file.ends_with(".h5") && is_written(*output) && fits(*output))
       return &*output;
   return nullptr;
 }
 
-std::optional<OutputTable> RunFolder::table(std::string_view type, const std::string& expected,
-                                            std::size_t texts, const Fits& fits) const {
+std::optional<OutputTable> RunFolder::table(
+    std::string_view type, const std::string& expected, std::size_t texts, const Fits& fits) const {
   const auto* found = output(type, fits);
   return found ? std::optional(read_table(file_of(*found), expected, texts)) : std::nullopt;
 }
@@ -215,7 +220,8 @@ void add_report_outputs(casefile::CaseSpec& spec) {
 std::size_t OutputTable::column(std::string_view name) const {
   const std::size_t text_columns = texts.empty() ? 0 : texts.front().size();
   for (std::size_t k = text_columns; k < header.size(); ++k)
-    if (header[k] == name || header[k].starts_with(std::string(name) + " [")) return k - text_columns;
+    if (header[k] == name || header[k].starts_with(std::string(name) + " ["))
+      return k - text_columns;
   throw InputError(file + ": the header has no column '" + std::string(name) + "'");
 }
 
@@ -226,7 +232,8 @@ std::vector<std::vector<double>> OutputTable::rows_of(std::string_view text) con
   return rows;
 }
 
-OutputTable read_table(const std::filesystem::path& file, const std::string& expected, std::size_t texts) {
+OutputTable read_table(
+    const std::filesystem::path& file, const std::string& expected, std::size_t texts) {
   io::CsvReader reader(file, expected);
   OutputTable table;
   table.file = file.string();
@@ -251,8 +258,8 @@ OutputTable read_table(const std::filesystem::path& file, const std::string& exp
   return table;
 }
 
-Series intervals_of(const casefile::OutputSpec& output, const OutputTable& table, std::size_t column,
-                    double start) {
+Series intervals_of(const casefile::OutputSpec& output, const OutputTable& table,
+    std::size_t column, double start) {
   Series series;
   double begin = start;
   if (output.timer.start_time) begin = std::max(begin, output.timer.start_time->to<double>());
@@ -271,11 +278,12 @@ std::optional<std::size_t> place_of_rate(const casefile::OutputSpec& output, int
   return std::nullopt;
 }
 
-std::optional<Series> rate_of(const RunFolder& run, const char* variable, std::size_t most, int partner) {
+std::optional<Series> rate_of(
+    const RunFolder& run, const char* variable, std::size_t most, int partner) {
   const int row = *model::find_variable(variable);
   const auto fits = [&](const casefile::OutputSpec& output) {
     return place_of_rate(output, row) && !output.accumulated && !output.timer.start_collision &&
-           records(output, run.partners, partner);
+        records(output, run.partners, partner);
   };
   const auto* output = run.output("trends", fits);
   if (!output) return std::nullopt;
@@ -291,7 +299,8 @@ Series coarser(const Series& series, std::size_t most) {
   for (std::size_t first = 0; first < count; first += together) {
     const std::size_t last = std::min(count, first + together) - 1;
     double amount = 0;
-    for (std::size_t k = first; k <= last; ++k) amount += series[k].rate * (series[k].end - series[k].begin);
+    for (std::size_t k = first; k <= last; ++k)
+      amount += series[k].rate * (series[k].end - series[k].begin);
     const double begin = series[first].begin, end = series[last].end;
     result.push_back({begin, end, amount / (end - begin)});
   }

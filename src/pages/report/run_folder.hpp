@@ -33,8 +33,9 @@ struct OutputTable {
   std::string file;
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> texts;  ///< of each row, the first columns
-  std::vector<std::vector<double>> numbers;     ///< of each row, the other columns; nan where it is empty
-  double duration = 0;                          ///< of the record, where the table says so [s]
+  std::vector<std::vector<double>>
+      numbers;          ///< of each row, the other columns; nan where it is empty
+  double duration = 0;  ///< of the record, where the table says so [s]
 
   /// Index in `numbers` of the column whose name begins with this text ("total energy").
   /// @throws InputError when there is none
@@ -52,16 +53,19 @@ struct RunFolder {
   std::string name = {};  ///< among runs that are compared
 
   using Fits = std::function<bool(const casefile::OutputSpec&)>;
-  /// The last output of the case that has this type, satisfies `fits`, is CSV (or X3D), is not appended to
-  /// others, and whose file exists and is not empty; null if there is none.
+  /// The last output of the case that has this type, satisfies `fits`, is CSV (or X3D), is not
+  /// appended to others, and whose file exists and is not empty; null if there is none.
   const casefile::OutputSpec* output(std::string_view type, const Fits& fits) const;
-  /// The table of such an output, whose first columns, `texts` of them, are text; by default of all impacts.
+  /// The table of such an output, whose first columns, `texts` of them, are text; by default of all
+  /// impacts.
   /// @param expected  "a table of trends", for messages
   /// @throws InputError when it is no such table
   std::optional<OutputTable> table(
       std::string_view type, const std::string& expected, std::size_t texts = 0,
       const Fits& fits = [](const auto& o) { return o.only.empty(); }) const;
-  std::filesystem::path file_of(const casefile::OutputSpec& o) const { return place / o.folder / o.file; }
+  std::filesystem::path file_of(const casefile::OutputSpec& o) const {
+    return place / o.folder / o.file;
+  }
 };
 
 /// @throws InputError when a file is missing or wrong
@@ -70,7 +74,8 @@ RunFolder read_run_folder(const std::filesystem::path& place);
 /// @param expected  "a table of trends", for messages
 /// @param texts     how many columns of text there are before the numbers
 /// @throws InputError when it is no such table
-OutputTable read_table(const std::filesystem::path& file, const std::string& expected, std::size_t texts = 0);
+OutputTable read_table(
+    const std::filesystem::path& file, const std::string& expected, std::size_t texts = 0);
 
 /// An interval of time with the mean of a rate over it.
 struct Interval {
@@ -81,8 +86,8 @@ using Series = std::vector<Interval>;
 
 /// A column of a table whose rows are of intervals that follow each other.
 /// @param start  of the run [s]: the first interval begins there unless the table begins later
-Series intervals_of(const casefile::OutputSpec& output, const OutputTable& table, std::size_t column,
-                    double start);
+Series intervals_of(
+    const casefile::OutputSpec& output, const OutputTable& table, std::size_t column, double start);
 /// The column of a variable's rate in a table of trends; nothing where it has none.
 std::optional<std::size_t> place_of_rate(const casefile::OutputSpec& output, int variable);
 
@@ -94,6 +99,7 @@ plot::Points points_of(const Series& series);
 
 /// Rate of a variable of all impacts, or of those with one partner, over at most `most` intervals;
 /// nothing when no table has it.
-std::optional<Series> rate_of(const RunFolder& run, const char* variable, std::size_t most, int partner = -1);
+std::optional<Series> rate_of(
+    const RunFolder& run, const char* variable, std::size_t most, int partner = -1);
 
 }  // namespace edmill::report

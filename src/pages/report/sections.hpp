@@ -62,10 +62,10 @@ std::string time_window(const io::Facts& summary);
 std::string capitalised(std::string text);
 /// A histogram of bars that are equally wide, from `first` on.
 plot::Curve bars(const std::string& name, const std::string& colour, double first, double width,
-                 const std::vector<double>& heights);
+    const std::vector<double>& heights);
 /// A line at the rate from `left` to `right`, within its interval.
-void add_level(plot::Chart& chart, double left, double right, const RateOf& rate, const std::string& name,
-               const std::string& colour);
+void add_level(plot::Chart& chart, double left, double right, const RateOf& rate,
+    const std::string& name, const std::string& colour);
 
 pugi::xml_node add_section(pugi::xml_node main, const std::string& id, const std::string& heading);
 /// A remark on what a section shows.
@@ -75,11 +75,11 @@ void add_missing(pugi::xml_node section, const std::string& what, const std::str
 
 /// A table under a heading with this id; the first cell of each row is its heading.
 void add_table(pugi::xml_node section, const std::string& id, const std::string& caption,
-               const std::vector<std::string>& headings, const Rows& rows);
+    const std::vector<std::string>& headings, const Rows& rows);
 
 /// A chart over the time of the run; the start of statistics is marked unless it is the beginning.
 plot::Chart over_time(const RunFolder& run, const std::string& id, const std::string& title,
-                      const std::string& y_title);
+    const std::string& y_title);
 /// Draws a chart with a y axis from 0, or below a negative value, to a little above the highest.
 void draw_fitted(pugi::xml_node grid, plot::Chart chart);
 

@@ -11,7 +11,8 @@ namespace edmill::report {
 namespace {
 
 /// One column of one spectrum per second, as density over the decades of its bins.
-plot::Points density(const OutputTable& table, const std::string& spectrum, const std::string& column) {
+plot::Points density(
+    const OutputTable& table, const std::string& spectrum, const std::string& column) {
   const auto place = table.column(column);
   const double scale = 1 / table.duration;
   plot::Points points;
@@ -54,7 +55,8 @@ void fit(plot::Chart& chart) {
   chart.y.low = std::max(std::min(least, chart.y.high) / 2, chart.y.high / 1e5);
 }
 
-std::optional<OutputTable> spectra_of(const RunFolder& run, const std::string& of, const char* first) {
+std::optional<OutputTable> spectra_of(
+    const RunFolder& run, const std::string& of, const char* first) {
   std::optional<OutputTable> found;
   run.output("spectra", [&](const casefile::OutputSpec& o) {
     if (!o.only.empty()) return false;
@@ -68,53 +70,48 @@ std::optional<OutputTable> spectra_of(const RunFolder& run, const std::string& o
 
 /// @param whose  "of each run"
 plot::Chart energy_chart(const std::string& whose) {
-  return {"energy-spectrum",
-          "Dose by the energy of the impact",
-          "Histograms on a logarithmic scale of impact energy: dose rate per decade " + whose + ".",
-          {"energy that the impact dissipates [J]"},
-          {"dose rate [W per decade]"}};
+  return {"energy-spectrum", "Dose by the energy of the impact",
+      "Histograms on a logarithmic scale of impact energy: dose rate per decade " + whose + ".",
+      {"energy that the impact dissipates [J]"}, {"dose rate [W per decade]"}};
 }
 
 /// @param spectrum  "approach" or "slip"
 plot::Chart speed_chart(const std::string& spectrum, const std::string& whose) {
-  return {spectrum + "-speeds",
-          "Impacts by " + spectrum + " speed",
-          "Histograms on logarithmic scales: impacts per second and decade " + whose + ".",
-          {spectrum + " speed [m/s]"},
-          {.title = "impacts [1/s per decade]", .logarithmic = true}};
+  return {spectrum + "-speeds", "Impacts by " + spectrum + " speed",
+      "Histograms on logarithmic scales: impacts per second and decade " + whose + ".",
+      {spectrum + " speed [m/s]"}, {.title = "impacts [1/s per decade]", .logarithmic = true}};
 }
 
 /// @param quantity  "energy" or "impacts"
 void draw_partners(pugi::xml_node grid, plot::Chart chart, const OutputTable& table,
-                   const std::string& spectrum, const std::string& quantity,
-                   const model::Partners& partners) {
+    const std::string& spectrum, const std::string& quantity, const model::Partners& partners) {
   for (int k = 0; k < partners.count(); ++k)
     chart.curves.push_back({typeset(partners[k].label), partner_colour(partners, k),
-                            density(table, spectrum, partners[k].key + " " + quantity), true});
+        density(table, spectrum, partners[k].key + " " + quantity), true});
   fit(chart);
   draw(grid, chart);
 }
 
 void add_energies(pugi::xml_node grid, const OutputTable& table, const model::Partners& partners) {
-  draw_partners(grid, energy_chart("with each wall and between balls"), table, "total", "energy", partners);
-  plot::Chart by_direction{
-      "energy-parts",
-      "Normal and tangential dose",
+  draw_partners(
+      grid, energy_chart("with each wall and between balls"), table, "total", "energy", partners);
+  plot::Chart by_direction{"energy-parts", "Normal and tangential dose",
       "Histograms of dose rate per decade: the normal part, the tangential part and both, each by "
       "its own size.",
-      {"that part of the impact's energy [J]"},
-      {"dose rate [W per decade]"}};
+      {"that part of the impact's energy [J]"}, {"dose rate [W per decade]"}};
   for (const auto& [spectrum, colour] :
-       {std::pair{"normal", "c0"}, std::pair{"tangential", "c1"}, std::pair{"total", "c4"}})
-    by_direction.curves.push_back({spectrum, colour, density(table, spectrum, "total energy"), true});
+      {std::pair{"normal", "c0"}, std::pair{"tangential", "c1"}, std::pair{"total", "c4"}})
+    by_direction.curves.push_back(
+        {spectrum, colour, density(table, spectrum, "total energy"), true});
   fit(by_direction);
   draw(grid, by_direction);
 }
 
 void add_speeds(pugi::xml_node grid, const OutputTable& table, const model::Partners& partners) {
   for (const std::string spectrum : {"approach", "slip"})
-    draw_partners(grid, speed_chart(spectrum, "of " + spectrum + " speed, with each wall and between balls"),
-                  table, spectrum, "impacts", partners);
+    draw_partners(grid,
+        speed_chart(spectrum, "of " + spectrum + " speed, with each wall and between balls"), table,
+        spectrum, "impacts", partners);
 }
 
 }  // namespace
@@ -134,13 +131,11 @@ void add_spectra(pugi::xml_node main, const RunFolder& run) {
 void add_treatment(pugi::xml_node main, const RunFolder& run) {
   const auto table = run.table("treatment", "a table of treatment", 1);
   if (!table) return;
-  plot::Chart chart{"treatment-hits",
-                    "How often powder has been hit",
-                    "Histograms of the part of the powder that was hit so many times: mixed, and in place.",
-                    {"hits", 0, static_cast<double>(table->numbers.size())},
-                    {"part of the powder"}};
-  for (const auto& [name, column, colour] :
-       {std::tuple{"mixed between impacts", "mixed", "c0"}, std::tuple{"stays in place", "in_place", "c1"}}) {
+  plot::Chart chart{"treatment-hits", "How often powder has been hit",
+      "Histograms of the part of the powder that was hit so many times: mixed, and in place.",
+      {"hits", 0, static_cast<double>(table->numbers.size())}, {"part of the powder"}};
+  for (const auto& [name, column, colour] : {std::tuple{"mixed between impacts", "mixed", "c0"},
+           std::tuple{"stays in place", "in_place", "c1"}}) {
     std::vector<double> parts;
     for (const auto& row : table->numbers) parts.push_back(row[table->column(column)]);
     chart.curves.push_back(bars(name, colour, 0, 1, parts));
@@ -148,17 +143,18 @@ void add_treatment(pugi::xml_node main, const RunFolder& run) {
   auto section = add_section(main, "treatment", "How evenly the powder is treated");
   draw_fitted(add(section, "div", {{"class", "charts"}}), chart);
   add_note(section,
-           "The last bar is of all that was hit more often. The counts and what an impact works are "
-           "those of the output (type = \"treatment\").");
+      "The last bar is of all that was hit more often. The counts and what an impact works are "
+      "those of the output (type = \"treatment\").");
 }
 
 void add_spectra_of(pugi::xml_node main, const std::vector<RunFolder>& runs) {
   auto energies = energy_chart("of each run"), speeds = speed_chart("approach", "of each run");
   for (std::size_t k = 0; k < runs.size(); ++k) {
-    const auto put = [&](plot::Chart& chart, const std::optional<OutputTable>& table, const char* spectrum,
-                         const char* column) {
+    const auto put = [&](plot::Chart& chart, const std::optional<OutputTable>& table,
+                         const char* spectrum, const char* column) {
       if (table)
-        chart.curves.push_back({runs[k].name, run_colour(k), density(*table, spectrum, column), true});
+        chart.curves.push_back(
+            {runs[k].name, run_colour(k), density(*table, spectrum, column), true});
     };
     put(energies, spectra_of(runs[k], "energy", "normal"), "total", "total energy");
     put(speeds, spectra_of(runs[k], "speed", "approach"), "approach", "total impacts");

@@ -28,7 +28,8 @@ struct WallMap {
   bool has(Coordinate c) const { return std::ranges::count(surface.coordinates(), c) > 0; }
   /// The ends of the wall along an axis of the map; its own coordinate may run the other way.
   std::pair<double, double> ends(int axis) const {
-    return std::minmax(scale(axis) * surface.edge(axis, 0, 1), scale(axis) * surface.edge(axis, 1, 1));
+    return std::minmax(
+        scale(axis) * surface.edge(axis, 0, 1), scale(axis) * surface.edge(axis, 1, 1));
   }
   /// Factor from a coordinate of the table to the map's: degrees and millimetres; 1 for a disc.
   double scale(int axis) const {
@@ -70,7 +71,8 @@ void label(WallMap& wall) {
     map.x_step = 90;
   } else {
     map.id = fmt::format("wall-{}", wall.id);
-    map.title = fmt::format("{}, {} mm \u00d7 {} mm", name, brief(right - left), brief(top - bottom));
+    map.title =
+        fmt::format("{}, {} mm \u00d7 {} mm", name, brief(right - left), brief(top - bottom));
   }
 }
 
@@ -80,13 +82,14 @@ void read_cells(std::vector<WallMap>& walls, const OutputTable& table) {
     const auto column = [&](std::size_t axis, const std::string& end) {
       return table.column(model::info_of(wall.surface.coordinates()[axis]).name + end);
     };
-    const std::array columns{column(0, "_low"), column(0, "_high"), column(1, "_low"), column(1, "_high")};
+    const std::array columns{
+        column(0, "_low"), column(0, "_high"), column(1, "_low"), column(1, "_high")};
     for (const auto& row : table.numbers) {
       if (row[wall_id] != static_cast<double>(wall.id)) continue;
       const double value = row[density] / table.duration / 1000;  // kW/m2
       const double x = wall.scale(0), y = wall.scale(1);
-      wall.map.cells.push_back(
-          {row[columns[0]] * x, row[columns[1]] * x, row[columns[2]] * y, row[columns[3]] * y, value});
+      wall.map.cells.push_back({row[columns[0]] * x, row[columns[1]] * x, row[columns[2]] * y,
+          row[columns[3]] * y, value});
       wall.map.highest = std::max(wall.map.highest, value);
     }
   }
@@ -109,8 +112,9 @@ std::string share_scales(std::vector<WallMap>& walls) {
 void add_maps(pugi::xml_node section, const RunFolder& run) {
   const auto table = run.table("coverage", "a table of coverage");
   if (!table || !(table->duration > 0))
-    return add_missing(section, table ? "time in the coverage of the vessel" : "dose on the vessel's walls",
-                       "type = \"coverage\"");
+    return add_missing(section,
+        table ? "time in the coverage of the vessel" : "dose on the vessel's walls",
+        "type = \"coverage\"");
   const auto vessel = casefile::build_mill<double>(run.spec).vessel;
   const auto surfaces = vessel.surfaces();
   const double extent = vessel.extent();
@@ -124,21 +128,24 @@ void add_maps(pugi::xml_node section, const RunFolder& run) {
   read_cells(walls, *table);
   const std::string shared = share_scales(walls);
   std::ranges::stable_partition(walls, [](const WallMap& wall) { return !wall.map.disc; });
-  const auto discs = std::ranges::count_if(walls, [](const WallMap& wall) { return wall.map.disc; });
+  const auto discs =
+      std::ranges::count_if(walls, [](const WallMap& wall) { return wall.map.disc; });
   const bool can = discs == 2 && walls.size() == 3;  // a cylinder's two caps are drawn beside it
   auto grid = add(section, "div", {{"class", can ? "charts maps" : "charts"}});
   bool angles = false;
   for (auto& [id, surface, info, map] : walls) {
-    map.description = fmt::format("Map of the dose rate per area on {}, up to {} kW per square metre.",
-                                  info.meaning, readable(map.highest, 3));
+    map.description =
+        fmt::format("Map of the dose rate per area on {}, up to {} kW per square metre.",
+            info.meaning, readable(map.highest, 3));
     draw(grid, map);
     angles = angles || surface.coordinates()[0] == Coordinate::angle;
   }
-  add_note(section, (!angles ? ""
-                     : casefile::name_of(run.spec.mill).starts_with("spex")
-                         ? "Angles are measured from the direction along the arm, away from the fulcrum. "
-                         : "Angles are measured about the vessel\u2019s y axis, from x to z. ") +
-                        ("Cells of one wall have equal areas." + shared));
+  add_note(section,
+      (!angles ? ""
+              : casefile::name_of(run.spec.mill).starts_with("spex")
+              ? "Angles are measured from the direction along the arm, away from the fulcrum. "
+              : "Angles are measured about the vessel\u2019s y axis, from x to z. ") +
+          ("Cells of one wall have equal areas." + shared));
 }
 
 struct Ball {
@@ -160,7 +167,9 @@ std::vector<std::vector<Ball>> by_size(std::vector<Ball> balls) {
 
 /// "4.76", or "2 to 3" [mm].
 std::string diameters_of(const std::vector<Ball>& kind) {
-  const auto text = [](const Ball& ball) { return brief(1000 * std::sqrt(ball.area / std::numbers::pi), 4); };
+  const auto text = [](const Ball& ball) {
+    return brief(1000 * std::sqrt(ball.area / std::numbers::pi), 4);
+  };
   const auto least = text(kind.front()), most = text(kind.back());
   return least == most ? least : least + " to " + most;
 }
@@ -175,23 +184,21 @@ void add_sizes(pugi::xml_node section, const std::vector<Ball>& balls) {
       all.area += ball.area;
     }
     rows.push_back({fmt::format("{} of {} mm", kind.size(), diameters_of(kind)),
-                    readable(all.dose_rate / static_cast<double>(kind.size()), 3),
-                    readable(least->dose_rate, 3), readable(most->dose_rate, 3),
-                    readable(all.dose_rate / all.area / 1e4, 3)});
+        readable(all.dose_rate / static_cast<double>(kind.size()), 3),
+        readable(least->dose_rate, 3), readable(most->dose_rate, 3),
+        readable(all.dose_rate / all.area / 1e4, 3)});
   }
   add_table(section, "dose-of-balls", "Dose of a ball",
-            {"balls", "mean [W]", "least [W]", "most [W]", "mean per area [W/cm\u00b2]"}, rows);
+      {"balls", "mean [W]", "least [W]", "most [W]", "mean per area [W/cm\u00b2]"}, rows);
 }
 
 /// Draws the dose rate of each ball, for up to 400 balls.
 void draw_balls(pugi::xml_node section, const std::vector<Ball>& balls) {
   constexpr std::size_t most = 400;
   if (balls.size() < 2 || balls.size() > most) return;
-  plot::Chart chart{"dose-by-ball",
-                    "Dose rate of each ball",
-                    "A bar for each ball: its half of the dose rate of its impacts.",
-                    {"number of the ball", 0, static_cast<double>(balls.size())},
-                    {"dose rate [W]"}};
+  plot::Chart chart{"dose-by-ball", "Dose rate of each ball",
+      "A bar for each ball: its half of the dose rate of its impacts.",
+      {"number of the ball", 0, static_cast<double>(balls.size())}, {"dose rate [W]"}};
   std::vector<double> rates;
   for (const auto& ball : balls) rates.push_back(ball.dose_rate);
   chart.curves.push_back(bars("", "c0", 0, 1, rates));
@@ -202,15 +209,15 @@ void add_balls(pugi::xml_node section, const RunFolder& run) {
   const auto table = run.table("bodies", "a table of bodies", 1);
   if (!table || !(table->duration > 0))
     return add_missing(section, table ? "time in the dose of each ball" : "dose of each ball",
-                       "type = \"bodies\"");
+        "type = \"bodies\"");
   const auto rate = table->column("dose_rate"), area = table->column("area");
   std::vector<Ball> balls;
   for (const auto& row : table->rows_of("ball")) balls.push_back({row[rate], row[area]});
   add_sizes(section, balls);
   draw_balls(section, balls);
   add_note(section,
-           "Either body of an impact gets half of its dose here; the table by partner has all of the "
-           "dose of the impacts with a wall.");
+      "Either body of an impact gets half of its dose here; the table by partner has all of the "
+      "dose of the impacts with a wall.");
 }
 
 }  // namespace

@@ -33,7 +33,8 @@ auto of_both(const auto& work) {
 
 /// Name of the `mpfr` scalar with this many digits.
 std::string chosen(double digits) {
-  return fmt::format("mpfr:{}", static_cast<unsigned>(std::clamp(digits, 60.0, double{most_digits})));
+  return fmt::format(
+      "mpfr:{}", static_cast<unsigned>(std::clamp(digits, 60.0, double{most_digits})));
 }
 
 using run::Event, run::Number;
@@ -47,8 +48,8 @@ double seconds_since(Clock::time_point begin) {
 unsigned wider_than(unsigned digits) { return digits + std::max(20u, digits / 20); }
 
 /// Estimates the number of events to the end of the case by a run in double; tells those so far.
-double count_events(const casefile::CaseSpec& spec, const std::atomic<bool>* interrupt,
-                    const auto& progress) {
+double count_events(
+    const casefile::CaseSpec& spec, const std::atomic<bool>* interrupt, const auto& progress) {
   constexpr double longest = 5;  // [s] of processor time
   const auto source = run::make_source("double", spec, true, interrupt);
   const double begin = run::cpu_seconds(), first = source->reached();
@@ -68,20 +69,21 @@ std::string digits_text(double digits) {
   return digits >= Agreement::most ? "all" : fmt::format("{:.1f}", digits);
 }
 
-void write_reference(std::ostream& out, const casefile::CaseSpec& spec, const CertifyOptions& options,
-                     const Certification& found) {
+void write_reference(std::ostream& out, const casefile::CaseSpec& spec,
+    const CertifyOptions& options, const Certification& found) {
   out << fmt::format(
       "# edmill certified events 1\n# case {}, digest {}\n# edmill {} ({}), {}\n# {} events, each "
       "value correct to {} digits of the quantity's largest size\n",
-      one_line(std::filesystem::path(spec.file).filename().string()), spec.digest, version(), commit(),
-      compiler(), found.events.size(), options.digits);
+      one_line(std::filesystem::path(spec.file).filename().string()), spec.digest, version(),
+      commit(), compiler(), found.events.size(), options.digits);
   for (const auto& pair : found.evidence) out << "# " << pair.text() << '\n';
   out << output::collision_log_header(false) << '\n';
   for (std::size_t k = 0; k < found.events.size(); ++k) {
     const Event& e = found.events[k];
     // Two digits more than are certified, so that the rounding of the text does not count.
     const auto text = [&](std::size_t q) { return e[q].str(options.digits + 3, true); };
-    out << k << ',' << text(model::time) << ',' << e.ball << (e.with_wall ? ",wall," : ",ball,") << e.partner;
+    out << k << ',' << text(model::time) << ',' << e.ball << (e.with_wall ? ",wall," : ",ball,")
+        << e.partner;
     for (std::size_t q = model::approach_speed; q < model::logged_count; ++q) out << ',' << text(q);
     out << '\n';
   }
@@ -89,22 +91,22 @@ void write_reference(std::ostream& out, const casefile::CaseSpec& spec, const Ce
 
 std::string describe(const Event& e) {
   return fmt::format("ball {} and {} {} at {} s", e.ball, e.with_wall ? "wall" : "ball", e.partner,
-                     e.time.str(17));
+      e.time.str(17));
 }
 
 /// Raises the precision until the sequence of events is certain, and collects the evidence.
 class Certifier {
  public:
   Certifier(const casefile::CaseSpec& spec, const CertifyOptions& options)
-      : spec_(spec),
-        options_(options),
-        expected_(options.collisions > 0 ? static_cast<double>(options.collisions)
-                                         : count_events(spec, options.interrupt, [&](double events) {
-                                             options.progress("double", static_cast<std::size_t>(events));
-                                           })) {}
+      : spec_(spec), options_(options),
+        expected_(options.collisions > 0
+                ? static_cast<double>(options.collisions)
+                : count_events(spec, options.interrupt, [&](double events) {
+                    options.progress("double", static_cast<std::size_t>(events));
+                  })) {}
 
-  /// Compares pairs of fixed scalars, then of `mpfr` with the number of digits that the last pair suggests,
-  /// and with more digits if these do not suffice.
+  /// Compares pairs of fixed scalars, then of `mpfr` with the number of digits that the last pair
+  /// suggests, and with more digits if these do not suffice.
   void run() {
     const auto& fixed = casefile::precisions();
     for (std::size_t k = 1; k < fixed.size(); ++k)
@@ -121,7 +123,6 @@ class Certifier {
   }
 
   Certification result;
-
  private:
   unsigned digits_needed() const {
     const auto& last = result.evidence.back();
@@ -156,10 +157,10 @@ class Certifier {
     const bool all = !runs.diverged() && !runs.uneven();
     if (all) expected_ = static_cast<double>(events.size());
     if (all && events.size() < options_.collisions)
-      throw InputError(fmt::format("{}: the case ends after {} collisions, {} are requested", spec_.file,
-                                   events.size(), options_.collisions));
-    const auto by_rule =
-        std::find_if(events.begin(), events.end(), [](const Event& event) { return event.by_rule; });
+      throw InputError(fmt::format("{}: the case ends after {} collisions, {} are requested",
+          spec_.file, events.size(), options_.collisions));
+    const auto by_rule = std::find_if(
+        events.begin(), events.end(), [](const Event& event) { return event.by_rule; });
     if (by_rule != events.end()) {
       result.undecided = fmt::format(
           "event {}, {}, has another contact of its ball at the same time in every scalar: a rule "
@@ -210,13 +211,12 @@ std::optional<double> Agreement::digits_lost_per_event() const {
   return growth_.points() < 10 ? std::nullopt : std::optional(growth_.slope());
 }
 
-SideBySide::SideBySide(const casefile::CaseSpec& spec, const std::string& narrow, const std::string& wide,
-                       bool to_end, const std::atomic<bool>* interrupt)
-    : interrupt_(interrupt),
-      digits_{chosen_digits_of(narrow), chosen_digits_of(wide)},
-      sources_(
-          of_both([&](int k) { return run::make_source(k == 0 ? narrow : wide, spec, to_end, interrupt); })) {
-}
+SideBySide::SideBySide(const casefile::CaseSpec& spec, const std::string& narrow,
+    const std::string& wide, bool to_end, const std::atomic<bool>* interrupt)
+    : interrupt_(interrupt), digits_{chosen_digits_of(narrow), chosen_digits_of(wide)},
+      sources_(of_both([&](int k) {
+        return run::make_source(k == 0 ? narrow : wide, spec, to_end, interrupt);
+      })) {}
 
 std::vector<run::Event> SideBySide::next(std::size_t count) {
   if (diverged_ || uneven_) return {};
@@ -228,7 +228,8 @@ std::vector<run::Event> SideBySide::next(std::size_t count) {
   if (same < both)
     diverged_ = {one[same], two[same]};
   else  // a wider scalar follows a collapse for some events more
-    uneven_ = one.size() != two.size() && !sources_[0]->has_collapsed() && !sources_[1]->has_collapsed();
+    uneven_ =
+        one.size() != two.size() && !sources_[0]->has_collapsed() && !sources_[1]->has_collapsed();
   two.resize(same);
   drop_lost_digits();
   return std::move(two);
@@ -272,28 +273,28 @@ Certification certify(const casefile::CaseSpec& spec, const CertifyOptions& opti
   return {.interrupted = true};
 }
 
-void require_wider(const std::string& precision, const std::string& wider, const std::string& what) {
+void require_wider(
+    const std::string& precision, const std::string& wider, const std::string& what) {
   if (casefile::digits_of(wider) <= casefile::digits_of(precision))
     throw InputError(
         fmt::format("{}: found \"{}\", expected a scalar wider than {}", what, wider, precision));
 }
 
-Shadow shadow(const casefile::CaseSpec& spec, const std::string& precision, const std::string& wider,
-              const std::atomic<bool>* interrupt) {
+Shadow shadow(const casefile::CaseSpec& spec, const std::string& precision,
+    const std::string& wider, const std::atomic<bool>* interrupt) {
   SideBySide runs(spec, precision, wider, true, interrupt);
   while (!runs.next(64).empty()) {
   }
-  return {{precision, wider, runs.agreement()},
-          runs.diverged(),
-          runs.uneven(),
-          interrupt && *interrupt,
-          spec.ball_count()};
+  return {{precision, wider, runs.agreement()}, runs.diverged(), runs.uneven(),
+      interrupt && *interrupt, spec.ball_count()};
 }
 
 std::string Evidence::text() const {
-  std::string line = fmt::format("{} and {}: {} events in common; digits:", narrow, wide, agreement.events());
+  std::string line =
+      fmt::format("{} and {}: {} events in common; digits:", narrow, wide, agreement.events());
   for (std::size_t k = 0; k < model::logged_count; ++k)
-    line += fmt::format(" {} {}", model::logged_quantities[k].name, digits_text(agreement.digits(k)));
+    line +=
+        fmt::format(" {} {}", model::logged_quantities[k].name, digits_text(agreement.digits(k)));
   return line;
 }
 
@@ -301,18 +302,18 @@ std::string Shadow::text() const {
   std::string out =
       fmt::format("Shadow run: {} and {}, {} events in common\n", wide, narrow, agreement.events());
   if (diverged)
-    out += fmt::format("  they diverge at event {}: {} has {},\n  {} has {}\n", agreement.events(), narrow,
-                       describe(diverged->first), wide, describe(diverged->second));
+    out += fmt::format("  they diverge at event {}: {} has {},\n  {} has {}\n", agreement.events(),
+        narrow, describe(diverged->first), wide, describe(diverged->second));
   else
-    out += fmt::format(
-        "  {}\n", uneven ? "one has one event more before the end" : "they do not diverge before the end");
+    out += fmt::format("  {}\n",
+        uneven ? "one has one event more before the end" : "they do not diverge before the end");
   for (std::size_t k = 0; k < model::logged_count; ++k)
     out += fmt::format("  {:<16} agrees to {} digits\n", model::logged_quantities[k].name,
-                       digits_text(agreement.digits(k)));
+        digits_text(agreement.digits(k)));
   if (const auto lost = agreement.digits_lost_per_event()) {
     const double each = static_cast<double>(agreement.bodies()) / static_cast<double>(balls);
     out += fmt::format("  digits lost: {:.4f} per event, {:.2f} per collision of a ball\n", *lost,
-                       *lost * static_cast<double>(agreement.events()) / each);
+        *lost * static_cast<double>(agreement.events()) / each);
   }
   return out;
 }
@@ -328,7 +329,7 @@ std::string by_rule(const run::Event& event) {
 
 /// Measures the decimal digits lost per event in two runs, until all or `enough` are lost.
 void find_lost_digits(RunEstimate& e, double enough, const casefile::CaseSpec& spec,
-                      const DigitsOptions& options) try {
+    const DigitsOptions& options) try {
   constexpr unsigned digits = 200;
   constexpr std::size_t most = 30000;
   SideBySide runs(spec, chosen(digits), chosen(wider_than(digits)), true, options.interrupt);
@@ -353,15 +354,16 @@ void find_lost_digits(RunEstimate& e, double enough, const casefile::CaseSpec& s
   if (!(events > 0)) return;
   e.lost_per_event = lost() / events;
   if (e.precision == "double") return;
-  // A few balls may rest longer, and hop more often, in the true motion than in double: extrapolates with the
-  // event rate in the later half of the time so far.
+  // A few balls may rest longer, and hop more often, in the true motion than in double:
+  // extrapolates with the event rate in the later half of the time so far.
   const double first = times.front(), reached = times.back(), half = (first + reached) / 2;
   if (all) {
     e.events = events;
   } else if (spec.end_time && reached > first) {
     const double end = spec.end_time->to<double>();
     const auto later = times.end() - std::upper_bound(times.begin(), times.end(), half);
-    const double rate = std::max(static_cast<double>(later) / (reached - half), e.events / (end - first));
+    const double rate =
+        std::max(static_cast<double>(later) / (reached - half), e.events / (end - first));
     e.events = events + rate * std::max(0.0, end - reached);
   }
 } catch (const UndecidedError& error) {
@@ -369,28 +371,28 @@ void find_lost_digits(RunEstimate& e, double enough, const casefile::CaseSpec& s
 }
 
 /// Estimates the number of events, and the number of digits that a run needs for them.
-RunEstimate estimate_digits(const casefile::CaseSpec& spec, const std::string& precision,
-                            const DigitsOptions& options) {
+RunEstimate estimate_digits(
+    const casefile::CaseSpec& spec, const std::string& precision, const DigitsOptions& options) {
   RunEstimate e;
   const std::clock_t begin = std::clock();
   e.precision = precision;
-  e.events = count_events(spec, options.interrupt, [&](double events) {
-    options.progress("double", static_cast<std::size_t>(events), events);
-  });
+  e.events = count_events(spec, options.interrupt,
+      [&](double events) { options.progress("double", static_cast<std::size_t>(events), events); });
   find_lost_digits(e, precision.empty() ? 200 : 40, spec, options);
   if (precision.empty()) {
     e.digits = *spec.digits;
     // A twentieth more, since events differ, and the first bits are lost at once.
     e.precision = chosen(static_cast<double>(e.digits) + 1.05 * e.lost_per_event * e.events + 15);
   }
-  e.right_events = e.lost_per_event > 0 ? casefile::digits_of(e.precision) / e.lost_per_event : 1e300;
+  e.right_events =
+      e.lost_per_event > 0 ? casefile::digits_of(e.precision) / e.lost_per_event : 1e300;
   e.trials = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   return e;
 }
 
 /// Processor time of an event [s], when the balls have begun to collide.
-double time_per_event(const std::string& precision, const casefile::CaseSpec& spec,
-                      const DigitsOptions& options) {
+double time_per_event(
+    const std::string& precision, const casefile::CaseSpec& spec, const DigitsOptions& options) {
   constexpr double longest = 2;  // [s] of processor time
   const auto source = run::make_source(precision, spec, true, options.interrupt);
   source->pass(64);
@@ -409,12 +411,12 @@ double time_per_event(const std::string& precision, const casefile::CaseSpec& sp
 }
 
 /// Processor time of a run that drops lost digits over one that keeps all, by Simpson's rule.
-double share_of_verifying(const RunEstimate& e, const casefile::CaseSpec& spec,
-                          const DigitsOptions& options) {
+double share_of_verifying(
+    const RunEstimate& e, const casefile::CaseSpec& spec, const DigitsOptions& options) {
   const double first = casefile::digits_of(e.precision), last = first - e.lost_per_event * e.events;
   const auto time_with = [&](double n) { return time_per_event(chosen(n), spec, options); };
   return (e.seconds_per_event + 4 * time_with((first + last) / 2) + time_with(last)) /
-         (6 * e.seconds_per_event);
+      (6 * e.seconds_per_event);
 }
 
 std::uint64_t most_memory() {
@@ -432,15 +434,16 @@ std::string duration(double seconds) {
 }  // namespace
 
 RunEstimate estimate_run(const casefile::CaseSpec& spec, const std::string& precision,
-                         const DigitsOptions& options) try {
+    const DigitsOptions& options) try {
   const Interruption scope(options.interrupt);
   RunEstimate e = estimate_digits(spec, precision, options);
   // A run with a required number of digits uses the wider of the two scalars that agree.
   const auto made_in = precision.empty()
-                           ? chosen(wider_than(static_cast<unsigned>(casefile::digits_of(e.precision))))
-                           : precision;
+      ? chosen(wider_than(static_cast<unsigned>(casefile::digits_of(e.precision))))
+      : precision;
   e.seconds_per_event = time_per_event(made_in, spec, options);
-  if (precision.empty() && e.seconds_per_event > 0) e.verifying = 2 * share_of_verifying(e, spec, options);
+  if (precision.empty() && e.seconds_per_event > 0)
+    e.verifying = 2 * share_of_verifying(e, spec, options);
   e.bytes = most_memory();
   e.outputs = !spec.outputs.empty();
   return e;
@@ -455,15 +458,19 @@ std::string RunEstimate::text() const {
   };
   row("events", fmt::format("about {:.0f}", events));
   row("digits lost", fmt::format("{:.4f} per event", lost_per_event));
-  row("precision", precision + (digits > 0 ? fmt::format(", for {} right digits at the end", digits)
-                                : right_events > events
-                                    ? ", which lasts to the end"
-                                    : fmt::format(", used up after about {:.0f} events", right_events)));
-  const auto* of_run = outputs ? " for the run without its outputs" : verifying > 0 ? " for the run" : "";
+  row("precision",
+      precision +
+          (digits > 0 ? fmt::format(", for {} right digits at the end", digits)
+                  : right_events > events
+                  ? ", which lasts to the end"
+                  : fmt::format(", used up after about {:.0f} events", right_events)));
+  const auto* of_run = outputs ? " for the run without its outputs"
+      : verifying > 0          ? " for the run"
+                               : "";
   row("processor time",
       duration(cpu_seconds()) + of_run +
           (verifying > 0 ? fmt::format(", and {} before it to find the digits and verify them",
-                                       duration(trials + verifying * cpu_seconds()))
+                               duration(trials + verifying * cpu_seconds()))
                          : ""));
   row("memory", fmt::format("{:.0f} MB", static_cast<double>(bytes) / 1e6));
   if (!undecided.empty()) row("undecided", undecided);
@@ -475,8 +482,9 @@ std::uint64_t FoundDigits::right() const {
 }
 
 std::string FoundDigits::text() const {
-  return fmt::format("{} and {}: all {} events and the states at their end agree to {} digits ({:.1f} s)\n",
-                     narrow, precision, agreement.events(), right(), seconds);
+  return fmt::format(
+      "{} and {}: all {} events and the states at their end agree to {} digits ({:.1f} s)\n",
+      narrow, precision, agreement.events(), right(), seconds);
 }
 
 FoundDigits find_digits(const casefile::CaseSpec& spec, const DigitsOptions& options) try {
@@ -506,18 +514,20 @@ FoundDigits find_digits(const casefile::CaseSpec& spec, const DigitsOptions& opt
     if (!found.undecided.empty()) break;
     if (all && found.left() >= asked) return found;
     const double events = std::max(1.0, static_cast<double>(found.agreement.events()));
-    const double lost = all ? digits - found.left() : digits * std::max(1.0, estimate.events / events);
+    const double lost =
+        all ? digits - found.left() : digits * std::max(1.0, estimate.events / events);
     digits = std::max(1.2 * digits, asked + 1.05 * lost + 15);
   }
-  if (found.undecided.empty()) found.undecided = fmt::format("{} digits do not suffice", most_digits);
+  if (found.undecided.empty())
+    found.undecided = fmt::format("{} digits do not suffice", most_digits);
   found.precision.clear();
   return found;
 } catch (const InterruptedError&) {
   return {.interrupted = true};
 }
 
-std::size_t right_events(const std::string& precision, const casefile::CaseSpec& spec,
-                         const prove::Proof& proof) {
+std::size_t right_events(
+    const std::string& precision, const casefile::CaseSpec& spec, const prove::Proof& proof) {
   const auto source = run::make_source(precision, spec, false);
   std::size_t right = 0;
   while (right < proof.events.size()) {
@@ -525,7 +535,8 @@ std::size_t right_events(const std::string& precision, const casefile::CaseSpec&
     if (more.empty()) return right;
     for (const auto& event : more) {
       const auto& proven = proof.events[right];
-      if (event.ball != proven.ball || event.with_wall != proven.with_wall || event.partner != proven.partner)
+      if (event.ball != proven.ball || event.with_wall != proven.with_wall ||
+          event.partner != proven.partner)
         return right;
       ++right;
     }
@@ -542,7 +553,8 @@ prove::Proof prove(const casefile::CaseSpec& spec, const ProveOptions& options) 
   return proof;
 }
 
-std::vector<std::string> check_certificate(const casefile::CaseSpec& spec, const std::string& certificate) {
+std::vector<std::string> check_certificate(
+    const casefile::CaseSpec& spec, const std::string& certificate) {
   io::InputFile file(certificate, "a certificate");
   return prove::other_case(file, certificate, prove::exact_case(spec));
 }

@@ -1,5 +1,5 @@
-// Certainty of results: where runs in two scalars diverge and how far they agree, how many digits a run needs
-// to end with a given number of correct ones, and events proven in ball arithmetic.
+// Certainty of results: where runs in two scalars diverge and how far they agree, how many digits a
+// run needs to end with a given number of correct ones, and events proven in ball arithmetic.
 #pragma once
 
 #include <algorithm>
@@ -25,9 +25,9 @@ struct Largest {
   run::Number difference{}, size{};
 
   void take(const run::Number& one, const run::Number& two);
-  /// Digits to which the runs agree: -log10 of the difference over the magnitude, so that values near zero do
-  /// not count as disagreement; absolute in SI units if both are zero up to rounding. Agreement::most when
-  /// there is no difference.
+  /// Digits to which the runs agree: -log10 of the difference over the magnitude, so that values
+  /// near zero do not count as disagreement; absolute in SI units if both are zero up to rounding.
+  /// Agreement::most when there is no difference.
   double digits() const;
 };
 
@@ -47,7 +47,6 @@ class Agreement {
 
   /// By least squares over the times of the events; none when fewer than ten have a difference.
   std::optional<double> digits_lost_per_event() const;
-
  private:
   std::size_t events_ = 0, bodies_ = 0;
   std::array<Largest, model::logged_count> largest_{};
@@ -60,11 +59,11 @@ class SideBySide {
  public:
   /// @pre `wide` is wider than `narrow`
   /// @throws InterruptedError when `interrupt` becomes true at the start; later it ends both
-  SideBySide(const casefile::CaseSpec& spec, const std::string& narrow, const std::string& wide, bool to_end,
-             const std::atomic<bool>* interrupt = nullptr);
+  SideBySide(const casefile::CaseSpec& spec, const std::string& narrow, const std::string& wide,
+      bool to_end, const std::atomic<bool>* interrupt = nullptr);
 
-  /// Takes up to `count` further events of both. @return those of the wider run that have the same bodies in
-  /// both; none when there are no more, or after an interrupt
+  /// Takes up to `count` further events of both. @return those of the wider run that have the same
+  /// bodies in both; none when there are no more, or after an interrupt
   std::vector<run::Event> next(std::size_t count);
 
   const Agreement& agreement() const { return agreement_; }
@@ -76,7 +75,6 @@ class SideBySide {
   unsigned dropped_digits() const { return dropped_; }
   /// Digits to which positions, velocities and spins agree now, relative to the largest of a kind.
   double digits_of_states() const;
-
  private:
   void drop_lost_digits();
 
@@ -104,7 +102,8 @@ struct CertifyOptions {
   std::size_t collisions = 0;  ///< all up to the case's end time when 0
   int digits = 25;
   const std::atomic<bool>* interrupt = nullptr;
-  std::function<void(const std::string& precision, std::size_t events)> progress = [](const auto&, auto) {};
+  std::function<void(const std::string& precision, std::size_t events)> progress = [](const auto&,
+                                                                                       auto) {};
   std::function<void(const Evidence&)> found = [](const auto&) {};  ///< of a pair of scalars
 };
 
@@ -115,15 +114,15 @@ struct Certification {
   bool interrupted = false;
 };
 
-/// Raises the precision, at last by those digits that were lost so far, until two scalars agree on the
-/// first events in the digits required, and writes them with the evidence.
+/// Raises the precision, at last by those digits that were lost so far, until two scalars agree on
+/// the first events in the digits required, and writes them with the evidence.
 /// @throws InputError for a case that ends before the required number of events, or has no end
 Certification certify(const casefile::CaseSpec& spec, const CertifyOptions& options);
 
 /// Two runs of a case side by side.
 struct Shadow : Evidence {
   std::optional<std::pair<run::Event, run::Event>> diverged{};  ///< the first events that differ
-  bool uneven = false;                                          ///< one has an event more before the end
+  bool uneven = false;  ///< one has an event more before the end
   bool interrupted = false;
   std::size_t balls = 0;
 
@@ -135,8 +134,8 @@ struct Shadow : Evidence {
 void require_wider(const std::string& precision, const std::string& wider, const std::string& what);
 
 /// Runs the case in both scalars to its end. @pre `wider` is wider than `precision`
-Shadow shadow(const casefile::CaseSpec& spec, const std::string& precision, const std::string& wider,
-              const std::atomic<bool>* interrupt);
+Shadow shadow(const casefile::CaseSpec& spec, const std::string& precision,
+    const std::string& wider, const std::atomic<bool>* interrupt);
 
 struct DigitsOptions {
   const std::atomic<bool>* interrupt = nullptr;
@@ -147,10 +146,10 @@ struct DigitsOptions {
 
 /// Cost of a run, estimated by short trials.
 struct RunEstimate {
-  std::string precision{};       ///< of the run
-  double events = 0;             ///< to its end
-  double lost_per_event = 0;     ///< decimal digits
-  double right_events = 0;       ///< after which no digit is left; more than `events` if they suffice
+  std::string precision{};    ///< of the run
+  double events = 0;          ///< to its end
+  double lost_per_event = 0;  ///< decimal digits
+  double right_events = 0;    ///< after which no digit is left; more than `events` if they suffice
   double seconds_per_event = 0;  ///< of processor time
   double verifying = 0;          ///< cost of the runs that verify the digits, relative to the run
   double trials = 0;             ///< processor time that the trials took [s]
@@ -166,8 +165,8 @@ struct RunEstimate {
 
 /// Estimates by short trials the events of a case, the digits lost per event, and the cost.
 /// @param precision  of the run; empty to find the one that `spec.digits` requires
-RunEstimate estimate_run(const casefile::CaseSpec& spec, const std::string& precision,
-                         const DigitsOptions& options);
+RunEstimate estimate_run(
+    const casefile::CaseSpec& spec, const std::string& precision, const DigitsOptions& options);
 
 /// A precision in which a case has a given number of correct digits to its end.
 struct FoundDigits {
@@ -186,8 +185,8 @@ struct FoundDigits {
   std::string text() const;
 };
 
-/// Estimates the digits needed, and runs the case to its end with that number and a larger one; with more,
-/// until both agree on all events to `spec.digits` digits. @pre spec.digits
+/// Estimates the digits needed, and runs the case to its end with that number and a larger one;
+/// with more, until both agree on all events to `spec.digits` digits. @pre spec.digits
 FoundDigits find_digits(const casefile::CaseSpec& spec, const DigitsOptions& options);
 
 struct ProveOptions : prove::ProofOptions {
@@ -198,10 +197,11 @@ struct ProveOptions : prove::ProofOptions {
 prove::Proof prove(const casefile::CaseSpec& spec, const ProveOptions& options);
 
 /// Number of leading events of a proof that a run in this scalar reproduces.
-std::size_t right_events(const std::string& precision, const casefile::CaseSpec& spec,
-                         const prove::Proof& proof);
+std::size_t right_events(
+    const std::string& precision, const casefile::CaseSpec& spec, const prove::Proof& proof);
 
 /// Differences between a certificate's header and the case, a line each. @throws InputError
-std::vector<std::string> check_certificate(const casefile::CaseSpec& spec, const std::string& certificate);
+std::vector<std::string> check_certificate(
+    const casefile::CaseSpec& spec, const std::string& certificate);
 
 }  // namespace edmill::app

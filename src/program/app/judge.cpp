@@ -31,8 +31,9 @@ std::string describe_law(const model::ContactLaw<double>& law) {
   law.parameters([&](const model::Parameter& p, double value) {
     text += fmt::format("{}{} {}", std::exchange(separator, ", "), p.key, value);
   });
-  return text + (law.least_separation > 0 ? fmt::format(", least separation {:g} m/s", law.least_separation)
-                                          : ", no least separation");
+  return text +
+      (law.least_separation > 0 ? fmt::format(", least separation {:g} m/s", law.least_separation)
+                                : ", no least separation");
 }
 
 /// "Y", "-X", "(0.966, 0.259, 0)"
@@ -64,8 +65,8 @@ void check_version(const std::string& file) {
   const std::string mark = "# collision log ";
   while (std::getline(in, line) && (line.empty() || line[0] == '#'))
     if (line.starts_with(mark) && trimmed(line.substr(mark.size())) != std::to_string(version))
-      throw InputError(fmt::format("{}: the log has version {}, this program reads version {}", file,
-                                   clean_text(line.substr(mark.size())), version));
+      throw InputError(fmt::format("{}: the log has version {}, this program reads version {}",
+          file, clean_text(line.substr(mark.size())), version));
 }
 
 void take_columns(LogDescription& log, const std::string& file) {
@@ -105,7 +106,8 @@ void read_impacts(LogDescription& log, const std::string& file) {
         continue;
       }
       if (event->earlier_by > 0)
-        add(event->line, fmt::format("the time is {:g} s before that of an earlier line", event->earlier_by));
+        add(event->line,
+            fmt::format("the time is {:g} s before that of an earlier line", event->earlier_by));
       take_row(log, event->time, event->ball, event->with_wall, event->partner);
     }
   } catch (const InputError& error) {  // a line that cannot be read
@@ -119,7 +121,7 @@ void read_contacts(LogDescription& log, const std::string& file) {
   dem::ContactLogReader in(file);
   while (const auto contact = in.next())
     take_row(log, contact->begin, contact->ball, contact->bodies == 1 && contact->partner >= 0,
-             contact->partner);
+        contact->partner);
 }
 
 /// The case's section [audit], overridden by the command line's options.
@@ -129,15 +131,18 @@ audit::Options merged(const casefile::CaseSpec& spec, const AuditOptions& given)
   for (const auto& text : given.columns) {
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
-      throw InputError(fmt::format("--column {}: {} is missing, expected ours=theirs, e.g. \"time=t [ms]\"",
-                                   text, equals == 0 ? "the name" : "'='"));
+      throw InputError(
+          fmt::format("--column {}: {} is missing, expected ours=theirs, e.g. \"time=t [ms]\"",
+              text, equals == 0 ? "the name" : "'='"));
     const std::string ours = text.substr(0, equals);
-    std::erase_if(options.conventions.columns, [&](const auto& column) { return column.first == ours; });
+    std::erase_if(
+        options.conventions.columns, [&](const auto& column) { return column.first == ours; });
     options.conventions.columns.emplace_back(ours, text.substr(equals + 1));
   }
   if (given.first_ball) options.conventions.first_ball = *given.first_ball;
   if (!given.walls.empty())
-    options.conventions.walls = logs::parse_walls(given.walls, casefile::partners_of(spec), "--walls");
+    options.conventions.walls =
+        logs::parse_walls(given.walls, casefile::partners_of(spec), "--walls");
   if (given.tolerance) options.tolerance = *given.tolerance;
   if (given.gap_tolerance) options.gap_tolerance = given.gap_tolerance;
   options.from_start = options.from_start || given.from_start;
@@ -157,22 +162,25 @@ std::string to_junit(const audit::Audit& result) {
       const auto& [name, unit, meaning, own] = audit::info(kind);
       const auto& tally = result.findings.of(kind);
       if (own == check)
-        problem += fmt::format("{}{}: {} times, at worst {:.3g} {}; {}", problem.empty() ? "" : "\n", name,
-                               tally.count, tally.worst, unit, meaning);
+        problem += fmt::format("{}{}: {} times, at worst {:.3g} {}; {}",
+            problem.empty() ? "" : "\n", name, tally.count, tally.worst, unit, meaning);
     }
     cases.push_back({std::string(audit::info(check).name), problem});
   }
-  cases.push_back(
-      {"enough impacts", result.verdict == audit::Verdict::too_few ? "too few impacts to judge" : ""});
+  cases.push_back({"enough impacts",
+      result.verdict == audit::Verdict::too_few ? "too few impacts to judge" : ""});
   return compare::junit_text("edmill audit of " + result.log_name, cases);
 }
 
 void refuse(bool given, const char* options, const char* found, const char* expected) {
   if (given)
-    throw InputError(fmt::format("{}: found a log of {}, expected one of {}", options, found, expected));
+    throw InputError(
+        fmt::format("{}: found a log of {}, expected one of {}", options, found, expected));
 }
 
-Judged judged(const auto& found) { return {found.verdict, to_json(found), to_junit(found), table(found)}; }
+Judged judged(const auto& found) {
+  return {found.verdict, to_json(found), to_junit(found), table(found)};
+}
 
 }  // namespace
 
@@ -190,9 +198,9 @@ CheckedCase check(const casefile::CaseSpec& spec) {
 
     row("digest", spec.digest);
     row("precision, seed",
-        fmt::format(
-            "{}, {}",
-            spec.digits ? fmt::format("for {} right digits at the end", *spec.digits) : spec.precision,
+        fmt::format("{}, {}",
+            spec.digits ? fmt::format("for {} right digits at the end", *spec.digits)
+                        : spec.precision,
             spec.seed));
     row("statistics from", fmt::format("{} s", spec.statistics_start.to<double>()));
     if (spec.end_time) row("end_time", fmt::format("{} s", spec.end_time->to<double>()));
@@ -203,10 +211,12 @@ CheckedCase check(const casefile::CaseSpec& spec) {
 
     row("gravity", casefile::describe_gravity(spec));
     row("mill", casefile::describe(spec.mill));
-    const auto pose = m.motion.pose(DriveClock<double>(m.motion.period()).at(spec.initial_time.to<double>()));
+    const auto pose =
+        m.motion.pose(DriveClock<double>(m.motion.period()).at(spec.initial_time.to<double>()));
     row("vessel's x, y, z",
-        fmt::format("along {}, {}, {} of the laboratory at the start", direction(m.motion.axis_x(pose)),
-                    direction(m.motion.axis_y(pose)), direction(m.motion.axis_z(pose))));
+        fmt::format("along {}, {}, {} of the laboratory at the start",
+            direction(m.motion.axis_x(pose)), direction(m.motion.axis_y(pose)),
+            direction(m.motion.axis_z(pose))));
     if (const double peak = m.motion.wall_speed(0); peak > 0)
       row("peak wall speed", fmt::format("{:g} m/s at the vessel's centre", peak));
     row("vessel", casefile::describe(spec.vessel));
@@ -229,23 +239,26 @@ CheckedCase check(const casefile::CaseSpec& spec) {
     row("balls", fmt::format("{}, together {:g} kg", c.balls.size(), mass));
     const auto kind = [&](const casefile::BallSpec& b, int count) {
       const double d = b.diameter.to<double>(), density = b.density.to<double>();
-      row("", fmt::format("{} x {:g} m, {:g} kg/m^3: {:g} kg each", count, d, density,
-                          density * numerics::pi<double>() * d * d * d / 6));
+      row("",
+          fmt::format("{} x {:g} m, {:g} kg/m^3: {:g} kg each", count, d, density,
+              density * numerics::pi<double>() * d * d * d / 6));
     };
     for (const auto& b : spec.balls) kind(b, 1);
     for (const auto& b : spec.batches) kind(b, b.count);
-    row("packing fraction", fmt::format("{:.4g}{}", volume / casefile::free_volume(m, built.start),
-                                        !spec.pistons.empty() ? " of the vessel without its pistons"
-                                        : m.bodies.empty()    ? ""
-                                                              : " of the volume between the bodies"));
+    row("packing fraction",
+        fmt::format("{:.4g}{}", volume / casefile::free_volume(m, built.start),
+            !spec.pistons.empty()  ? " of the vessel without its pistons"
+                : m.bodies.empty() ? ""
+                                   : " of the volume between the bodies"));
     for (const auto& gap : casefile::narrow_gaps(spec, m))
       row("narrow gap",
           fmt::format("{} and {}: {:.3g} mm at {:.4g} s, less than a ball: balls that are squeezed "
                       "there end the run as stalled",
-                      gap.one, gap.other, 1000 * gap.width, gap.time));
+              gap.one, gap.other, 1000 * gap.width, gap.time));
     if (spec.powder_mass)
-      row("charge ratio", fmt::format("{:.4g} on {:g} kg of powder", mass / spec.powder_mass->to<double>(),
-                                      spec.powder_mass->to<double>()));
+      row("charge ratio",
+          fmt::format("{:.4g} on {:g} kg of powder", mass / spec.powder_mass->to<double>(),
+              spec.powder_mass->to<double>()));
     for (const auto& output : spec.outputs) row("output", output.type + " to " + output.file);
     return result;
   });
@@ -272,8 +285,8 @@ std::string LogDescription::text() const {
   row("balls, walls", fmt::format("{}, {}", balls, walls));
   std::string names, others;
   for (const auto& column : columns)
-    names +=
-        (names.empty() ? "" : ", ") + column.name + (column.unit.empty() ? "" : " [" + column.unit + "]");
+    names += (names.empty() ? "" : ", ") + column.name +
+        (column.unit.empty() ? "" : " [" + column.unit + "]");
   for (const auto& name : skipped) others += (others.empty() ? "" : ", ") + name;
   row("columns", names);
   if (!others.empty()) row("skipped", others);
@@ -284,13 +297,13 @@ std::string LogDescription::json() const {
   std::string list;
   for (const auto& column : columns)
     list += fmt::format("{}{{\"name\": {}, \"unit\": {}}}", list.empty() ? "" : ", ",
-                        io::JsonText::of(column.name), io::JsonText::of(column.unit));
+        io::JsonText::of(column.name), io::JsonText::of(column.unit));
   return fmt::format(
       "{{\n  \"format\": \"collision log\",\n  \"version\": {},\n  \"kind\": \"{}\",\n  \"units\": "
       "\"SI\",\n  \"frame\": \"inertial\",\n  \"columns\": [{}],\n  \"skipped\": {},\n  \"rows\": "
       "{},\n  \"first\": {},\n  \"last\": {},\n  \"balls\": {},\n  \"walls\": {}\n}}\n",
-      version, kind, list, io::JsonText::of(skipped), rows, io::JsonText::of(first), io::JsonText::of(last),
-      balls, walls);
+      version, kind, list, io::JsonText::of(skipped), rows, io::JsonText::of(first),
+      io::JsonText::of(last), balls, walls);
 }
 
 bool is_log(const std::string& file) try {
@@ -298,7 +311,8 @@ bool is_log(const std::string& file) try {
   std::string line;
   while (std::getline(in, line))
     if (const auto text = trimmed(line); !text.empty() && text[0] != '#')
-      return text[0] != '[' && text.find_first_of(",;\t") != text.npos && text.find('=') == text.npos;
+      return text[0] != '[' && text.find_first_of(",;\t") != text.npos &&
+          text.find('=') == text.npos;
   return false;
 } catch (const InputError&) {  // reading the case says why
   return false;
@@ -318,7 +332,7 @@ Judged compare(const compare::ComparisonOptions& options) {
   const auto a = options.a.string(), b = options.b.string();
   if (dem::is_contact_log(a) || dem::is_contact_log(b)) {
     refuse(options.tolerance || options.events || options.batch, "--tolerance, --events, --batch",
-           "contacts that last", "impacts");
+        "contacts that last", "impacts");
     return judged(dem::compare_contacts(options));
   }
   refuse(options.within.has_value(), "--within", "impacts", "contacts that last");
@@ -328,10 +342,10 @@ Judged compare(const compare::ComparisonOptions& options) {
 Judged audit(const casefile::CaseSpec& spec, const AuditOptions& given) {
   const io::Spool pipes;
   if (dem::is_contact_log(given.log)) {
-    refuse(
-        !given.columns.empty() || given.first_ball || !given.walls.empty() || given.tolerance ||
+    refuse(!given.columns.empty() || given.first_ball || !given.walls.empty() || given.tolerance ||
             given.gap_tolerance || given.from_start || given.identify || given.examples,
-        "--column, --first-ball, --walls, --tolerance, --gap-tolerance, --from-start, --identify, --examples",
+        "--column, --first-ball, --walls, --tolerance, --gap-tolerance, --from-start, --identify, "
+        "--examples",
         "contacts that last", "impacts");
     return judged(dem::audit_contacts(spec, given.log, given.interrupt));
   }
@@ -343,12 +357,12 @@ Judged audit(const casefile::CaseSpec& spec, const AuditOptions& given) {
   using identify::Search;
   std::uint64_t explained = 0;
   for (const auto& diagnosis : found.diagnoses) explained += diagnosis.events;
-  const bool is_open =
-      found.verdict == audit::Verdict::differ && !audit::accounts_for(explained, found.findings.total());
+  const bool is_open = found.verdict == audit::Verdict::differ &&
+      !audit::accounts_for(explained, found.findings.total());
   std::optional<identify::Identification> identified;
   if (!found.interrupted && (given.identify || is_open)) {
-    identified =
-        identify::identify(spec, options, given.identify ? Search::all : Search::single, given.searching);
+    identified = identify::identify(
+        spec, options, given.identify ? Search::all : Search::single, given.searching);
     table += identify::table(*identified);
   }
   const auto json = io::JsonFields::of([&](auto& v) {
@@ -363,13 +377,13 @@ std::string document_keys() {
     return fmt::format("### {}\n\n{}\n", command, keys);
   };
   return section("compare", compare::comparison_keys()) +
-         section("compare, of contacts that last", dem::contact_comparison_keys()) +
-         section("audit", io::KeyTable::of([](auto& v) {
-                   audit::Fields{{}}(v);
-                   identify::Fields{{}}(v);
-                 })) +
-         section("audit, of contacts that last", dem::contact_audit_keys()) +
-         section("limit", dem::limit_keys());
+      section("compare, of contacts that last", dem::contact_comparison_keys()) +
+      section("audit", io::KeyTable::of([](auto& v) {
+        audit::Fields{{}}(v);
+        identify::Fields{{}}(v);
+      })) +
+      section("audit, of contacts that last", dem::contact_audit_keys()) +
+      section("limit", dem::limit_keys());
 }
 
 }  // namespace edmill::app

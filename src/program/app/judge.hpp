@@ -1,5 +1,5 @@
-// Checks cases as a run would, with derived numbers in SI, and logs by docs/log-format.md; judges logs by
-// another log, or by the physics of a case, with a search for causes.
+// Checks cases as a run would, with derived numbers in SI, and logs by docs/log-format.md; judges
+// logs by another log, or by the physics of a case, with a search for causes.
 #pragma once
 
 #include <atomic>

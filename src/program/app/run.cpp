@@ -14,9 +14,12 @@ namespace edmill::app {
 namespace {
 
 /// Writes the text of `what_decides`, if it is required, to a file in the folder, and returns it.
-std::string checked(const casefile::CaseSpec& spec, const io::Facts& facts, const RunOptions& options) {
-  constexpr double few_impacts = 1e6;  // six runs of a second each; their times would differ from run to run
-  const bool quick = facts.text("precision") == "double" && facts.number("impacts_since_start") < few_impacts;
+std::string checked(
+    const casefile::CaseSpec& spec, const io::Facts& facts, const RunOptions& options) {
+  constexpr double few_impacts =
+      1e6;  // six runs of a second each; their times would differ from run to run
+  const bool quick =
+      facts.text("precision") == "double" && facts.number("impacts_since_start") < few_impacts;
   if (!options.what_decides || !(options.check || (options.report && quick))) return "";
   const auto text = options.what_decides(spec, facts);
   if (text.empty()) return text;
@@ -41,11 +44,8 @@ RunResult run(const std::string& precision, casefile::CaseSpec spec, const RunOp
     } catch (const UndecidedError&) {  // the summary says so, and covers the time up to then
     }
     const auto facts = run->facts();
-    RunResult result{io::end_reason_of(facts),
-                     facts.has("error") ? facts.text("error") : "",
-                     report::result_table(facts, casefile::partners_of(spec)),
-                     run->goes_on(),
-                     {}};
+    RunResult result{io::end_reason_of(facts), facts.has("error") ? facts.text("error") : "",
+        report::result_table(facts, casefile::partners_of(spec)), run->goes_on(), {}};
     run->commit([&] {
       result.table += checked(spec, facts, options);
       if (options.report) result.report = report::put_report(options.folder).string();
@@ -57,15 +57,17 @@ RunResult run(const std::string& precision, casefile::CaseSpec spec, const RunOp
   });
 }
 
-io::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::string& precision, bool report,
-                                const std::string& interval) {
+io::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::string& precision,
+    bool report, const std::string& interval) {
   io::Checkpoint c;
   c.case_file = spec.file;
   c.case_text = spec.text;
   c.case_digest = spec.digest;
   if (io::is_stream(spec.initial_state))
-    throw InputError("key 'run.initial_state': found a pipe, expected a file: a resumed run reads it again");
-  if (!spec.initial_state.empty()) c.initial_state = std::filesystem::absolute(spec.initial_state).string();
+    throw InputError(
+        "key 'run.initial_state': found a pipe, expected a file: a resumed run reads it again");
+  if (!spec.initial_state.empty())
+    c.initial_state = std::filesystem::absolute(spec.initial_state).string();
   c.overrides = spec.settings;
   c.precision = precision;
   c.right_digits = spec.right_digits;
@@ -95,7 +97,7 @@ RunResult resume(const std::string& interval, RunOptions options) {
   spec.right_digits = checkpoint.right_digits;
   if (spec.digest != checkpoint.case_digest)
     throw InputError(options.folder + ": the initial state in " + spec.initial_state +
-                     " has changed since the run began: restore that file");
+        " has changed since the run began: restore that file");
   const std::string precision = checkpoint.precision;
   options.report = checkpoint.report;
   options.checkpoint = std::move(checkpoint);

@@ -48,8 +48,8 @@ struct RunResult {
 RunResult run(const std::string& precision, casefile::CaseSpec spec, const RunOptions& options);
 
 /// What checkpoints have from the start. @throws InputError for a case that cannot be read again
-io::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::string& precision, bool report,
-                                const std::string& interval);
+io::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::string& precision,
+    bool report, const std::string& interval);
 
 /// Continues the run of `options.folder`. @param interval  empty to keep the previous one
 /// @throws InputError when the checkpoint is not valid for this program

@@ -32,10 +32,11 @@ namespace {
 study::RunRecord do_job(const study::Job& job, const std::atomic<bool>* interrupt) {
   const auto spec = casefile::read_case(job.case_file, job.overrides);
   if (spec.digits)
-    throw InputError(spec.file + ": key 'run.digits' is not available in a study: set run.precision");
+    throw InputError(
+        spec.file + ": key 'run.digits' is not available in a study: set run.precision");
   return casefile::with_memory_for(spec, [&] {
-    const auto run =
-        run::make_run(spec.precision, spec, {.interrupt = interrupt, .max_cpu_time = job.max_cpu_time});
+    const auto run = run::make_run(
+        spec.precision, spec, {.interrupt = interrupt, .max_cpu_time = job.max_cpu_time});
     try {
       run->finish();
     } catch (const UndecidedError&) {  // part of the record
@@ -54,7 +55,8 @@ std::string folder_of(const StudyOptions& options) {
 template <class Command>
 std::optional<StudyResult> on_all_ranks(const StudyOptions& options, const Command& command) {
   const auto* interrupt = options.interrupt;
-  const study::RunFunction run = [interrupt](const study::Job& job) { return do_job(job, interrupt); };
+  const study::RunFunction run = [interrupt](
+                                     const study::Job& job) { return do_job(job, interrupt); };
   study::Ranks ranks;
   if (ranks.rank() > 0) {
     study::serve(ranks, options.jobs, run, *options.interrupt);
@@ -66,16 +68,18 @@ std::optional<StudyResult> on_all_ranks(const StudyOptions& options, const Comma
 
 /// @return whether there were enough impacts
 bool add_phases(const casefile::CaseSpec& spec, const BifurcationOptions& options, double value,
-                Bifurcation& found) {
+    Bifurcation& found) {
   const double period = casefile::period_of(spec.mill).to<double>();
   const auto source = run::make_source("double", spec, false, options.interrupt);
-  constexpr std::size_t most = 10'000'000;  // a ball at rest may make slow hops only, which do not count
+  constexpr std::size_t most =
+      10'000'000;  // a ball at rest may make slow hops only, which do not count
   std::size_t all = 0;
   for (std::size_t seen = 0; seen < options.skip + options.keep;) {
     const auto events = source->next(64);
     if (events.empty() || (all += events.size()) > most) return false;
     for (const auto& event : events) {
-      if (!event.with_wall || event.ball != 0 || event.approach_speed < options.least_approach) continue;
+      if (!event.with_wall || event.ball != 0 || event.approach_speed < options.least_approach)
+        continue;
       if (seen >= options.skip + options.keep || seen++ < options.skip) continue;
       const double periods = static_cast<double>(event.time) / period;
       found.points.push_back({value, periods - std::floor(periods), event.partner});
@@ -86,11 +90,10 @@ bool add_phases(const casefile::CaseSpec& spec, const BifurcationOptions& option
 
 /// Draws points as lines of length zero with round ends.
 void write_drawing(std::ostream& out, const BifurcationOptions& options, const Bifurcation& found) {
-  plot::Chart chart{
-      "bifurcation",
-      "impact phases over " + options.over,
+  plot::Chart chart{"bifurcation", "impact phases over " + options.over,
       "phases of the drive at impacts of ball 0, for each value of " + options.over,
-      {options.over + (found.unit.empty() ? "" : " [" + found.unit + "]"), options.from, options.to},
+      {options.over + (found.unit.empty() ? "" : " [" + found.unit + "]"), options.from,
+          options.to},
       {"phase of the drive [periods]"}};
   std::map<int, plot::Points> walls;
   for (const auto& [value, phase, wall] : found.points)
@@ -108,7 +111,8 @@ constexpr const char *restitution = "restitution", *friction = "friction",
 /// The sections of contact laws in which a case gives a number.
 std::vector<std::string> sections_with(const casefile::CaseSpec& spec, const std::string& number) {
   std::vector<std::string> candidates{"contact", "contact.ball_ball", "contact.ball_wall"}, found;
-  for (std::size_t k = 0; k < spec.pairs.size(); ++k) candidates.push_back(fmt::format("contact.pair.{}", k));
+  for (std::size_t k = 0; k < spec.pairs.size(); ++k)
+    candidates.push_back(fmt::format("contact.pair.{}", k));
   for (const auto& section : candidates) try {
       casefile::value_of_key(spec, section + "." + number);
       found.push_back(section);
@@ -124,7 +128,8 @@ class Cases {
   std::vector<Variation> runs;
   std::vector<casefile::CaseSpec> specs;  ///< with the same indices
 
-  void add(const std::string& what, const std::string& number, const std::vector<std::string>& settings) try {
+  void add(const std::string& what, const std::string& number,
+      const std::vector<std::string>& settings) try {
     auto all = spec_.settings;
     all.insert(all.end(), settings.begin(), settings.end());
     auto varied = casefile::parse_case(spec_.text, spec_.file, all);
@@ -138,7 +143,8 @@ class Cases {
     std::vector<std::string> settings;
     for (const auto& section : sections_with(spec_, number)) {
       const auto key = section + "." + number;
-      const double value = casefile::parse_decimal(casefile::value_of_key(spec_, key).number)->to<double>(),
+      const double value = casefile::parse_decimal(casefile::value_of_key(spec_, key).number)
+                               ->to<double>(),
                    shifted = std::clamp(value + by, 0.0, most);
       if (shifted != value) settings.push_back(fmt::format("{}={:.6g}", key, shifted));
     }
@@ -147,15 +153,15 @@ class Cases {
   }
   void add_half_least_separation() {
     const double speed = std::max(spec_.ball_ball.least_separation.to<double>(),
-                                  spec_.ball_wall.least_separation.to<double>());
+        spec_.ball_wall.least_separation.to<double>());
     auto sections = sections_with(spec_, "least_separation");
     if (sections.empty()) sections = sections_with(spec_, restitution);
     std::vector<std::string> settings;
     for (const auto& section : sections)
       settings.push_back(fmt::format("{}.least_separation=\"{} m/s\"", section, speed / 2));
-    if (speed > 0 && !settings.empty()) add("half of the least separation speed", least_separation, settings);
+    if (speed > 0 && !settings.empty())
+      add("half of the least separation speed", least_separation, settings);
   }
-
  private:
   casefile::CaseSpec spec_;
 };
@@ -164,7 +170,9 @@ const study::Quantity& dose_rate() { return study::main_quantities().front(); }
 std::optional<double> rate_of(const Variation& v) {
   return v.record.done() ? dose_rate().of(v.record) : std::nullopt;
 }
-std::optional<double> half_width_of(const Variation& v) { return v.record.facts.find(dose_rate().interval); }
+std::optional<double> half_width_of(const Variation& v) {
+  return v.record.facts.find(dose_rate().interval);
+}
 
 }  // namespace
 
@@ -173,12 +181,14 @@ std::optional<StudyResult> sweep(const StudyOptions& options) {
     const auto spec = casefile::read_sweep(options.file);
     const auto folder = folder_of(options);
     study::Study study(spec, folder, "sweep", executor, !options.quiet, options.progress);
-    for (auto& point : study::points_of(spec)) study.add_runs(study.add_point(point), spec.replicas);
+    for (auto& point : study::points_of(spec))
+      study.add_runs(study.add_point(point), spec.replicas);
     study.require_a_good_case();
     if (options.estimate) return StudyResult{{}, false, "", "", study.forecast()};
     study.run();
     study.write_page(report::study_page(study, "Sweep", ""));
-    return StudyResult{study.counts(), study.interrupted(), folder, study::list_of(study.points()), ""};
+    return StudyResult{
+        study.counts(), study.interrupted(), folder, study::list_of(study.points()), ""};
   });
 }
 
@@ -222,21 +232,24 @@ std::optional<StudyResult> seeds(const SeedsOptions& options) {
 
 Bifurcation bifurcation(const casefile::CaseSpec& spec, const BifurcationOptions& options) {
   if (!(options.from < options.to))
-    throw InputError(fmt::format("--to: found {}, expected more than {}", options.to, options.from));
+    throw InputError(
+        fmt::format("--to: found {}, expected more than {}", options.to, options.from));
   Bifurcation found;
   found.unit = casefile::value_of_key(spec, options.over).unit;
   io::NamedFile drawing(options.file);
   const std::filesystem::path place(options.file);
   if (place.has_extension() && place.extension() != ".svg")
     throw InputError("--out: found \"" + options.file +
-                     "\", expected the name of a drawing, .svg: its points are written beside it as .csv");
+        "\", expected the name of a drawing, .svg: its points are written beside it as .csv");
   io::NamedFile table(place.has_extension() ? std::filesystem::path(place).replace_extension(".csv")
                                             : "");  // none beside a device
   for (std::size_t step = 0; step < options.steps; ++step) {
     const double last = static_cast<double>(std::max<std::size_t>(options.steps - 1, 1));
-    const double value = std::lerp(options.from, options.to, static_cast<double>(step) / last);  // exact ends
+    const double value =
+        std::lerp(options.from, options.to, static_cast<double>(step) / last);  // exact ends
     const auto text = fmt::format("{}{}{}", value, found.unit.empty() ? "" : " ", found.unit);
-    if (!add_phases(casefile::with_value(spec, options.over, text), options, value, found)) ++found.ended;
+    if (!add_phases(casefile::with_value(spec, options.over, text), options, value, found))
+      ++found.ended;
     found.interrupted = options.interrupt && *options.interrupt;
     if (found.interrupted) return found;
     options.progress(step + 1);
@@ -252,11 +265,9 @@ Bifurcation bifurcation(const casefile::CaseSpec& spec, const BifurcationOptions
 
 std::string limit_drawing(const dem::Limit& limit) {
   const double last = 1e6 * limit.points.front().contact_time, value = limit.at_zero.dose_rate;
-  plot::Chart chart{"limit",
-                    "dose rate over contact time",
-                    "dose rates of runs with contacts of several durations, and their limit",
-                    {"contact time [us]", 0, 1.08 * last},
-                    {"dose rate [W]", INFINITY, -INFINITY}};
+  plot::Chart chart{"limit", "dose rate over contact time",
+      "dose rates of runs with contacts of several durations, and their limit",
+      {"contact time [us]", 0, 1.08 * last}, {"dose rate [W]", INFINITY, -INFINITY}};
   chart.curves.push_back({"line", "c0", {{0, value}, {last, value + 1e-6 * limit.slope * last}}});
   const auto bar = [&](double x, const dem::ContactRates& r, const char* colour, const char* name) {
     const double low = r.dose_rate - r.half_width, high = r.dose_rate + r.half_width;
@@ -284,21 +295,24 @@ std::string Variations::text() const {
   for (const auto& v : runs) {
     const auto rate = rate_of(v);
     out += fmt::format("    {:<38}{:<26}{}\n", v.what,
-                       rate ? with_interval(*rate, half_width_of(v)) + " W" : "no result",
-                       v.differs ? "differs" : "");
+        rate ? with_interval(*rate, half_width_of(v)) + " W" : "no result",
+        v.differs ? "differs" : "");
     if (!rate) continue;
     if (!v.number.empty())
-      shown[v.number] = std::max(shown[v.number], v.differs ? deciding : v.known ? without_effect : unknown);
+      shown[v.number] = std::max(shown[v.number],
+          v.differs     ? deciding
+              : v.known ? without_effect
+                        : unknown);
     if (v.number.empty() || v.number == restitution || v.number == friction) {
       low = std::min(low, *rate);
       high = std::max(high, *rate);
     }
   }
   if (low <= high)
-    out += fmt::format("  if restitution and friction are uncertain by {:g}: {:#.3g} to {:#.3g} W\n",
-                       uncertainty, low, high);
-  constexpr std::pair<Shown, const char*> sentences[] = {
-      {deciding, "the dose rate depends on"},
+    out +=
+        fmt::format("  if restitution and friction are uncertain by {:g}: {:#.3g} to {:#.3g} W\n",
+            uncertainty, low, high);
+  constexpr std::pair<Shown, const char*> sentences[] = {{deciding, "the dose rate depends on"},
       {without_effect, "the dose rate does not depend on, within the intervals"},
       {unknown, "the runs are too short to show whether the dose rate depends on"}};
   for (const auto& [which, text] : sentences) {
@@ -310,8 +324,8 @@ std::string Variations::text() const {
   return out;
 }
 
-Variations vary(const casefile::CaseSpec& spec, const std::string& precision, const study::RunRecord& own,
-                double uncertainty, const std::atomic<bool>* interrupt) {
+Variations vary(const casefile::CaseSpec& spec, const std::string& precision,
+    const study::RunRecord& own, double uncertainty, const std::atomic<bool>* interrupt) {
   Cases cases(spec);
   cases.add("another seed", "seed", {fmt::format("run.seed={}", spec.seed + 1)});
   cases.add_half_least_separation();
@@ -339,8 +353,8 @@ Variations vary(const casefile::CaseSpec& spec, const std::string& precision, co
   return found;
 }
 
-std::string what_decides(const casefile::CaseSpec& spec, const std::string& precision, const io::Facts& run,
-                         double uncertainty, const std::atomic<bool>* interrupt) {
+std::string what_decides(const casefile::CaseSpec& spec, const std::string& precision,
+    const io::Facts& run, double uncertainty, const std::atomic<bool>* interrupt) {
   const auto own = study::record_of(run);
   if (!own.done() || !run.has(dose_rate().interval)) return "";
   const auto found = vary(spec, precision, own, uncertainty, interrupt);

@@ -1,5 +1,5 @@
-// Many runs of a case: sweeps and optimisations, on threads and on ranks of MPI; phases of a ball's impacts
-// against a parameter; variations of uncertain parameters: what decides the dose rate.
+// Many runs of a case: sweeps and optimisations, on threads and on ranks of MPI; phases of a ball's
+// impacts against a parameter; variations of uncertain parameters: what decides the dose rate.
 #pragma once
 
 #include <atomic>
@@ -92,14 +92,14 @@ struct Variations {
   std::string text() const;
 };
 
-/// Repeats a run on all cores with another seed, half of the least separation speed, restitution and friction
-/// smaller and larger. Nothing is written.
+/// Repeats a run on all cores with another seed, half of the least separation speed, restitution
+/// and friction smaller and larger. Nothing is written.
 /// @param own  record of the run itself, which is not repeated
-Variations vary(const casefile::CaseSpec& spec, const std::string& precision, const study::RunRecord& own,
-                double uncertainty, const std::atomic<bool>* interrupt);
+Variations vary(const casefile::CaseSpec& spec, const std::string& precision,
+    const study::RunRecord& own, double uncertainty, const std::atomic<bool>* interrupt);
 
 /// The text for a run to its end that has an interval; empty for others, or after an interrupt.
-std::string what_decides(const casefile::CaseSpec& spec, const std::string& precision, const io::Facts& run,
-                         double uncertainty, const std::atomic<bool>* interrupt);
+std::string what_decides(const casefile::CaseSpec& spec, const std::string& precision,
+    const io::Facts& run, double uncertainty, const std::atomic<bool>* interrupt);
 
 }  // namespace edmill::app

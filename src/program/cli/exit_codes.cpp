@@ -34,8 +34,8 @@ std::atomic<bool> flag{false};
 volatile std::sig_atomic_t received = 0, asked = 0;
 bool pipes_end_us = true;
 
-/// Sets the flag. The program ends at once only at a second SIGINT or SIGTERM, since a batch system may
-/// repeat SIGXCPU, or send SIGTERM after it, while results are being written.
+/// Sets the flag. The program ends at once only at a second SIGINT or SIGTERM, since a batch system
+/// may repeat SIGXCPU, or send SIGTERM after it, while results are being written.
 extern "C" void on_signal(int signal) {
   if (signal == SIGINT || signal == SIGTERM) {
     if (asked) std::_Exit(128 + signal);
@@ -50,22 +50,23 @@ bool is_ignored(int signal) {
   return sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
 }
 
-/// True if SIGHUP was ignored at the start. This is recorded before libraries are initialised, because some
-/// of them handle signals before `main`, such as UCX in Debian 13's MPI.
+/// True if SIGHUP was ignored at the start. This is recorded before libraries are initialised,
+/// because some of them handle signals before `main`, such as UCX in Debian 13's MPI.
 bool hangup_is_ignored = false;
 #ifdef __ELF__
 void note_hangup(int, char**, char**) { hangup_is_ignored = is_ignored(SIGHUP); }
-[[gnu::section(".preinit_array"), gnu::used]] void (*const before_libraries)(int, char**,
-                                                                             char**) = note_hangup;
+[[gnu::section(".preinit_array"), gnu::used]] void (*const before_libraries)(
+    int, char**, char**) = note_hangup;
 #endif
 
-/// From here on GMP throws `std::bad_alloc` when there is no memory, instead of ending the program. Its
-/// functions are those of the whole process: the program may set them, the library may not.
+/// From here on GMP throws `std::bad_alloc` when there is no memory, instead of ending the program.
+/// Its functions are those of the whole process: the program may set them, the library may not.
 void throw_for_lack_of_memory() {
 #ifndef EDMILL_WITHOUT_MPFR
-  static const auto or_throw = [](void* memory) { return memory ? memory : throw std::bad_alloc(); };
-  mp_set_memory_functions(
-      [](std::size_t size) { return or_throw(std::malloc(size)); },
+  static const auto or_throw = [](void* memory) {
+    return memory ? memory : throw std::bad_alloc();
+  };
+  mp_set_memory_functions([](std::size_t size) { return or_throw(std::malloc(size)); },
       [](void* old, std::size_t, std::size_t size) { return or_throw(std::realloc(old, size)); },
       [](void* memory, std::size_t) { std::free(memory); });
 #endif
@@ -87,8 +88,8 @@ void open_standard_descriptors() {
   }
 }
 
-/// Lets a write to a file that is too large, or to a pipe that nobody reads, fail instead of killing
-/// the program. A SIGHUP that was ignored at the start, as by nohup, stays ignored.
+/// Lets a write to a file that is too large, or to a pipe that nobody reads, fail instead of
+/// killing the program. A SIGHUP that was ignored at the start, as by nohup, stays ignored.
 void begin_with_signals() {
   if (hangup_is_ignored) std::signal(SIGHUP, SIG_IGN);
   pipes_end_us = !is_ignored(SIGPIPE);
@@ -96,26 +97,26 @@ void begin_with_signals() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-/// Ends the program by SIGPIPE, as other programs end if nobody reads their pipe; returns if that signal was
-/// ignored at the start.
+/// Ends the program by SIGPIPE, as other programs end if nobody reads their pipe; returns if that
+/// signal was ignored at the start.
 void end_by_pipe_signal() {
   if (!pipes_end_us) return;
   std::signal(SIGPIPE, SIG_DFL);
   std::raise(SIGPIPE);
 }
 
-/// Whether all of standard output was written. When not, one message says why, unless its reader did not want
-/// more, which ends the program by SIGPIPE.
+/// Whether all of standard output was written. When not, one message says why, unless its reader
+/// did not want more, which ends the program by SIGPIPE.
 /// @param code  of the command @return the exit code
 int after_output(int code) {
   const int error = io::output_error();
   // These commands have reported their error.
   if (error == 0 || code == internal_error || code == bad_input || code == undecided) return code;
   if (error == EPIPE) end_by_pipe_signal();
-  io::tell("edmill: standard output could not be written: {}\n", error == EBADF ? "it is closed"
-                                                                 : error == EFBIG
-                                                                     ? "file size limit (ulimit -f)"
-                                                                     : std::strerror(error));
+  io::tell("edmill: standard output could not be written: {}\n",
+      error == EBADF       ? "it is closed"
+          : error == EFBIG ? "file size limit (ulimit -f)"
+                           : std::strerror(error));
   return internal_error;
 }
 
@@ -148,8 +149,8 @@ void print_problem(const std::string& problem) {
   std::string line;
   for (const char c : problem)
     line += std::iscntrl(static_cast<unsigned char>(c))
-                ? fmt::format("\\x{:02x}", static_cast<unsigned char>(c))
-                : std::string(1, c);
+        ? fmt::format("\\x{:02x}", static_cast<unsigned char>(c))
+        : std::string(1, c);
   io::tell("edmill: {}\n", line);
 }
 
@@ -176,7 +177,9 @@ void listen_for_signals() {
   if (!hangup_is_ignored) std::signal(SIGHUP, on_signal);
 }
 
-int plus_signal(int exit_code) { return exit_code == interrupted ? exit_code + received : exit_code; }
+int plus_signal(int exit_code) {
+  return exit_code == interrupted ? exit_code + received : exit_code;
+}
 
 int after_signals(int exit_code) { return received ? interrupted + received : exit_code; }
 

@@ -15,10 +15,10 @@
 #include "app/judge.hpp"
 #include "base/standard_arithmetic.hpp"
 #include "base/version.hpp"
+#include "casefile/case_spec.hpp"
 #include "casefile/keys.hpp"
 #include "casefile/nearest.hpp"
 #include "casefile/output_entry.hpp"
-#include "casefile/case_spec.hpp"
 #include "casefile/quantity.hpp"
 #include "cli/commands/cases.hpp"
 #include "cli/commands/logs.hpp"
@@ -50,19 +50,20 @@ std::string in_roff(const std::string& text) {
 
 /// edmill(1): the commands, each with its options.
 std::string man_page(const CLI::App& app) {
-  std::string page = fmt::format(
-      ".TH EDMILL 1 \"\" \"edmill {}\" \"User Commands\"\n.SH NAME\nedmill \\- {}\n", in_roff(version()),
-      in_roff(app.get_description().substr(app.get_description().find(": ") + 2)));
+  std::string page =
+      fmt::format(".TH EDMILL 1 \"\" \"edmill {}\" \"User Commands\"\n.SH NAME\nedmill \\- {}\n",
+          in_roff(version()),
+          in_roff(app.get_description().substr(app.get_description().find(": ") + 2)));
   page += ".SH SYNOPSIS\n.B edmill\n.I command\n[\n.I options\n]\n.SH COMMANDS\n";
   for (const auto* command : app.get_subcommands({})) {
     std::string usage;
     for (const auto* option : command->get_options())
       if (option->get_positional()) usage += " \\fI" + in_roff(option->get_name()) + "\\fR";
     page += fmt::format(".SS \"edmill {}{}\"\n{}\n", in_roff(command->get_name()), usage,
-                        in_roff(command->get_description()));
+        in_roff(command->get_description()));
     for (const auto* option : command->get_options())
       page += fmt::format(".TP\n\\fB{}\\fR\n{}\n", in_roff(option->get_name(true, true)),
-                          in_roff(option->get_description()));
+          in_roff(option->get_description()));
   }
   page += ".SH EXIT STATUS\n";
   for (const auto& row : exit_codes)
@@ -123,11 +124,11 @@ std::string commands(const CLI::App& app) {
     for (const auto* option : command->get_options())
       if (option->get_positional()) usage += " " + option->get_name();
     text += fmt::format("### {}\n\n`edmill {}`: {}.\n\n| argument | meaning |\n|---|---|\n",
-                        command->get_name(), usage, command->get_description());
+        command->get_name(), usage, command->get_description());
     for (const auto* option : command->get_options())
       if (option != command->get_help_ptr())
         text += fmt::format("| `{}` | {} |\n", in_cell(option->get_name(true, true)),
-                            in_cell(option->get_description()));
+            in_cell(option->get_description()));
     text += '\n';
   }
   return text;
@@ -140,8 +141,8 @@ std::string codes() {
 }
 
 std::string keys_of(const casefile::KeySection& section) {
-  const bool types =
-      std::any_of(section.keys.begin(), section.keys.end(), [](const auto& key) { return !key.of.empty(); });
+  const bool types = std::any_of(
+      section.keys.begin(), section.keys.end(), [](const auto& key) { return !key.of.empty(); });
   std::string text = types ? "| key | of | value | default | meaning |\n|---|---|---|---|---|\n"
                            : "| key | value | default | meaning |\n|---|---|---|---|\n";
   for (const auto& key : section.keys) {
@@ -163,12 +164,14 @@ std::string sections() {
 std::string units() {
   std::string text = "| quantity | units |\n|---|---|", last;
   for (const auto& unit : casefile::unit_texts()) {
-    text +=
-        unit.dimension == last ? "; " : fmt::format("{}\n| {} | ", last.empty() ? "" : " |", unit.dimension);
+    text += unit.dimension == last
+        ? "; "
+        : fmt::format("{}\n| {} | ", last.empty() ? "" : " |", unit.dimension);
     last = unit.dimension;
     const auto& names = unit.spellings;
     text += fmt::format("`{}`", names[0]);
-    if (names.size() > 1) text += fmt::format(" ({})", fmt::join(names.begin() + 1, names.end(), ", "));
+    if (names.size() > 1)
+      text += fmt::format(" ({})", fmt::join(names.begin() + 1, names.end(), ", "));
   }
   return text + " |\n\n";
 }
@@ -176,7 +179,8 @@ std::string units() {
 std::string outputs() {
   std::string text = "| type | file | content |\n|---|---|---|\n";
   for (const auto& type : casefile::output_types())
-    text += fmt::format("| `{}` | `{}{}` | {} |\n", type.name, type.name, type.extension, in_cell(type.what));
+    text += fmt::format(
+        "| `{}` | `{}{}` | {} |\n", type.name, type.name, type.extension, in_cell(type.what));
   return text + '\n';
 }
 
@@ -185,28 +189,26 @@ std::string reference(const CLI::App& app) {
   return "# Reference\n\nPrinted by `edmill reference` from the tables with which the program "
          "reads command lines and files. Variables have a page\nof their own: "
          "[variables.md](variables.md).\n\n## Commands\n\n" +
-         commands(app) + "## Exit codes\n\n" + codes() + "## Types of outputs\n\n" + outputs() +
-         "## Keys of files\n\nCase files, sweep files and optimisation files are TOML. A quantity is "
-         "a text with a unit, `\"38 mm\"`; a number without\nunit may be plain. Components of vectors "
-         "without a unit are SI. Decimals are exact in every scalar, and have a point. Powers can be "
-         "written `m/s2`, `m/s^2` or `m/s\u00b2`.\n\n### Units\n\n" +
-         units() + sections() +
-         "## Keys of summary.json\n\nThe result of a run; docs/files.md says how to read it.\n\n" +
-         io::summary_reference() +
-         "\n## Keys of documents\n\nContents of the file that `--json FILE` names, in SI; values that "
-         "do not exist are null, and `*` is any name or number.\n\n" +
-         app::document_keys();
+      commands(app) + "## Exit codes\n\n" + codes() + "## Types of outputs\n\n" + outputs() +
+      "## Keys of files\n\nCase files, sweep files and optimisation files are TOML. A quantity is "
+      "a text with a unit, `\"38 mm\"`; a number without\nunit may be plain. Components of vectors "
+      "without a unit are SI. Decimals are exact in every scalar, and have a point. Powers can be "
+      "written `m/s2`, `m/s^2` or `m/s\u00b2`.\n\n### Units\n\n" +
+      units() + sections() +
+      "## Keys of summary.json\n\nThe result of a run; docs/files.md says how to read it.\n\n" +
+      io::summary_reference() +
+      "\n## Keys of documents\n\nContents of the file that `--json FILE` names, in SI; values that "
+      "do not exist are null, and `*` is any name or number.\n\n" +
+      app::document_keys();
 }
 
 /// @tparam text  of the whole command line
-template <std::string (*text)(const CLI::App&)>
-struct Text {
+template <std::string (*text)(const CLI::App&)> struct Text {
   void add_options(CLI::App& command) { program_ = command.get_parent(); }
   int run() {
     io::print("{}", text(*program_));
     return ok;
   }
-
  private:
   const CLI::App* program_ = nullptr;
 };
@@ -229,7 +231,8 @@ struct Completion : Text<bash_completion> {
 /// By the checker that has no code of edmill.
 struct Certificate {
   static constexpr const char* name = "certificate";
-  static constexpr const char* what = "check a certificate of proven events, without trusting edmill";
+  static constexpr const char* what =
+      "check a certificate of proven events, without trusting edmill";
 
   void add_options(CLI::App& command) {
     command.add_option("file", file_, "certificate (JSON lines)")->required();
@@ -250,21 +253,20 @@ struct Certificate {
       throw InputError(file_ + ": this file is not a certificate of `edmill prove --certificate`");
     }
   }
-
  private:
   std::string file_;
   bool quiet_ = false;
 };
 #endif
 
-/// In the order of the help. A command has a name, what it does in a line, `add_options`, and `run`, which
-/// gives the exit code. A new one is a file in cli/commands/ and a name here.
+/// In the order of the help. A command has a name, what it does in a line, `add_options`, and
+/// `run`, which gives the exit code. A new one is a file in cli/commands/ and a name here.
 using Commands = std::tuple<New, Machines, Run, Demo, Resume, Report, Certify, Prove, Sensitivity,
-                            Bifurcation, Check, Variables, Sweep, Optimize, Compare, Audit, Export,
+    Bifurcation, Check, Variables, Sweep, Optimize, Compare, Audit, Export,
 #ifdef EDMILL_NODE
-                            Certificate,
+    Certificate,
 #endif
-                            Import, Limit, Manual, Reference, Completion>;
+    Import, Limit, Manual, Reference, Completion>;
 
 std::string version_text() {
   const auto parts = optional_parts();
@@ -273,23 +275,22 @@ std::string version_text() {
 #else
   const auto* wide = ", mpfr:DIGITS";
 #endif
-  return fmt::format("edmill {} ({})\ncompiler {}\nscalars {}{}\noptional parts {}", version(), commit(),
-                     compiler(), fmt::join(casefile::precisions(), ", "), wide,
-                     parts.empty() ? "none" : parts);
+  return fmt::format("edmill {} ({})\ncompiler {}\nscalars {}{}\noptional parts {}", version(),
+      commit(), compiler(), fmt::join(casefile::precisions(), ", "), wide,
+      parts.empty() ? "none" : parts);
 }
 
 /// Synonyms of commands, which are not similar to their names.
-constexpr std::pair<const char*, const char*> synonyms[] = {
-    {"simulate", "run"},     {"start", "run"},      {"execute", "run"},     {"go", "run"},
-    {"solve", "run"},        {"example", "demo"},   {"continue", "resume"}, {"restart", "resume"},
-    {"html", "report"},      {"plot", "report"},    {"view", "report"},     {"validate", "check"},
-    {"lint", "check"},       {"describe", "check"}, {"draw", "check"},      {"scan", "sweep"},
-    {"study", "sweep"},      {"diff", "compare"},   {"identify", "audit"},  {"help", "--help"},
-    {"version", "--version"}};
+constexpr std::pair<const char*, const char*> synonyms[] = {{"simulate", "run"}, {"start", "run"},
+    {"execute", "run"}, {"go", "run"}, {"solve", "run"}, {"example", "demo"},
+    {"continue", "resume"}, {"restart", "resume"}, {"html", "report"}, {"plot", "report"},
+    {"view", "report"}, {"validate", "check"}, {"lint", "check"}, {"describe", "check"},
+    {"draw", "check"}, {"scan", "sweep"}, {"study", "sweep"}, {"diff", "compare"},
+    {"identify", "audit"}, {"help", "--help"}, {"version", "--version"}};
 
 std::string unknown_command(const std::string& word, const std::vector<std::string>& commands) {
   const auto* synonym = std::find_if(std::begin(synonyms), std::end(synonyms),
-                                     [&](const auto& known) { return known.first == word; });
+      [&](const auto& known) { return known.first == word; });
   const auto expected = synonym == std::end(synonyms) ? casefile::nearest_of(word, commands)
                                                       : fmt::format("'{}'", synonym->second);
   return fmt::format("{}: unknown command, expected {} (see edmill --help)", word, expected);
@@ -305,7 +306,8 @@ std::vector<std::string> options_of(const CLI::App& command) {
 }
 
 /// The first word with a hyphen that is none of the options; negative numbers may be values.
-std::string unknown_option(const std::vector<std::string>& words, const std::vector<std::string>& options) {
+std::string unknown_option(
+    const std::vector<std::string>& words, const std::vector<std::string>& options) {
   for (const auto& word : words) {
     if (word == "--") break;
     const auto name = word.substr(0, word.find('='));
@@ -315,10 +317,10 @@ std::string unknown_option(const std::vector<std::string>& words, const std::vec
   return "";
 }
 
-/// The problem of a command line that could not be parsed: an unknown command or option with the most similar
-/// known one, or else the message of the parser.
-std::string problem_of(const CLI::App& app, const std::vector<std::string>& words,
-                       const CLI::ParseError& error) {
+/// The problem of a command line that could not be parsed: an unknown command or option with the
+/// most similar known one, or else the message of the parser.
+std::string problem_of(
+    const CLI::App& app, const std::vector<std::string>& words, const CLI::ParseError& error) {
   std::vector<std::string> commands;
   for (const auto* command : app.get_subcommands({})) commands.push_back(command->get_name());
   const CLI::App* command = &app;
@@ -331,8 +333,8 @@ std::string problem_of(const CLI::App& app, const std::vector<std::string>& word
   }
   const auto options = options_of(*command);
   if (const auto word = unknown_option(words, options); !word.empty())
-    return fmt::format("{}: unknown option, expected {} (see {})", word, casefile::nearest_of(word, options),
-                       help);
+    return fmt::format("{}: unknown option, expected {} (see {})", word,
+        casefile::nearest_of(word, options), help);
   std::string text = error.what();
   for (const auto& word : words)
     if (casefile::has_comma(word) && text.find(word) != std::string::npos)
@@ -349,7 +351,8 @@ int run_command_line(int argc, char** argv) {
   Commands commands;
   std::vector<std::pair<CLI::App*, std::function<int()>>> added;
   const auto add = [&](auto& command) {
-    added.emplace_back(app.add_subcommand(command.name, command.what), [&command] { return command.run(); });
+    added.emplace_back(
+        app.add_subcommand(command.name, command.what), [&command] { return command.run(); });
     command.add_options(*added.back().first);
   };
   std::apply([&](auto&... command) { (add(command), ...); }, commands);

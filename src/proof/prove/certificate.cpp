@@ -33,13 +33,12 @@ Json line_of(const model::Joint<Quantity>& joint) {
   if (!joint.rotates && !joint.speed.zero()) line["speed"] = speed;
   line["swings"] = Json::array();
   for (const auto& s : joint.swings)
-    line["swings"].push_back(
-        {{"amplitude", s.amplitude.text()}, {"frequency", s.frequency.text()}, {"phase", s.phase.text()}});
+    line["swings"].push_back({{"amplitude", s.amplitude.text()}, {"frequency", s.frequency.text()},
+        {"phase", s.phase.text()}});
   return line;
 }
 
-template <class Part>
-Json lines_of(const std::vector<Part>& parts);
+template <class Part> Json lines_of(const std::vector<Part>& parts);
 
 Json line_of(const ExactWall& wall) {
   const auto size = wall.size.text();
@@ -47,14 +46,13 @@ Json line_of(const ExactWall& wall) {
     return {{"plane", texts(wall.normal)}, {"point", texts(wall.point)}, {"distance", size}};
   if (wall.is_solid())
     return {{"solid", wall.kind == ExactWall::solid_box ? "box" : "cylinder"},
-            {"half", texts(wall.half)},
-            {"rounding", size},
-            {"joints", lines_of(wall.joints)}};
+        {"half", texts(wall.half)}, {"rounding", size}, {"joints", lines_of(wall.joints)}};
   return {{wall.kind == ExactWall::cylinder ? "cylinder" : "sphere", size}};
 }
 
 Json line_of(const ExactLaw& law) {
-  Json line{{"law", law.coulomb ? "walton-braun" : "constant"}, {"restitution", law.restitution.text()}};
+  Json line{
+      {"law", law.coulomb ? "walton-braun" : "constant"}, {"restitution", law.restitution.text()}};
   if (law.coulomb)
     line.update({{"friction", law.friction.text()}, {"min_tangential", law.tangential.text()}});
   else
@@ -64,49 +62,33 @@ Json line_of(const ExactLaw& law) {
 }
 
 Json line_of(const ExactBall& ball) {
-  return {{"radius", ball.radius.text()},
-          {"density", ball.density.text()},
-          {"reduced_inertia", ball.reduced_inertia.text()},
-          {"in_vessel", ball.in_vessel},
-          {"position", texts(ball.position)},
-          {"velocity", texts(ball.velocity)},
-          {"spin", texts(ball.spin)}};
+  return {{"radius", ball.radius.text()}, {"density", ball.density.text()},
+      {"reduced_inertia", ball.reduced_inertia.text()}, {"in_vessel", ball.in_vessel},
+      {"position", texts(ball.position)}, {"velocity", texts(ball.velocity)},
+      {"spin", texts(ball.spin)}};
 }
 
-template <class Part>
-Json lines_of(const std::vector<Part>& parts) {
+template <class Part> Json lines_of(const std::vector<Part>& parts) {
   Json lines = Json::array();
   for (const auto& part : parts) lines.push_back(line_of(part));
   return lines;
 }
 
 Json header_of(const ExactCase& c, std::size_t events, long bits) {
-  return {{"format", "edmill certificate"},
-          {"version", c.walls.back().is_solid() ? 2 : 1},
-          {"case", c.name},
-          {"digest", c.digest},
-          {"events", events},
-          {"bits", bits},
-          {"start", c.start.text()},
-          {"gravity", texts(c.gravity)},
-          {"joints", lines_of(c.joints)},
-          {"walls", lines_of(c.walls)},
-          {"laws", lines_of(c.laws)},
-          {"balls", lines_of(c.balls)},
-          {"law_of_walls", c.law_of_walls},
-          {"law_of_balls", c.law_of_balls}};
+  return {{"format", "edmill certificate"}, {"version", c.walls.back().is_solid() ? 2 : 1},
+      {"case", c.name}, {"digest", c.digest}, {"events", events}, {"bits", bits},
+      {"start", c.start.text()}, {"gravity", texts(c.gravity)}, {"joints", lines_of(c.joints)},
+      {"walls", lines_of(c.walls)}, {"laws", lines_of(c.laws)}, {"balls", lines_of(c.balls)},
+      {"law_of_walls", c.law_of_walls}, {"law_of_balls", c.law_of_balls}};
 }
 
 Json line_of(const ProvenEvent& event, std::size_t number) {
   Json states = Json::array();
   for (const auto& [reference, position, velocity, spin] : event.after)
     states.push_back({{"r", texts(position)}, {"v", texts(velocity)}, {"s", texts(spin)}});
-  return {{"event", number},
-          {"ball", event.ball},
-          {event.with_wall ? "wall" : "partner", event.partner},
-          {"time", text_of(event.time)},
-          {"states", states},
-          {"windows", event.windows}};
+  return {{"event", number}, {"ball", event.ball},
+      {event.with_wall ? "wall" : "partner", event.partner}, {"time", text_of(event.time)},
+      {"states", states}, {"windows", event.windows}};
 }
 
 /// The header of a certificate, its first line. @throws std::exception if it is not a certificate
@@ -150,7 +132,9 @@ std::string decimal_of(const Enclosure& value, int digits) {
 std::string text_of_difference(const Json& row, const Json& expected) {
   const std::string path = row.at("path");
   const Json::json_pointer at(path);
-  const auto text = [](const Json& value) { return value.is_primitive() ? value.dump() : value.type_name(); };
+  const auto text = [](const Json& value) {
+    return value.is_primitive() ? value.dump() : value.type_name();
+  };
   const auto found = row.at("op") == "remove" ? "missing" : "found " + text(row.at("value"));
   const auto asked = row.at("op") == "add" ? "no such key" : text(expected.at(at));
   return fmt::format("{}: {}, expected {}", path, found, asked);
@@ -158,8 +142,8 @@ std::string text_of_difference(const Json& row, const Json& expected) {
 
 }  // namespace
 
-std::vector<std::string> other_case(std::istream& certificate, const std::string& name,
-                                    const ExactCase& exact) {
+std::vector<std::string> other_case(
+    std::istream& certificate, const std::string& name, const ExactCase& exact) {
   std::vector<std::string> differences;
   try {
     const auto found = read_header(certificate);
@@ -175,7 +159,8 @@ std::vector<std::string> other_case(std::istream& certificate, const std::string
 
 void write_certificate(std::ostream& out, const Proof& proof) {
   out << header_of(proof.exact, proof.events.size(), proof.bits).dump() << '\n';
-  for (std::size_t k = 0; k < proof.events.size(); ++k) out << line_of(proof.events[k], k).dump() << '\n';
+  for (std::size_t k = 0; k < proof.events.size(); ++k)
+    out << line_of(proof.events[k], k).dump() << '\n';
   Json open = Json::object();
   for (std::size_t ball = 0; ball < proof.open_windows.size(); ++ball)
     if (!proof.open_windows[ball].empty()) open[std::to_string(ball)] = proof.open_windows[ball];
@@ -183,8 +168,9 @@ void write_certificate(std::ostream& out, const Proof& proof) {
 }
 
 void write_events(std::ostream& out, const Proof& proof, int digits) {
-  fmt::print(out, "# edmill proven events 1\n# case {}, digest {}\n# {} events, proven in {} bits\n",
-             proof.exact.name, proof.exact.digest, proof.events.size(), proof.bits);
+  fmt::print(out,
+      "# edmill proven events 1\n# case {}, digest {}\n# {} events, proven in {} bits\n",
+      proof.exact.name, proof.exact.digest, proof.events.size(), proof.bits);
   out << "index,time,time_radius,ball,partner_kind,partner,approach_speed,approach_speed_radius,"
          "slip_speed,slip_speed_radius\n";
   const Precision scope(proof.bits + 64);
@@ -193,7 +179,7 @@ void write_events(std::ostream& out, const Proof& proof, int digits) {
     const auto& e = proof.events[k];
     const auto number = [&](const Enclosure& value) { return decimal_of(value, digits); };
     fmt::print(out, "{},{},{},{},{},{},{}\n", k, number(start + e.time), e.ball,
-               e.with_wall ? "wall" : "ball", e.partner, number(e.approach_speed), number(e.slip_speed));
+        e.with_wall ? "wall" : "ball", e.partner, number(e.approach_speed), number(e.slip_speed));
   }
 }
 

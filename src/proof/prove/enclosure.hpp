@@ -26,7 +26,6 @@ class Precision {
   Precision(const Precision&) = delete;
   Precision& operator=(const Precision&) = delete;
   static slong bits() { return current; }
-
  private:
   static inline thread_local slong current = 64;
   slong before_;
@@ -70,17 +69,15 @@ class Enclosure {
   Enclosure radius() const { return by(arb_get_rad_arb, *this); }
   Enclosure low() const { return by(arb_sub, middle(), radius(), ARF_PREC_EXACT); }
   Enclosure high() const { return by(arb_add, middle(), radius(), ARF_PREC_EXACT); }
-
  private:
-  template <class Operation>
-  static Enclosure by(const Operation& operation, const Enclosure& a) {
+  template <class Operation> static Enclosure by(const Operation& operation, const Enclosure& a) {
     Enclosure result;
     operation(result.ball_, a.ball_);
     return result;
   }
   template <class Operation>
   static Enclosure by(const Operation& operation, const Enclosure& a, const Enclosure& b,
-                      slong bits = Precision::bits()) {
+      slong bits = Precision::bits()) {
     Enclosure result;
     operation(result.ball_, a.ball_, b.ball_, bits);
     return result;
@@ -110,7 +107,8 @@ inline bool less(const Enclosure& a, const Enclosure& b) { return arb_lt(a.arb()
 }  // namespace edmill::prove
 
 template <>
-struct Eigen::NumTraits<edmill::prove::Enclosure> : Eigen::GenericNumTraits<edmill::prove::Enclosure> {
+struct Eigen::NumTraits<edmill::prove::Enclosure>
+    : Eigen::GenericNumTraits<edmill::prove::Enclosure> {
   enum { IsSigned = 1, ReadCost = 6, AddCost = 150, MulCost = 100 };
 };
 
@@ -119,7 +117,9 @@ namespace edmill::prove {
 using Vector = Vec3<Enclosure>;
 using Matrix = Eigen::Matrix<Enclosure, 3, 3>;
 
-Vector each(const auto& v, const auto& change) { return {change(v[0]), change(v[1]), change(v[2])}; }
+Vector each(const auto& v, const auto& change) {
+  return {change(v[0]), change(v[1]), change(v[2])};
+}
 
 /// Encloses an exact quantity, in the current precision.
 Enclosure enclosure_of(const casefile::Quantity& quantity);
@@ -134,12 +134,13 @@ inline Enclosure rounded(const Enclosure& value, slong bits) {
   return result;
 }
 
-/// A slightly wider enclosure with few digits: the midpoint keeps 20 bits beyond the radius (`bits` bits if
-/// the value is exact); the radius grows by 2^-20 and is rounded up to ten bits.
+/// A slightly wider enclosure with few digits: the midpoint keeps 20 bits beyond the radius (`bits`
+/// bits if the value is exact); the radius grows by 2^-20 and is rounded up to ten bits.
 inline Enclosure rounded_out(const Enclosure& value, slong bits) {
   if (arb_is_exact(value.arb()) && arb_bits(value.arb()) <= bits) return value;
-  Enclosure result = rounded(
-      value, arb_is_exact(value.arb()) ? bits : std::max<slong>(arb_rel_accuracy_bits(value.arb()) + 22, 22));
+  Enclosure result = rounded(value,
+      arb_is_exact(value.arb()) ? bits
+                                : std::max<slong>(arb_rel_accuracy_bits(value.arb()) + 22, 22));
   const auto radius = result.radius();
   Enclosure more;
   arb_mul_2exp_si(more.arb(), radius.arb(), -20);

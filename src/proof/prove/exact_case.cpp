@@ -49,7 +49,7 @@ struct Vessel {
 Vessel vessel_of(const model::Cylinder<Quantity>& v) {
   const Quantity half = v.height / 2, radius = v.diameter / 2;
   return {{plane(1, -1, half), plane(1, 1, half), round_wall(ExactWall::cylinder, v.diameter)},
-          QuantityVector{radius, half, radius}};
+      QuantityVector{radius, half, radius}};
 }
 Vessel vessel_of(const model::Box<Quantity>& v) {
   Vessel vessel{{}, QuantityVector{}};
@@ -70,11 +70,10 @@ Vessel vessel_of(const model::Polyhedron<Quantity>& v) {
     vessel.walls.push_back({ExactWall::plane, face.normal, face.point, face.distance, {}, {}});
   return vessel;
 }
-template <class Other>
-Vessel vessel_of(const Other& other) {
-  throw InputError(
-      std::string("[vessel] type: found \"") + other.name +
-      "\", expected one with walls that are planes, a cylinder or a sphere: `prove` supports no others");
+template <class Other> Vessel vessel_of(const Other& other) {
+  throw InputError(std::string("[vessel] type: found \"") + other.name +
+      "\", expected one with walls that are planes, a cylinder or a sphere: `prove` supports no "
+      "others");
 }
 
 ExactLaw law_of(const casefile::ContactSpec& spec, const std::string& file) {
@@ -84,7 +83,7 @@ ExactLaw law_of(const casefile::ContactSpec& spec, const std::string& file) {
   if (const auto* constant = std::get_if<model::ConstantRestitution<Quantity>>(&spec.law))
     return {false, constant->normal, constant->tangential, Quantity(), v_s};
   throw InputError(file + ": key 'contact.model': found \"" + spec.name() +
-                   "\", expected \"walton-braun\" or \"constant\": `prove` supports no others");
+      "\", expected \"walton-braun\" or \"constant\": `prove` supports no others");
 }
 
 /// Index of the law of two materials: 0 between balls, 1 with walls, then those of pairs.
@@ -114,14 +113,14 @@ void fill_laws(const CaseSpec& spec, const std::vector<int>& materials, ExactCas
   }
 }
 
-/// The exact position of a ball placed at random: its coordinates are multiples of 2^-52 of the room for
-/// its centre, recovered from a placement in many digits, in the thread's precision.
+/// The exact position of a ball placed at random: its coordinates are multiples of 2^-52 of the
+/// room for its centre, recovered from a placement in many digits, in the thread's precision.
 QuantityVector exact_place(const Vec3<mpfr>& local, QuantityVector room, const std::string& where) {
   for (int axis = 0; auto& size : room) {
     const mpfr steps = ldexp(local[axis++] / size.to<mpfr>(), 52), whole = round(steps);
     if (!(abs(steps - whole) < 1e-100))
-      throw InputError(where +
-                       ": found balls whose places are not known exactly, expected a position for each");
+      throw InputError(
+          where + ": found balls whose places are not known exactly, expected a position for each");
     const cpp_int number(static_cast<std::int64_t>(whole));
     size = size * casefile::quantity_of({number, cpp_int(1) << 52});
   }
@@ -130,13 +129,13 @@ QuantityVector exact_place(const Vec3<mpfr>& local, QuantityVector room, const s
 
 ExactBall ball_of(const casefile::BallSpec& spec) {
   return {.radius = spec.diameter / 2,
-          .density = spec.density,
-          .reduced_inertia = spec.reduced_inertia,
-          .velocity = spec.velocity};
+      .density = spec.density,
+      .reduced_inertia = spec.reduced_inertia,
+      .velocity = spec.velocity};
 }
 
-void add_batches(const CaseSpec& spec, const std::optional<QuantityVector>& half, std::vector<int>& materials,
-                 ExactCase& result) {
+void add_batches(const CaseSpec& spec, const std::optional<QuantityVector>& half,
+    std::vector<int>& materials, ExactCase& result) {
   if (spec.batches.empty()) return;
   const mpfr::Digits digits(placing_digits);
   const auto built = casefile::build_case<mpfr>(spec, false);
@@ -144,9 +143,9 @@ void add_batches(const CaseSpec& spec, const std::optional<QuantityVector>& half
   const auto pose = motion.pose(built.start);
   for (const auto& batch : spec.batches) {
     if (!half || batch.diameter_spread.positive() || batch.random_speed)
-      throw InputError(
-          batch.where +
-          ": found random diameters, random velocities or a polyhedron to fill, expected balls with position "
+      throw InputError(batch.where +
+          ": found random diameters, random velocities or a polyhedron to fill, expected balls "
+          "with position "
           "and velocity: `prove` needs exact ones");
     for (int k = 0; k < batch.count; ++k) {
       ExactBall ball = ball_of(batch);
@@ -167,10 +166,11 @@ void add_batches(const CaseSpec& spec, const std::optional<QuantityVector>& half
 
 ExactCase exact_case(const CaseSpec& spec) {
   if (!spec.pistons.empty())
-    throw InputError(spec.file + ": [[piston]]: `prove` does not support walls that move in the vessel");
+    throw InputError(
+        spec.file + ": [[piston]]: `prove` does not support walls that move in the vessel");
   if (!spec.initial_state.empty())
     throw InputError(spec.file +
-                     ": key 'run.initial_state': found a saved state, expected balls described in the case");
+        ": key 'run.initial_state': found a saved state, expected balls described in the case");
   ExactCase result;
   result.name = one_line(std::filesystem::path(spec.file).filename().string());
   result.digest = spec.digest;

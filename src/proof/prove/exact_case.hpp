@@ -1,5 +1,5 @@
-// A case as a proof needs it: exact numbers, motions as chains of joints, walls as planes, cylinders, spheres
-// or bodies inside the vessel.
+// A case as a proof needs it: exact numbers, motions as chains of joints, walls as planes,
+// cylinders, spheres or bodies inside the vessel.
 #pragma once
 
 #include <string>
@@ -21,15 +21,14 @@ using ExactJoints = std::vector<model::Joint<Quantity>>;
 struct ExactWall {
   enum Kind { plane, cylinder, sphere, solid_box, solid_cylinder } kind = plane;
   QuantityVector normal{}, point{};  ///< of a plane: outward; inside, n.(p - point)/|n| < size
-  Quantity size;          ///< distance of the plane from the point, radius, or rounding of a solid [m]
+  Quantity size;  ///< distance of the plane from the point, radius, or rounding of a solid [m]
   QuantityVector half{};  ///< of a solid's core: half edges, or radius, half height, radius [m]
   ExactJoints joints;     ///< of a solid: from the ground
 
   bool is_solid() const { return kind >= solid_box; }
 };
 
-template <class Number>
-struct ContactLaw {
+template <class Number> struct ContactLaw {
   bool coulomb = true;      ///< Walton and Braun's; else constant
   Number restitution;       ///< e_n
   Number tangential;        ///< least e_t with friction, e_t without
@@ -58,8 +57,8 @@ struct ExactCase {
 };
 
 /// The case in exact numbers.
-/// @throws InputError for cases that cannot be proven: rounded vessels, pistons, saved states, random
-/// velocities and diameters, laws other than walton-braun and constant
+/// @throws InputError for cases that cannot be proven: rounded vessels, pistons, saved states,
+/// random velocities and diameters, laws other than walton-braun and constant
 ExactCase exact_case(const casefile::CaseSpec& spec);
 
 }  // namespace edmill::prove

@@ -1,5 +1,5 @@
-// Enclosures of the poses of the vessel and of bodies in it, of balls in flight and of their gaps, and
-// proofs that they do not meet. docs/certificates.md, "Rules for the states", rules 4 and 5
+// Enclosures of the poses of the vessel and of bodies in it, of balls in flight and of their gaps,
+// and proofs that they do not meet. docs/certificates.md, "Rules for the states", rules 4 and 5
 #pragma once
 
 #include <map>
@@ -38,7 +38,8 @@ struct Pose {
   /// Rotates about an axis of the current frame, the unit vector e:
   /// E_kk = e_k^2 + cos (1 - e_k^2), E_kl = e_k e_l (1 - cos) -/+ e_m sin.
   /// @param turns, speed, second  the angle, [rad/s], [rad/s^2]
-  void rotate(const Vector& e, const Enclosure& turns, const Enclosure& speed, const Enclosure& second) {
+  void rotate(
+      const Vector& e, const Enclosure& turns, const Enclosure& speed, const Enclosure& second) {
     const Vector axis = turned(axes, e), relative = axis * speed;
     omega_rate += axis * second + cross<Enclosure>(omega, relative);
     omega += relative;
@@ -63,7 +64,7 @@ struct Pose {
     const Vector d = turned(axes, by), rate = turned(axes, by_rate);
     const Vector carried = cross<Enclosure>(omega, d);
     acceleration += turned(axes, by_second) + cross<Enclosure>(omega, Vector(rate * Enclosure(2))) +
-                    cross<Enclosure>(omega_rate, d) + cross<Enclosure>(omega, carried);
+        cross<Enclosure>(omega_rate, d) + cross<Enclosure>(omega, carried);
     velocity += rate + carried;
     centre += d;
   }
@@ -72,8 +73,8 @@ struct Pose {
   InFrame seen(const Vector& r, const Vector& v, const Vector& gravity) const {
     const Vector d = r - centre, carried = cross<Enclosure>(omega, d);
     const Vector u = v - (velocity + carried);
-    const Vector frame = acceleration + cross<Enclosure>(omega_rate, d) + cross<Enclosure>(omega, carried) +
-                         cross<Enclosure>(omega, Vector(u * Enclosure(2)));
+    const Vector frame = acceleration + cross<Enclosure>(omega_rate, d) +
+        cross<Enclosure>(omega, carried) + cross<Enclosure>(omega, Vector(u * Enclosure(2)));
     return {turned_back(axes, d), turned_back(axes, u), turned_back(axes, gravity - frame)};
   }
 };
@@ -114,7 +115,6 @@ class Motion {
     }
     return pose;
   }
-
  private:
   struct Joint {
     bool rotates;
@@ -128,12 +128,12 @@ class Motion {
     for (const auto& given : joints) {
       const Vector axis = enclosure_of(given.axis);
       chain.push_back({.rotates = given.rotates,
-                       .axis = axis / norm<Enclosure>(axis),
-                       .shift = enclosure_of(given.shift),
-                       .angle = enclosure_of(given.angle),
-                       .speed = enclosure_of(given.speed),
-                       .swings = model::converted_swings<Enclosure>(
-                           given.swings, [](const Quantity& number) { return enclosure_of(number); })});
+          .axis = axis / norm<Enclosure>(axis),
+          .shift = enclosure_of(given.shift),
+          .angle = enclosure_of(given.angle),
+          .speed = enclosure_of(given.speed),
+          .swings = model::converted_swings<Enclosure>(
+              given.swings, [](const Quantity& number) { return enclosure_of(number); })});
     }
   }
 
@@ -142,8 +142,8 @@ class Motion {
   std::vector<std::size_t> frames_;  ///< by wall
 };
 
-/// Position and velocity at the exact time `reference`, and the constant spin. The ball follows the parabola,
-/// which is defined for all times, between two impacts.
+/// Position and velocity at the exact time `reference`, and the constant spin. The ball follows the
+/// parabola, which is defined for all times, between two impacts.
 struct Flight {
   Enclosure reference;  ///< [s] after the start, exact
   Vector position, velocity, spin;
@@ -169,8 +169,8 @@ struct Gap {
   Enclosure value, rate, second;
 };
 
-/// The signed distance of a coordinate from the interval between -half and half, and whether it is outside: 1
-/// (yes), 0 (no), or [0, 1] if undecided.
+/// The signed distance of a coordinate from the interval between -half and half, and whether it is
+/// outside: 1 (yes), 0 (no), or [0, 1] if undecided.
 struct Excess {
   Enclosure by, outside;
 
@@ -188,9 +188,9 @@ struct Excess {
   }
 };
 
-/// The squared distance of a point from the core of a solid. Its second derivative, which jumps where
-/// the nearest point of the core passes from a face to an edge, is enclosed with both of its values
-/// there: Taylor's formula is valid for such functions. @param square  that of contact
+/// The squared distance of a point from the core of a solid. Its second derivative, which jumps
+/// where the nearest point of the core passes from a face to an edge, is enclosed with both of its
+/// values there: Taylor's formula is valid for such functions. @param square  that of contact
 inline Gap solid_gap(bool round, const Vector& half, const Enclosure& square, const InFrame& ball) {
   const auto& [p, v, a] = ball;
   Gap half_gap{-square / 2, {}, {}};
@@ -200,7 +200,8 @@ inline Gap solid_gap(bool round, const Vector& half, const Enclosure& square, co
     half_gap.rate += excess.by * v[axis];
     half_gap.second += excess.outside * (v[axis] * v[axis]) + excess.by * a[axis];
   }
-  if (round) {  // the distance r from the axis beyond the core's radius: (r - a) r' = (1 - a/r) (p.v)
+  if (round) {  // the distance r from the axis beyond the core's radius: (r - a) r' = (1 - a/r)
+                // (p.v)
     const Enclosure distance = sqrt(p[0] * p[0] + p[2] * p[2]), along = p[0] * v[0] + p[2] * v[2];
     const Excess excess(distance, half[0]);
     Enclosure far;
@@ -209,7 +210,7 @@ inline Gap solid_gap(bool round, const Vector& half, const Enclosure& square, co
     half_gap.value += excess.by * excess.by / 2;
     half_gap.rate += share * along;
     half_gap.second += share * (v[0] * v[0] + v[2] * v[2] + p[0] * a[0] + p[2] * a[2]) +
-                       excess.outside * half[0] * (along * along) / (far * far * far);
+        excess.outside * half[0] * (along * along) / (far * far * far);
   }
   return {2 * half_gap.value, 2 * half_gap.rate, 2 * half_gap.second};
 }
@@ -251,10 +252,10 @@ class Walls {
     const auto& [place, velocity, acceleration] = ball;
     if (w.kind == ExactWall::plane)
       return {w.offset - dot<Enclosure>(w.outward, place), -dot<Enclosure>(w.outward, velocity),
-              -dot<Enclosure>(w.outward, acceleration)};
+          -dot<Enclosure>(w.outward, acceleration)};
     const Vector p = w.across(place), u = w.across(velocity), a = w.across(acceleration);
     return {w.offset - squared_norm<Enclosure>(p), -2 * dot<Enclosure>(p, u),
-            -2 * (squared_norm<Enclosure>(u) + dot<Enclosure>(p, a))};
+        -2 * (squared_norm<Enclosure>(u) + dot<Enclosure>(p, a))};
   }
   /// Unit normal, from the wall to a ball that touches it with its centre at `place`.
   Vector normal(std::size_t wall, const Vector& place) const {
@@ -263,7 +264,6 @@ class Walls {
     if (w.is_solid()) return from_core(w.kind == ExactWall::solid_cylinder, w.half, place) / w.room;
     return -w.across(place) / w.room;
   }
-
  private:
   struct Wall {
     ExactWall::Kind kind;
@@ -304,7 +304,6 @@ class WallExclusion {
     std::string text;
     return bisect(wall, 0, 0, text) ? text : "";
   }
-
  private:
   static constexpr int deepest = 14;
   /// The ball in a window: at its middle, and enclosed over all of it.
@@ -364,7 +363,7 @@ struct PairGap {
 
   /// @param reach  R_i + R_j
   PairGap(const Flight& one, const Flight& two, const Enclosure& reach, const Vector& gravity,
-          const Enclosure& time)
+      const Enclosure& time)
       : between(one.position_at(time, gravity) - two.position_at(time, gravity)),
         relative(one.velocity_at(time, gravity) - two.velocity_at(time, gravity)),
         square(reach * reach) {}
@@ -373,8 +372,8 @@ struct PairGap {
 };
 
 /// Whether two flights are proven not to touch from `begin` to `end`.
-inline bool apart(const Flight& one, const Flight& two, const Enclosure& reach, const Vector& gravity,
-                  const Enclosure& begin, const Enclosure& end) {
+inline bool apart(const Flight& one, const Flight& two, const Enclosure& reach,
+    const Vector& gravity, const Enclosure& begin, const Enclosure& end) {
   const PairGap at_begin(one, two, reach, gravity, begin), at_end(one, two, reach, gravity, end);
   const Enclosure value = at_begin.value(), half_rate = at_begin.half_rate();
   if (value.is_positive() && half_rate.is_not_negative()) return true;

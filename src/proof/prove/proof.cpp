@@ -36,14 +36,15 @@ using Law = ContactLaw<Enclosure>;
 /// max(e_n a, v_s)
 Enclosure separation_speed(const Law& law, const Enclosure& approach) {
   Enclosure by_restitution = law.restitution * approach;
-  if (law.least_separation.is_zero() || less(law.least_separation, by_restitution)) return by_restitution;
+  if (law.least_separation.is_zero() || less(law.least_separation, by_restitution))
+    return by_restitution;
   if (less(by_restitution, law.least_separation)) return law.least_separation;
   throw Undecided{"whether the restitution or the least separation speed decides"};
 }
 
 /// (1 - e_t)/c
-Enclosure slip_gain(const Law& law, const Enclosure& change, const Enclosure& slip,
-                    const Enclosure& compliance) {
+Enclosure slip_gain(
+    const Law& law, const Enclosure& change, const Enclosure& slip, const Enclosure& compliance) {
   const Enclosure reversed = 1 - law.tangential;
   if (!law.coulomb) return reversed / compliance;
   if (law.friction.is_zero()) return Enclosure();
@@ -73,15 +74,16 @@ struct Impulse {
 /// @param compliance  c = 1 + M/(m_i J_i) + M/(m_j J_j)
 /// @param in_stall    the impact is frictionless
 /// @throws Undecided
-Impulse impulse(const Law& law, const Vector& normal, const Vector& contact, const Enclosure& compliance,
-                bool in_stall) {
+Impulse impulse(const Law& law, const Vector& normal, const Vector& contact,
+    const Enclosure& compliance, bool in_stall) {
   const Enclosure approach = -dot<Enclosure>(contact, normal);
   if (!approach.is_positive()) throw Undecided{"whether the bodies approach each other"};
   const Enclosure change = approach + separation_speed(law, approach);
   const Vector slip = contact + normal * approach;
   const Enclosure slip_speed = norm<Enclosure>(slip);
   const Enclosure gain = in_stall ? Enclosure() : slip_gain(law, change, slip_speed, compliance);
-  return {normal * change - slip * gain, cross<Enclosure>(normal, slip) * gain, approach, slip_speed};
+  return {
+      normal * change - slip * gain, cross<Enclosure>(normal, slip) * gain, approach, slip_speed};
 }
 
 /// The state of a proof after some events: all balls in flights that enclose the true ones.
@@ -89,9 +91,7 @@ class Prover {
  public:
   /// @param bits  of the numbers that are kept; arithmetic has 64 more
   Prover(const ExactCase& exact, slong bits)
-      : exact_(exact),
-        bits_(bits),
-        coarse_(tools(exact, coarse_bits)),
+      : exact_(exact), bits_(bits), coarse_(tools(exact, coarse_bits)),
         fine_(tools(exact, bits + guard_bits)) {
     const Precision scope(fine_.bits);
     const Pose pose = fine_.motion.pose(Enclosure());
@@ -101,7 +101,7 @@ class Prover {
       if (ball.in_vessel) position = pose.centre + turned(pose.axes, position);
       Track& track = tracks_.emplace_back();
       track.flight = {Enclosure(), blurred(position, bits, false), blurred(velocity, bits, true),
-                      blurred(spin, bits, true)};
+          blurred(spin, bits, true)};
       track.coarse = coarse(track.flight);
     }
   }
@@ -152,7 +152,6 @@ class Prover {
       }
     return least;
   }
-
  private:
   /// The model in one precision.
   struct Tools {
@@ -179,11 +178,12 @@ class Prover {
     const Precision scope(bits);
     Tools result{bits, Motion(exact), enclosure_of(exact.gravity), {}, {}};
     for (const auto& ball : exact.balls)
-      result.balls.push_back({Walls(exact, ball), enclosure_of(ball.radius), enclosure_of(ball.density),
-                              enclosure_of(ball.reduced_inertia)});
+      result.balls.push_back({Walls(exact, ball), enclosure_of(ball.radius),
+          enclosure_of(ball.density), enclosure_of(ball.reduced_inertia)});
     for (const auto& law : exact.laws)
-      result.laws.push_back({law.coulomb, enclosure_of(law.restitution), enclosure_of(law.tangential),
-                             enclosure_of(law.friction), enclosure_of(law.least_separation)});
+      result.laws.push_back(
+          {law.coulomb, enclosure_of(law.restitution), enclosure_of(law.tangential),
+              enclosure_of(law.friction), enclosure_of(law.least_separation)});
     return result;
   }
 
@@ -229,12 +229,12 @@ class Prover {
     for (const double factor : {1.0, 1.25, 2.0}) {
       const auto room = half * Enclosure(factor);
       const slong kept = arf_abs_bound_lt_2exp_si(arb_midref(time.arb())) -
-                         arf_abs_bound_lt_2exp_si(arb_midref(room.arb())) + 14;
+          arf_abs_bound_lt_2exp_si(arb_midref(room.arb())) + 14;
       Enclosure found = rounded(time, std::max<slong>(kept, 8)).middle();
       arb_add_error(found.arb(), room.arb());
       found = rounded_out(found, fine_.bits);
-      if (gap_at(next, found.low()).value.is_positive() && gap_at(next, found.high()).value.is_negative() &&
-          gap_at(next, found).rate.is_negative())
+      if (gap_at(next, found.low()).value.is_positive() &&
+          gap_at(next, found.high()).value.is_negative() && gap_at(next, found).rate.is_negative())
         return found;
     }
     throw Undecided{"when " + name_of(next) + " meet"};
@@ -244,14 +244,15 @@ class Prover {
     const Track& track = tracks_[ball];
     const auto exclusion = [&](const Tools& tools, const Flight& flight) {
       return WallExclusion(tools.motion, tools.balls[ball].walls, tools.gravity,
-                           {flight, track.begin, end, track.wall, end_wall});
+          {flight, track.begin, end, track.wall, end_wall});
     };
     auto first = exclusion(coarse_, track.coarse), second = exclusion(fine_, track.flight);
     std::vector<std::string> texts;
     for (std::size_t wall = 0; wall < exact_.walls.size(); ++wall) {
       auto& text = texts.emplace_back(first.windows(wall, coarse_.bits));
       if (text.empty()) text = second.windows(wall, fine_.bits);
-      if (text.empty()) throw Undecided{fmt::format("whether ball {} meets wall {} before", ball, wall)};
+      if (text.empty())
+        throw Undecided{fmt::format("whether ball {} meets wall {} before", ball, wall)};
     }
     return texts;
   }
@@ -269,7 +270,7 @@ class Prover {
       const auto proven_in = [&](const Tools& tools, Flight Track::*flight) {
         const Precision scope(tools.bits);
         return apart(track.*flight, other.*flight, tools.balls[ball].radius + tools.balls[k].radius,
-                     tools.gravity, begin, end);
+            tools.gravity, begin, end);
       };
       if (!proven_in(coarse_, &Track::coarse) && !proven_in(fine_, &Track::flight))
         throw Undecided{fmt::format("whether balls {} and {} meet before", ball, k)};
@@ -305,7 +306,7 @@ class Prover {
     const bool rests = friction_rests(own, law, time);
     const auto hit = impulse(law, normal, contact, 1 + 1 / ball.inertia, rests);
     const Flight after{middle, position - hit.push * d, velocity + hit.push,
-                       flight.spin + hit.turn * Enclosure(1 / (ball.radius * ball.inertia))};
+        flight.spin + hit.turn * Enclosure(1 / (ball.radius * ball.inertia))};
     return {{next.ball, true, next.partner, time}, hit.approach_speed, hit.slip_speed, {after}, {}};
   }
 
@@ -330,11 +331,11 @@ class Prover {
     const auto hit = impulse(law, normal, contact, compliance, i_rests || j_rests);
     const Vector push_i = hit.push * share_i, push_j = hit.push * share_j;
     const Flight after_i{middle, position[0] - push_i * d, velocity[0] + push_i,
-                         one.spin + hit.turn * Enclosure(share_i / (R_i * J_i))};
+        one.spin + hit.turn * Enclosure(share_i / (R_i * J_i))};
     const Flight after_j{middle, position[1] + push_j * d, velocity[1] - push_j,
-                         two.spin + hit.turn * Enclosure(share_j / (R_j * J_j))};
-    return {
-        {next.ball, false, next.partner, time}, hit.approach_speed, hit.slip_speed, {after_i, after_j}, {}};
+        two.spin + hit.turn * Enclosure(share_j / (R_j * J_j))};
+    return {{next.ball, false, next.partner, time}, hit.approach_speed, hit.slip_speed,
+        {after_i, after_j}, {}};
   }
 
   void follow(const ProvenEvent& event) {
@@ -349,8 +350,10 @@ class Prover {
       track.wall = event.with_wall ? event.partner : -1;
       track.with = event.with_wall ? -1 : k == 0 ? event.partner : event.ball;
     }
-    if (!event.with_wall && !gap_at({event.ball, false, event.partner, {}}, event.time).rate.is_positive())
-      throw Undecided{fmt::format("whether balls {} and {} leave each other", event.ball, event.partner)};
+    if (!event.with_wall &&
+        !gap_at({event.ball, false, event.partner, {}}, event.time).rate.is_positive())
+      throw Undecided{
+          fmt::format("whether balls {} and {} leave each other", event.ball, event.partner)};
     last_end_ = event.time.high();
     ++events_;
   }
@@ -371,7 +374,8 @@ struct Impossible {
 };
 
 /// Proves events with this number of bits until one is undecided. @return true if all are proven
-bool attempt(Proof& proof, const std::vector<Meeting>& next, slong bits, const ProofOptions& options) {
+bool attempt(
+    Proof& proof, const std::vector<Meeting>& next, slong bits, const ProofOptions& options) {
   Prover prover(proof.exact, bits);
   Attempt& result = proof.attempts.emplace_back(Attempt{bits, 0, ""});
   proof.events.clear();
@@ -402,18 +406,18 @@ std::vector<Meeting> candidates(const casefile::CaseSpec& spec, const ProofOptio
     events.insert(events.end(), taken.begin(), taken.end());
     Interruption::check();
     if (taken.empty())
-      throw InputError(fmt::format("{}: the case ends after {} collisions, {} are requested", spec.file,
-                                   events.size(), collisions));
+      throw InputError(fmt::format("{}: the case ends after {} collisions, {} are requested",
+          spec.file, events.size(), collisions));
   }
   const Precision scope(1024);
   const Enclosure start = enclosure_of(spec.initial_time);
   std::vector<Meeting> list;
   for (const auto& event : events) {
     if (event.by_rule)
-      throw Impossible{
-          fmt::format("event {}, {} at {} s, has another contact of its ball at the same time: the equations "
-                      "do not say what comes next",
-                      list.size(), name_of(event), event.time.str(17))};
+      throw Impossible{fmt::format(
+          "event {}, {} at {} s, has another contact of its ball at the same time: the equations "
+          "do not say what comes next",
+          list.size(), name_of(event), event.time.str(17))};
     Enclosure time;
     arf_set_mpfr(arb_midref(time.arb()), event.time.data());
     list.push_back({event.ball, event.with_wall, event.partner, Enclosure(time - start).middle()});
@@ -432,10 +436,10 @@ Proof prove(const casefile::CaseSpec& spec, const ProofOptions& options) {
     const auto next = candidates(spec, options);
     for (slong bits = first_bits; !attempt(proof, next, bits, options); bits *= 2)
       if (2 * bits > options.most_bits)
-        throw Impossible{
-            fmt::format("event {}: {} bits do not decide {}; the contacts may be simultaneous, or the widest "
-                        "scalar has lost the sequence",
-                        proof.attempts.back().events, bits, proof.attempts.back().undecided)};
+        throw Impossible{fmt::format(
+            "event {}: {} bits do not decide {}; the contacts may be simultaneous, or the widest "
+            "scalar has lost the sequence",
+            proof.attempts.back().events, bits, proof.attempts.back().undecided)};
     // A certificate need not be longer than the proof requires.
     const slong sure = proof.bits, enough = (sure - proof.accuracy + spare_bits + 31) / 32 * 32;
     if (enough < sure && enough > first_bits && !attempt(proof, next, enough, options))

@@ -61,11 +61,11 @@ Proof prove(const casefile::CaseSpec& spec, const ProofOptions& options);
 void write_certificate(std::ostream& out, const Proof& proof);
 
 /// The differences between the header of a certificate and this case, a line each:
-/// "/balls/0/radius: found "1/250", expected "119/25000"". Name, digest, bits and number of events are
-/// not compared: what is proven follows from the rest. @param name  of the file, for messages
+/// "/balls/0/radius: found "1/250", expected "119/25000"". Name, digest, bits and number of events
+/// are not compared: what is proven follows from the rest. @param name  of the file, for messages
 /// @throws InputError when the file is not a certificate, or its header contains a key twice
-std::vector<std::string> other_case(std::istream& certificate, const std::string& name,
-                                    const ExactCase& exact);
+std::vector<std::string> other_case(
+    std::istream& certificate, const std::string& name, const ExactCase& exact);
 
 /// CSV for readers: index, time, bodies, approach and slip speed, each with its radius.
 void write_events(std::ostream& out, const Proof& proof, int digits);

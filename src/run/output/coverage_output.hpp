@@ -11,21 +11,17 @@
 namespace edmill::output {
 
 /// Surface area of a ball [m2].
-template <class Real>
-Real ball_area(const Simulation<Real>& simulation, int ball) {
+template <class Real> Real ball_area(const Simulation<Real>& simulation, int ball) {
   const Real& radius = simulation.properties(ball).radius;
   return 4 * numerics::pi<Real>() * radius * radius;
 }
 
 /// Dose of each ball and each wall: half of the dose of an impact counts for either body.
-template <class Real>
-class BodiesOutput : public TableOutput<Real> {
+template <class Real> class BodiesOutput : public TableOutput<Real> {
  public:
   BodiesOutput(const OutputSpec& spec, const RunContext<Real>& run)
-      : TableOutput<Real>(spec, run),
-        on_balls_(run.ball_colours.size()),
+      : TableOutput<Real>(spec, run), on_balls_(run.ball_colours.size()),
         on_walls_(run.surfaces(spec).size() + run.bodies.size()) {}
-
  protected:
   void archive_record(Archive& a) override { a(on_balls_, on_walls_); }
 
@@ -36,26 +32,26 @@ class BodiesOutput : public TableOutput<Real> {
   }
 
   void end_of_record(const Simulation<Real>& simulation, const Real& until) override {
-    this->begin({{"kind", text, "", "ball or wall"},
-                 {"body", integer, "", "its number"},
-                 {"impacts", integer, "1", "of the body"},
-                 {"dose", number, "J", "half of that of its impacts"},
-                 {"dose_rate", number, "W", "the same per second of the record"},
-                 {"area", number, "m2", "of its surface"}},
-                {this->window(until)});
+    this->begin({{"kind", text, "", "ball or wall"}, {"body", integer, "", "its number"},
+                    {"impacts", integer, "1", "of the body"},
+                    {"dose", number, "J", "half of that of its impacts"},
+                    {"dose_rate", number, "W", "the same per second of the record"},
+                    {"area", number, "m2", "of its surface"}},
+        {this->window(until)});
     const Real time = until - this->timer().from();
-    const auto put = [&](const char* kind, std::size_t body, const Tally<Real>& share, const Real& area) {
+    const auto put = [&](const char* kind, std::size_t body, const Tally<Real>& share,
+                         const Real& area) {
       const Real dose = share.energy.value();
-      this->put(kind, body, share.impacts, dose, io::value_if(time > 0, [&] { return Real(dose / time); }),
-                area);
+      this->put(kind, body, share.impacts, dose,
+          io::value_if(time > 0, [&] { return Real(dose / time); }), area);
     };
-    for (int k = 0; k < simulation.ball_count(); ++k) put("ball", k, on_balls_[k], ball_area(simulation, k));
+    for (int k = 0; k < simulation.ball_count(); ++k)
+      put("ball", k, on_balls_[k], ball_area(simulation, k));
     const auto& walls = this->run.walls;
     for (std::size_t k = 0; k < on_walls_.size(); ++k)
       put("wall", k, on_walls_[k],
           k < walls.size() ? walls[k].area() : this->run.bodies[k - walls.size()].shape.area());
   }
-
  private:
   std::vector<Tally<Real>> on_balls_, on_walls_;
 };
@@ -77,8 +73,7 @@ struct CoverageKeys {
 };
 
 /// The walls of a vessel and the parts of its bodies, in columns of equal parts of u and rows of v.
-template <class Real>
-class WallCells {
+template <class Real> class WallCells {
  public:
   struct Wall {
     model::WallSurface<Real> surface;
@@ -86,7 +81,9 @@ class WallCells {
     std::size_t first;  ///< of its cells
     int id, part;       ///< of the wall, and the number of its part if it is a body
 
-    std::size_t cell(std::size_t column, std::size_t row) const { return first + row * columns + column; }
+    std::size_t cell(std::size_t column, std::size_t row) const {
+      return first + row * columns + column;
+    }
     bool has(model::Coordinate c) const {
       const auto own = surface.coordinates();
       return surface.has_coordinates() && std::find(own.begin(), own.end(), c) != own.end();
@@ -94,7 +91,8 @@ class WallCells {
     Real area_of_cell() const { return surface.area() / (Real(columns) * Real(rows)); }
   };
 
-  WallCells(const OutputSpec& spec, const RunContext<Real>& run, const CoverageKeys& keys) : keys_(keys) {
+  WallCells(const OutputSpec& spec, const RunContext<Real>& run, const CoverageKeys& keys)
+      : keys_(keys) {
     int id = 0;
     for (const auto& surface : run.surfaces(spec)) add(surface, id++, 0);
     for (const auto& body : run.bodies) {
@@ -114,13 +112,13 @@ class WallCells {
     const auto* body = mill.body_of(partner);
     if (!body)
       return cell_at(walls_[partner],
-                     mill.motion.position_in_vessel(mill.motion.pose(f.impact.time), f.contact_point));
+          mill.motion.position_in_vessel(mill.motion.pose(f.impact.time), f.contact_point));
     const auto pose = body->motion.pose(f.impact.time);
-    const auto centre = body->motion.position_in_vessel(pose, f.simulation.flight(f.impact.ball).position);
+    const auto centre =
+        body->motion.position_in_vessel(pose, f.simulation.flight(f.impact.ball).position);
     const auto part = first_part_[partner - mill.vessel.wall_count()] + body->shape.part_at(centre);
     return cell_at(walls_[part], body->motion.position_in_vessel(pose, f.contact_point));
   }
-
  private:
   void add(const model::WallSurface<Real>& surface, int id, int part) {
     const auto c = surface.coordinates();
@@ -151,12 +149,10 @@ class WallCells {
 };
 
 /// Dose and impacts by cells of the vessel's walls and the surfaces of bodies.
-template <class Real>
-class CoverageOutput : public TableOutput<Real> {
+template <class Real> class CoverageOutput : public TableOutput<Real> {
  public:
   CoverageOutput(const OutputSpec& spec, const RunContext<Real>& run)
-      : TableOutput<Real>(spec, run),
-        walls_(spec, run, spec.own_keys<CoverageKeys>()),
+      : TableOutput<Real>(spec, run), walls_(spec, run, spec.own_keys<CoverageKeys>()),
         cells_(walls_.count()) {
     const auto& walls = walls_.walls();
     for (std::size_t k = 0; k < model::coordinate_infos.size(); ++k) {
@@ -165,7 +161,6 @@ class CoverageOutput : public TableOutput<Real> {
         coordinates_.push_back(c);
     }
   }
-
  protected:
   void archive_record(Archive& a) override { a(cells_); }
 
@@ -180,12 +175,13 @@ class CoverageOutput : public TableOutput<Real> {
     std::vector<Column> columns{{"wall", integer, "", wall_names(simulation.mill().walls())}};
     if (!this->run.bodies.empty())
       columns.push_back({"part", integer, "",
-                         "of a body: of a box the faces x-, x+, y-, y+, z-, z+ and its rounded edges; of a "
-                         "cylinder the lower and upper edge, the side, the lower and upper end"});
+          "of a body: of a box the faces x-, x+, y-, y+, z-, z+ and its rounded edges; of a "
+          "cylinder the lower and upper edge, the side, the lower and upper end"});
     for (const auto c : coordinates_) {
       const auto& info = model::info_of(c);
       for (const char* end : {"_low", "_high"})
-        columns.push_back({std::string(info.name) + end, number, info.unit, info.meaning + where_none(c)});
+        columns.push_back(
+            {std::string(info.name) + end, number, info.unit, info.meaning + where_none(c)});
     }
     columns.push_back({"area", number, "m2", "area of the cell"});
     columns.push_back({"impacts", integer, "1", "number of impacts"});
@@ -196,7 +192,6 @@ class CoverageOutput : public TableOutput<Real> {
       for (std::size_t row = 0; row < wall.rows; ++row)
         for (std::size_t column = 0; column < wall.columns; ++column) write_cell(wall, column, row);
   }
-
  private:
   struct Cell {
     std::uint64_t impacts = 0;
@@ -228,12 +223,14 @@ class CoverageOutput : public TableOutput<Real> {
       const bool along_u = wall.surface.coordinates()[0] == c;
       const std::size_t part = along_u ? column : row, parts = along_u ? wall.columns : wall.rows;
       for (const std::size_t edge : {part, part + 1})
-        this->put(io::value_if(wall.has(c), [&] { return wall.surface.edge(along_u ? 0 : 1, edge, parts); }));
+        this->put(io::value_if(
+            wall.has(c), [&] { return wall.surface.edge(along_u ? 0 : 1, edge, parts); }));
     }
     const Real area = wall.area_of_cell();
     const auto& cell = cells_[wall.cell(column, row)];
     // A wall can have no area, such as the cylinder of a capsule that is as high as wide.
-    this->put(area, cell.impacts, cell.dose, io::value_if(area > 0, [&] { return Real(cell.dose / area); }));
+    this->put(area, cell.impacts, cell.dose,
+        io::value_if(area > 0, [&] { return Real(cell.dose / area); }));
   }
 
   WallCells<Real> walls_;
@@ -247,10 +244,12 @@ struct TreatmentKeys {
   CoverageKeys cells;
 
   static void keys(auto& t, auto&& row) {
-    row({"share_per_impact", "fraction of the powder's volume that one impact works", Range(1e-12, 1)},
+    row({"share_per_impact", "fraction of the powder's volume that one impact works",
+            Range(1e-12, 1)},
         t.share);
-    row({"threshold", Dimension::energy, "lowest energy that an impact must dissipate to work powder",
-         model::Range::not_negative, "0 J"},
+    row({"threshold", Dimension::energy,
+            "lowest energy that an impact must dissipate to work powder",
+            model::Range::not_negative, "0 J"},
         t.threshold);
     row({"most", "largest number of hits with a row of its own", table_size, "10"}, t.most);
     CoverageKeys::keys(t.cells, row);
@@ -258,8 +257,7 @@ struct TreatmentKeys {
 };
 
 /// exp(-x) with the same bits on every machine.
-template <class Real>
-Real exp_of_minus(const Real& x) {
+template <class Real> Real exp_of_minus(const Real& x) {
   if constexpr (std::is_same_v<Real, double>) {
     return static_cast<double>(exp(-mpfr50(x)));
   } else {
@@ -271,18 +269,13 @@ Real exp_of_minus(const Real& x) {
 /// Counts impacts on each ball and each cell of the walls. If powder is mixed between impacts, each
 /// impact hits it with the same probability: the number of hits has Poisson's distribution (Delogu
 /// and Cocco). If powder stays in place, in an even layer, the mean is that of its own patch.
-template <class Real>
-class TreatmentOutput : public TableOutput<Real> {
+template <class Real> class TreatmentOutput : public TableOutput<Real> {
  public:
   TreatmentOutput(const OutputSpec& spec, const RunContext<Real>& run)
-      : TableOutput<Real>(spec, run),
-        keys_(spec.own_keys<TreatmentKeys>()),
-        share_(keys_.share.template to<Real>()),
-        threshold_(keys_.threshold.template to<Real>()),
-        walls_(spec, run, keys_.cells),
-        on_walls_(walls_.count()),
+      : TableOutput<Real>(spec, run), keys_(spec.own_keys<TreatmentKeys>()),
+        share_(keys_.share.template to<Real>()), threshold_(keys_.threshold.template to<Real>()),
+        walls_(spec, run, keys_.cells), on_walls_(walls_.count()),
         on_balls_(run.ball_colours.size()) {}
-
  protected:
   void archive_record(Archive& a) override { a(on_walls_, on_balls_, impacts_); }
 
@@ -298,10 +291,11 @@ class TreatmentOutput : public TableOutput<Real> {
 
   void end_of_record(const Simulation<Real>& simulation, const Real& until) override {
     this->begin(
-        {{"hits", text, "", "how often powder has been hit; the last row is of all that was hit more often"},
-         {"mixed", number, "1", "part of the powder that was, if it is mixed between impacts"},
-         {"in_place", number, "1",
-          "part of the powder that was, if it stays in an even layer on balls and walls"}},
+        {{"hits", text, "",
+             "how often powder has been hit; the last row is of all that was hit more often"},
+            {"mixed", number, "1", "part of the powder that was, if it is mixed between impacts"},
+            {"in_place", number, "1",
+                "part of the powder that was, if it stays in an even layer on balls and walls"}},
         {this->window(until), std::to_string(impacts_) + " impacts that work powder"});
     std::vector<Real> mixed(keys_.most + 1), in_place(keys_.most + 1);
     add_poisson(share_ * Real(impacts_), Real(1), mixed);
@@ -318,9 +312,9 @@ class TreatmentOutput : public TableOutput<Real> {
       more_mixed -= mixed[hits];
       more_in_place -= in_place[hits];
     }
-    this->put("more", more_mixed > 0 ? more_mixed : Real(0), more_in_place > 0 ? more_in_place : Real(0));
+    this->put(
+        "more", more_mixed > 0 ? more_mixed : Real(0), more_in_place > 0 ? more_in_place : Real(0));
   }
-
  private:
   /// Calls f(area [m2], impacts) for each cell of the walls and each ball.
   void for_each_patch(const Simulation<Real>& simulation, auto&& f) const {

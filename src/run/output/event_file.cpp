@@ -42,7 +42,8 @@ std::string bytes_of_chunk(hid_t set, hsize_t row, std::uint64_t size) {
 }
 
 /// Appends a chunk of another file without changing it.
-void append_chunk(hid_t set, std::size_t width, hsize_t before, hsize_t rows, const std::string& bytes) {
+void append_chunk(
+    hid_t set, std::size_t width, hsize_t before, hsize_t rows, const std::string& bytes) {
   const hsize_t size[2] = {before + rows, width}, offset[2] = {before, 0};
   hdf5_check(H5Dset_extent(set, size));
   hdf5_check(H5Dwrite_chunk(set, H5P_DEFAULT, 0, offset, bytes.size(), bytes.data()));
@@ -69,8 +70,7 @@ struct EventFile::Data {
   Sha256 digest;  ///< of the blocks as written in the file
 
   /// Calls `work`, which uses HDF5; a failure is reported with the file's name.
-  template <class Work>
-  void with_name(const Work& work) const {
+  template <class Work> void with_name(const Work& work) const {
     try {
       work();
     } catch (const io::Hdf5Error& error) {
@@ -85,8 +85,8 @@ struct EventFile::Data {
     for (auto& column : given) {
       Column& c = columns.emplace_back(Column{.what = std::move(column)});
       const bool integer = c.what.type == EventColumn::Type::integer;
-      c.set.emplace(io::make_set(*group, c.what.name, integer ? H5T_STD_I64LE : H5T_IEEE_F64LE, c.width(),
-                                 block, integer));
+      c.set.emplace(io::make_set(*group, c.what.name, integer ? H5T_STD_I64LE : H5T_IEEE_F64LE,
+          c.width(), block, integer));
       io::note(*c.set, "unit", c.what.unit);
       io::note(*c.set, "description", c.what.description);
     }
@@ -94,8 +94,8 @@ struct EventFile::Data {
   void write_block() {
     for (auto& c : columns) {
       const bool integer = c.what.type == EventColumn::Type::integer;
-      io::append(*c.set, integer ? H5T_NATIVE_INT64 : H5T_NATIVE_DOUBLE, c.width(), written, waiting,
-                 integer ? static_cast<const void*>(c.integers.data()) : c.numbers.data());
+      io::append(*c.set, integer ? H5T_NATIVE_INT64 : H5T_NATIVE_DOUBLE, c.width(), written,
+          waiting, integer ? static_cast<const void*>(c.integers.data()) : c.numbers.data());
       c.integers.clear();
       c.numbers.clear();
       c.chunks.push_back(place_of_chunk(*c.set, written));
@@ -110,22 +110,24 @@ struct EventFile::Data {
     std::error_code none;
     const auto size = std::filesystem::file_size(from, none);
     if (none && rows > 0)
-      throw InputError(destination.named.string() + ": no such file: restore the one that the run left");
+      throw InputError(
+          destination.named.string() + ": no such file: restore the one that the run left");
     std::string bytes;
     for (written = 0; written < rows; written += block)
       for (auto& c : columns) {
         const ChunkPlace& chunk = c.chunks.at(written / block);
         if (chunk.at > size || chunk.size > size - chunk.at)
-          throw InputError(
-              destination.named.string() +
-              ": the file ends before a block of the checkpoint: restore the files as the run left them");
+          throw InputError(destination.named.string() +
+              ": the file ends before a block of the checkpoint: restore the files as the run left "
+              "them");
         bytes.resize(chunk.size);
         in.seekg(static_cast<std::streamoff>(chunk.at));
         if (!in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
           throw std::runtime_error(from.string() + ": could not be read");
         digest.add(bytes);
         append_chunk(*c.set, c.width(), written, block, bytes);
-        EDMILL_REQUIRE(place_of_chunk(*c.set, written) == chunk, "a block has the place that it had");
+        EDMILL_REQUIRE(
+            place_of_chunk(*c.set, written) == chunk, "a block has the place that it had");
       }
   }
   void close() {
@@ -136,7 +138,7 @@ struct EventFile::Data {
 };
 
 EventFile::EventFile(const std::filesystem::path& place, std::vector<EventColumn> columns,
-                     const std::vector<io::FileNote>& notes)
+    const std::vector<io::FileNote>& notes)
     : data_(new Data(place)) {
   io::hdf5_begin();
   data_->with_name([&] { data_->begin(std::move(columns), notes); });
@@ -147,17 +149,20 @@ EventFile::~EventFile() { data_->close(); }
 void EventFile::add(std::size_t column, std::int64_t value) {
   data_->columns[column].integers.push_back(value);
 }
-void EventFile::add(std::size_t column, double value) { data_->columns[column].numbers.push_back(value); }
+void EventFile::add(std::size_t column, double value) {
+  data_->columns[column].numbers.push_back(value);
+}
 
 void EventFile::end_row() {
   if (++data_->waiting == block) data_->with_name([&] { data_->write_block(); });
 }
 
-void EventFile::add_table(const std::string& name, const std::string& unit, const std::string& description,
-                          const std::vector<double>& values, std::size_t width) {
+void EventFile::add_table(const std::string& name, const std::string& unit,
+    const std::string& description, const std::vector<double>& values, std::size_t width) {
   data_->with_name([&] {
     const hsize_t rows = values.size() / width;
-    const Handle set = io::make_set(*data_->file, name, H5T_IEEE_F64LE, width, rows > 0 ? rows : 1, false);
+    const Handle set =
+        io::make_set(*data_->file, name, H5T_IEEE_F64LE, width, rows > 0 ? rows : 1, false);
     io::note(set, "unit", unit);
     io::note(set, "description", description);
     io::append(set, H5T_NATIVE_DOUBLE, width, 0, rows, values.data());
@@ -186,8 +191,8 @@ void EventFile::archive(Archive& a) {
   for (auto& c : d.columns) a(c.integers, c.numbers, c.chunks);
   for (const auto& c : d.columns)
     if (a.loading() && (rows % block != 0 || c.chunks.size() != rows / block))
-      throw InputError(d.destination.named.string() +
-                       ": the checkpoint has blocks for another number of rows");
+      throw InputError(
+          d.destination.named.string() + ": the checkpoint has blocks for another number of rows");
   std::string digest = d.digest.hex();
   a(digest);
   const auto left = d.destination.archive(a);

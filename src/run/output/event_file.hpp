@@ -15,7 +15,11 @@ namespace edmill::output {
 
 /// A column of the log.
 struct EventColumn {
-  enum class Type { integer, number, vector };  ///< 64-bit integer, 64-bit number, three of those a row
+  enum class Type {
+    integer,
+    number,
+    vector
+  };  ///< 64-bit integer, 64-bit number, three of those a row
   std::string name, unit, description;
   Type type;
 };
@@ -25,7 +29,7 @@ struct EventColumn {
 class EventFile : public io::WholeFile {
  public:
   EventFile(const std::filesystem::path& place, std::vector<EventColumn> columns,
-            const std::vector<io::FileNote>& notes);
+      const std::vector<io::FileNote>& notes);
   EventFile(const EventFile&) = delete;
   EventFile& operator=(const EventFile&) = delete;
   ~EventFile() override;
@@ -37,7 +41,7 @@ class EventFile : public io::WholeFile {
 
   /// A table of its own beside the events: rows of `width` numbers.
   void add_table(const std::string& name, const std::string& unit, const std::string& description,
-                 const std::vector<double>& values, std::size_t width);
+      const std::vector<double>& values, std::size_t width);
 
   /// Writes the remaining rows. @throws std::runtime_error when anything was not written
   void complete();
@@ -51,7 +55,6 @@ class EventFile : public io::WholeFile {
   /// checkpoint.
   /// @throws InputError when the blocks there differ in any byte
   void archive(Archive& a);
-
  private:
   struct Data;
   std::unique_ptr<Data> data_;

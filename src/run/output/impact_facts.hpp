@@ -14,8 +14,7 @@
 namespace edmill::output {
 
 /// One of the two bodies of an impact. A wall has only a velocity, at the contact point.
-template <class Real>
-struct ImpactBody {
+template <class Real> struct ImpactBody {
   const model::BallProperties<Real>* ball = nullptr;  ///< null for a wall
   Vec3<Real> velocity_before = Vec3<Real>::Zero(),
              velocity_after = Vec3<Real>::Zero();  ///< of the centre, inertial frame [m/s]
@@ -27,7 +26,7 @@ struct ImpactBody {
   }
   Real spin_energy(const Vec3<Real>& spin) const {
     return ball ? Real(ball->reduced_inertia * ball->mass * ball->radius * ball->radius / 2 *
-                       squared_norm<Real>(spin))
+                      squared_norm<Real>(spin))
                 : Real(0);
   }
 };
@@ -65,10 +64,9 @@ Real path_length(const Vec3<Real>& velocity, const Vec3<Real>& gravity, const Re
   return arc / (2 * strength);
 }
 
-/// One impact, for outputs and for the formulas of model/impact_variables.def. Before and after mean just
-/// before and just after the impact.
-template <class Real>
-struct ImpactFacts {
+/// One impact, for outputs and for the formulas of model/impact_variables.def. Before and after
+/// mean just before and just after the impact.
+template <class Real> struct ImpactFacts {
   const engine::Impact<Real>& impact;
   const engine::Simulation<Real>& simulation;  ///< just after the impact
   Real time_previous;  ///< of the last impact of any ball, or the start of the run [s]
@@ -79,10 +77,10 @@ struct ImpactFacts {
   const Vec3<Real>& normal = impact.normal;
   ImpactBody<Real> one = body(0, impact.ball);  ///< the ball
   ImpactBody<Real> two = impact.with_wall
-                             ? ImpactBody<Real>{nullptr, impact.wall_velocity, impact.wall_velocity}
-                             : body(1, impact.partner);  ///< its partner
-  Vec3<Real> contact_point =
-      simulation.flight(impact.ball).position - impact.normal * one.ball->radius;  ///< inertial frame [m]
+      ? ImpactBody<Real>{nullptr, impact.wall_velocity, impact.wall_velocity}
+      : body(1, impact.partner);  ///< its partner
+  Vec3<Real> contact_point = simulation.flight(impact.ball).position -
+      impact.normal * one.ball->radius;  ///< inertial frame [m]
 
   Vec3<Real> relative_before() const { return one.velocity_before - two.velocity_before; }
   Vec3<Real> relative_after() const { return one.velocity_after - two.velocity_after; }
@@ -98,39 +96,42 @@ struct ImpactFacts {
     const Real part = dot<Real>(v, normal);
     return part < 0 ? Real(-part) : part;
   }
-  Real tangential_size(const Vec3<Real>& v) const { return norm<Real>(v - normal * dot<Real>(v, normal)); }
+  Real tangential_size(const Vec3<Real>& v) const {
+    return norm<Real>(v - normal * dot<Real>(v, normal));
+  }
   /// Angle between the normal and a velocity, 0 to pi; 0 for a velocity of zero [rad].
   Real angle(const Vec3<Real>& v) const {
     const Real across = tangential_size(v), along = dot<Real>(v, normal);
     return across == 0 && along == 0 ? Real(0) : numerics::angle_between<Real>(across, along);
   }
-  static Real energy(const ImpactBody<Real>& body, const Vec3<Real>& velocity, const Vec3<Real>& spin) {
+  static Real energy(
+      const ImpactBody<Real>& body, const Vec3<Real>& velocity, const Vec3<Real>& spin) {
     return body.translational_energy(velocity) + body.spin_energy(spin);
   }
   Real free_path(const ImpactBody<Real>& body) const {
     return body.ball ? path_length<Real>(body.velocity_before, gravity, body.flight_time) : Real(0);
   }
 
-  /// State of a ball just before the impact, or at an instant since the previous one. The simulation itself
-  /// already has the states after the impact.
+  /// State of a ball just before the impact, or at an instant since the previous one. The
+  /// simulation itself already has the states after the impact.
   /// @param at  not before the last impact, not after the present one [s]
   model::BallState<Real> state_before(int ball, const Real& at) const {
     const bool is_one = ball == impact.ball, is_two = !impact.with_wall && ball == impact.partner;
     if (!is_one && !is_two) return simulation.state_at(ball, simulation.clock().at(at));
     const auto& own = is_one ? one : two;
     const Real back = time - at;
-    return {simulation.flight(ball).position - own.velocity_before * back + gravity * (back * back / 2),
-            own.velocity_before - gravity * back, own.spin_before};
+    return {
+        simulation.flight(ball).position - own.velocity_before * back + gravity * (back * back / 2),
+        own.velocity_before - gravity * back, own.spin_before};
   }
-
  private:
   ImpactBody<Real> body(int place, int ball) const {
     return {.ball = &simulation.properties(ball),
-            .velocity_before = impact.velocity_before[place],
-            .velocity_after = simulation.flight(ball).velocity,
-            .spin_before = impact.spin_before[place],
-            .spin_after = simulation.spin(ball),
-            .flight_time = impact.flight_time[place]};
+        .velocity_before = impact.velocity_before[place],
+        .velocity_after = simulation.flight(ball).velocity,
+        .spin_before = impact.spin_before[place],
+        .spin_after = simulation.spin(ball),
+        .flight_time = impact.flight_time[place]};
   }
   Vec3<Real> rolling(const Vec3<Real>& spin_one, const Vec3<Real>& spin_two) const {
     const Vec3<Real> first = spin_one * one.ball->radius;
@@ -139,15 +140,14 @@ struct ImpactFacts {
 };
 
 /// Evaluates a variable of model::impact_variables by its formula; 0 or 1 for a flag.
-template <class Real>
-using VariableFormula = Real (*)(const ImpactFacts<Real>&);
+template <class Real> using VariableFormula = Real (*)(const ImpactFacts<Real>&);
 
-template <class Real>
-VariableFormula<Real> variable_formula(int place) {
+template <class Real> VariableFormula<Real> variable_formula(int place) {
   using Facts = ImpactFacts<Real>;
 #define EDMILL_FLAG(name, thesis, meaning, formula) \
   [](const Facts& f) -> Real { return (static_cast<void>(f), (formula) ? Real(1) : Real(0)); },
-#define EDMILL_COUNT(name, thesis, meaning, formula) [](const Facts& f) -> Real { return Real(formula); },
+#define EDMILL_COUNT(name, thesis, meaning, formula) \
+  [](const Facts& f) -> Real { return Real(formula); },
 #define EDMILL_VARIABLE(name, thesis, unit, meaning, formula) \
   [](const Facts& f) -> Real { return Real(formula); },
   static constexpr std::array<VariableFormula<Real>, model::impact_variables.size()> formulas{

@@ -18,41 +18,39 @@ struct LyapunovKeys {
 
   static void keys(auto& output, auto&& row) {
     row(Parameter{"interval", Dimension::time,
-                  "length of an interval for finite-time exponents: a row with the growth in each "
-                  "one, in place of the table of exponents",
-                  Range::positive}
+            "length of an interval for finite-time exponents: a row with the growth in each "
+            "one, in place of the table of exponents",
+            Range::positive}
             .usually("the whole record"),
         output.timer.interval);
     row(max_rows_key(), output.timer.max_rows);
-    row(
-        Parameter{
-            "exponents",
-            "number of exponents, the largest first; N balls have 9 N, and a larger number means all of them",
+    row(Parameter{"exponents",
+            "number of exponents, the largest first; N balls have 9 N, and a larger number means "
+            "all of them",
             Range(1, 9000), "1"},
         output.template make_own<LyapunovKeys>().exponents);
   }
   static void check(Section& s, const CaseSpec&, OutputSpec& output) {
-    s.require(output.only.empty(), "only", "no restriction: exponents describe the motion of all balls");
+    s.require(
+        output.only.empty(), "only", "no restriction: exponents describe the motion of all balls");
   }
 };
 
 /// Tangent directions evolve in double for every scalar: exponents need few digits.
-template <class Real>
-class LyapunovOutput : public TableOutput<Real> {
+template <class Real> class LyapunovOutput : public TableOutput<Real> {
  public:
   LyapunovOutput(const OutputSpec& spec, const RunContext<Real>& run)
       : TableOutput<Real>(spec, run),
-        wanted_(
-            std::min<std::uint64_t>(spec.own_keys<LyapunovKeys>().exponents, 9 * run.ball_colours.size())),
+        wanted_(std::min<std::uint64_t>(
+            spec.own_keys<LyapunovKeys>().exponents, 9 * run.ball_colours.size())),
         intervals_(spec.timer) {
     if (!spec.timer.interval) return;
     std::vector<Column> columns{{"time", number, "s", "end of the interval"}};
     for (std::uint64_t k = 1; k <= wanted_; ++k)
       columns.push_back({"exponent_" + std::to_string(k), number, "1/s",
-                         "growth of ln of the distance of motions nearby, over the interval"});
+          "growth of ln of the distance of motions nearby, over the interval"});
     this->begin(std::move(columns));
   }
-
  protected:
   void archive_record(Archive& a) override {
     if (spectrum_) saved_ = spectrum_->state();
@@ -66,13 +64,14 @@ class LyapunovOutput : public TableOutput<Real> {
     const auto& simulation = f.simulation;
     const auto& impact = f.impact;
     if (!spectrum_)
-      make_spectrum(simulation, in_double(simulation.clock().after(impact.time, -impact.flight_time[0])));
+      make_spectrum(
+          simulation, in_double(simulation.clock().after(impact.time, -impact.flight_time[0])));
     const tangent::ImpactAt at{in_double(impact.time), vector_cast<double>(impact.normal),
-                               static_cast<double>(impact.outcome.approach_speed), impact.outcome.in_stall};
+        static_cast<double>(impact.outcome.approach_speed), impact.outcome.in_stall};
     const auto body = [&](int place, int ball) {
       const auto& flight = simulation.flight(ball);
-      return tangent::Struck{
-          ball, vector_cast<double>(flight.position), vector_cast<double>(impact.velocity_before[place]),
+      return tangent::Struck{ball, vector_cast<double>(flight.position),
+          vector_cast<double>(impact.velocity_before[place]),
           vector_cast<double>(impact.spin_before[place]), vector_cast<double>(flight.velocity)};
     };
     begin_record(simulation, f.time);
@@ -98,41 +97,44 @@ class LyapunovOutput : public TableOutput<Real> {
     if (begun_ && !ended_) end_record(simulation, until);
     if (!this->spec.timer.interval) put_exponents(simulation, until);
   }
-
  private:
   /// The exponents of the record.
   void put_exponents(const Simulation<Real>& simulation, const Real& until) {
     const double period = static_cast<double>(simulation.clock().period());
     const double duration = begun_ ? static_cast<double>(batches_.elapsed()) * period : 0;
-    std::vector<std::string> comments{
-        this->window(until), std::to_string(collisions_) + " impacts, of which " + std::to_string(touched_) +
-                                 " at the least separation speed"};
-    if (!(duration > 0)) comments.push_back("no exponents: the record is shorter than a drive period");
+    std::vector<std::string> comments{this->window(until),
+        std::to_string(collisions_) + " impacts, of which " + std::to_string(touched_) +
+            " at the least separation speed"};
+    if (!(duration > 0))
+      comments.push_back("no exponents: the record is shorter than a drive period");
     this->begin({{"exponent", integer, "", "the largest is 1"},
-                 {"per_second", number, "1/s", "growth of ln of the distance of motions nearby"},
-                 {"half_width", number, "1/s", "of the 95 % interval, from batches of whole drive periods"},
-                 {"per_collision", number, "1", "the same for each collision of a ball"},
-                 {"digits_per_impact", number, "1",
-                  "decimal digits that an impact of the run costs in this direction"}},
-                std::move(comments));
+                    {"per_second", number, "1/s", "growth of ln of the distance of motions nearby"},
+                    {"half_width", number, "1/s",
+                        "of the 95 % interval, from batches of whole drive periods"},
+                    {"per_collision", number, "1", "the same for each collision of a ball"},
+                    {"digits_per_impact", number, "1",
+                        "decimal digits that an impact of the run costs in this direction"}},
+        std::move(comments));
     if (!(duration > 0)) return;
     const double per_ball =
         static_cast<double>(of_balls_) / static_cast<double>(this->run.ball_colours.size());
-    const double share = duration / static_cast<double>(until - this->timer().from());  // of the impacts
+    const double share =
+        duration / static_cast<double>(until - this->timer().from());  // of the impacts
     const double length = static_cast<double>(batches_.periods()) * period;
     std::vector<std::size_t> order(wanted_);
     std::iota(order.begin(), order.end(), std::size_t{0});
     const auto total = [&](std::size_t k) { return is_lost(k) ? none : batches_.total(k); };
-    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return total(a) > total(b); });
+    std::stable_sort(
+        order.begin(), order.end(), [&](auto a, auto b) { return total(a) > total(b); });
     std::uint64_t place = 0;
     for (const auto k : order) {
       const double growth = total(k);
       const auto batches = batches_.amounts(k);
       const bool known = !is_lost(k) && batches.size() >= io::Intervals::fewest;
       this->put(++place, Real(growth / duration),
-                io::value_if(known, [&] { return Real(io::Intervals::of(batches, length).half_width); }),
-                Real(growth / (share * per_ball)),
-                Real(growth / (share * static_cast<double>(collisions_)) / 2.302585092994046));
+          io::value_if(known, [&] { return Real(io::Intervals::of(batches, length).half_width); }),
+          Real(growth / (share * per_ball)),
+          Real(growth / (share * static_cast<double>(collisions_)) / 2.302585092994046));
     }
   }
 
@@ -145,7 +147,7 @@ class LyapunovOutput : public TableOutput<Real> {
     for (int k = 0; k < simulation.ball_count(); ++k) {
       const auto& p = simulation.properties(k);
       balls.push_back({static_cast<double>(p.radius), static_cast<double>(p.mass),
-                       static_cast<double>(p.reduced_inertia), p.material});
+          static_cast<double>(p.reduced_inertia), p.material});
     }
     spectrum_.emplace(model::mill_cast<double>(simulation.mill()), balls, start, wanted_);
     if (!saved_.tangents.empty()) spectrum_->restore(saved_);
@@ -165,12 +167,14 @@ class LyapunovOutput : public TableOutput<Real> {
     if (now < batches_.next_period()) return;
     spectrum_->orthonormalise(now);
     auto growth = spectrum_->growth();
-    for (std::size_t k = 0; k < growth.size(); ++k) growth[k] = is_lost(k) ? 0 : growth[k] - before_[k];
+    for (std::size_t k = 0; k < growth.size(); ++k)
+      growth[k] = is_lost(k) ? 0 : growth[k] - before_[k];
     batches_.pass(now, growth);
   }
   void end_record(const Simulation<Real>& simulation, const Real& until) {
     end_intervals(simulation, until);
-    if (this->spec.timer.interval) intervals_.finish(this->timer().from(), until, row_of(simulation));
+    if (this->spec.timer.interval)
+      intervals_.finish(this->timer().from(), until, row_of(simulation));
     ended_ = true;
   }
   /// Writes the row of an interval.
@@ -180,7 +184,8 @@ class LyapunovOutput : public TableOutput<Real> {
       const auto& growth = spectrum_->growth();
       this->put(end);
       for (std::size_t k = 0; k < growth.size(); ++k)
-        this->put(Real(is_lost(k) ? none : (growth[k] - before_[k]) / static_cast<double>(end - begin)));
+        this->put(
+            Real(is_lost(k) ? none : (growth[k] - before_[k]) / static_cast<double>(end - begin)));
       before_ = growth;
     };
   }

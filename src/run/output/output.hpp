@@ -19,24 +19,24 @@
 
 namespace edmill::output {
 
-using casefile::CaseSpec, casefile::OutputSpec, casefile::OwnKeys, casefile::Parameter, casefile::Quantity,
-    casefile::Range, casefile::Section, casefile::TimerSpec;
+using casefile::CaseSpec, casefile::OutputSpec, casefile::OwnKeys, casefile::Parameter,
+    casefile::Quantity, casefile::Range, casefile::Section, casefile::TimerSpec;
 using casefile::ColumnReader, casefile::ColumnSpec, casefile::Statistic, casefile::statistic_name;
-using casefile::columns_key, casefile::contact_point_key, casefile::interval_key, casefile::max_rows_key,
-    casefile::table_size;
+using casefile::columns_key, casefile::contact_point_key, casefile::interval_key,
+    casefile::max_rows_key, casefile::table_size;
 using engine::Simulation;
 
 /// Data about the run that outputs need.
-template <class Real>
-struct RunContext {
+template <class Real> struct RunContext {
   std::filesystem::path folder;       ///< into which it writes
   Real start;                         ///< initial time [s]
   model::Partners partners;           ///< of the balls
   std::optional<Real> powder_mass{};  ///< [kg]
   casefile::Colour vessel_colour{};
-  std::vector<casefile::Colour> ball_colours;    ///< of each ball
-  std::vector<model::WallSurface<Real>> walls;   ///< by id, in the vessel frame; empty for a CurvedVessel
-  std::vector<model::Body<Real>> bodies;         ///< the walls after these
+  std::vector<casefile::Colour> ball_colours;  ///< of each ball
+  std::vector<model::WallSurface<Real>>
+      walls;                              ///< by id, in the vessel frame; empty for a CurvedVessel
+  std::vector<model::Body<Real>> bodies;  ///< the walls after these
   std::vector<casefile::Colour> body_colours{};  ///< of each body
   std::vector<io::FileNote> notes;               ///< where the run comes from
 
@@ -45,26 +45,21 @@ struct RunContext {
   const std::vector<model::WallSurface<Real>>& surfaces(const OutputSpec& spec) const {
     if (walls.empty())
       throw InputError("output of type '" + spec.type +
-                       "': found a vessel of the program's own with curved walls, expected one whose walls "
-                       "have coordinates");
+          "': found a vessel of the program's own with curved walls, expected one whose walls "
+          "have coordinates");
     return walls;
   }
 };
 
 /// The run at the time of a row or a frame.
-template <class Real>
-struct Moment {
+template <class Real> struct Moment {
   /// @param time  not before the last impact, not after that of `f`
   Moment(const ImpactFacts<Real>& f, const Real& time)
-      : simulation(f.simulation),
-        time(time),
-        impacts(f.impact.index),
+      : simulation(f.simulation), time(time), impacts(f.impact.index),
         state_of([&f, time](int ball) { return f.state_before(ball, time); }) {}
   /// @param time  not before the last impact
   Moment(const Simulation<Real>& s, const Real& time)
-      : simulation(s),
-        time(time),
-        impacts(s.counts().impacts),
+      : simulation(s), time(time), impacts(s.counts().impacts),
         state_of([&s, when = s.instant_of(time)](int ball) { return s.state_at(ball, when); }) {}
 
   const Simulation<Real>& simulation;
@@ -74,12 +69,12 @@ struct Moment {
 };
 
 /// Base of outputs: a timer and filters. A derived type defines what it records of an impact.
-template <class Real>
-class Output {
+template <class Real> class Output {
  public:
   Output(const OutputSpec& spec, const RunContext<Real>& run)
       : spec(spec), run(run), timer_(spec.timer, run.start) {
-    for (const auto& r : spec.only) only_.push_back({variable_formula<Real>(r.variable), Real(r.value)});
+    for (const auto& r : spec.only)
+      only_.push_back({variable_formula<Real>(r.variable), Real(r.value)});
   }
   virtual ~Output() = default;
 
@@ -107,7 +102,6 @@ class Output {
   }
   /// True if it appends to a table shared by several runs.
   bool appends() const { return spec.append; }
-
  protected:
   const OutputSpec spec;  ///< its entry in the case
   const RunContext<Real> run;
@@ -124,7 +118,6 @@ class Output {
   /// Called for each impact before it is recorded, to write rows due since the previous one.
   virtual void before(const ImpactFacts<Real>&) {}
   virtual void end_of_record(const Simulation<Real>&, const Real& /*until*/) {}
-
  private:
   struct Restriction {
     VariableFormula<Real> formula;
@@ -135,8 +128,7 @@ class Output {
 };
 
 /// An output that is one file, to which each impact adds.
-template <class Real, class File, class Base = Output<Real>>
-class OneFileOutput : public Base {
+template <class Real, class File, class Base = Output<Real>> class OneFileOutput : public Base {
  public:
   /// @param arguments  of the file's constructor, after its place
   template <class... Arguments>
@@ -151,7 +143,6 @@ class OneFileOutput : public Base {
     Base::archive(a);
     a(file_);
   }
-
  protected:
   File file_;
 };

@@ -11,8 +11,7 @@ namespace edmill::output {
 
 /// Opens at the first of its starts that is met, closes at the first of its ends. Times are
 /// inclusive.
-template <class Real>
-class OutputTimer {
+template <class Real> class OutputTimer {
  public:
   /// @param run_start  initial time of the run [s]
   OutputTimer(const casefile::TimerSpec& spec, const Real& run_start)
@@ -25,7 +24,8 @@ class OutputTimer {
     duration_ = seconds(spec.duration);
     if (!start_time_ && !start_collision_) start_time_ = run_start;
     if (start_time_ && *start_time_ < run_start) start_time_ = run_start;
-    if (!start_collision_) open(*start_time_);  // known at once: rows can be due before the first impact
+    if (!start_collision_)
+      open(*start_time_);  // known at once: rows can be due before the first impact
   }
 
   /// True if an impact is recorded. Must be called once for each impact, in order.
@@ -61,11 +61,11 @@ class OutputTimer {
   bool recorded(const Real& run_end) const { return on_ && from_ && *from_ <= run_end; }
 
   void archive(Archive& a) { a(closed_, recorded_, from_, until_); }
-
  private:
   void open(const Real& time) {
     from_ = time;
-    for (const auto& end : {end_time_, duration_ ? std::optional<Real>(time + *duration_) : std::nullopt})
+    for (const auto& end :
+        {end_time_, duration_ ? std::optional<Real>(time + *duration_) : std::nullopt})
       if (end && (!until_ || *end < *until_)) until_ = end;
   }
 
@@ -77,16 +77,14 @@ class OutputTimer {
 };
 
 /// The ends of a record's intervals, one after the other.
-template <class Real>
-class IntervalClock {
+template <class Real> class IntervalClock {
  public:
   explicit IntervalClock(const casefile::TimerSpec& spec)
       : interval_(spec.interval ? spec.interval->to<Real>() : Real(0)), rows_(spec.max_rows) {}
 
-  /// Calls `row(begin, end)` for each interval that ends at `time` or before; the one that ends with the
-  /// record stays open, since an impact at that very instant belongs to it.
-  template <class Row>
-  void pass(const OutputTimer<Real>& timer, const Real& time, Row&& row) {
+  /// Calls `row(begin, end)` for each interval that ends at `time` or before; the one that ends
+  /// with the record stays open, since an impact at that very instant belongs to it.
+  template <class Row> void pass(const OutputTimer<Real>& timer, const Real& time, Row&& row) {
     const Real& from = timer.from();
     for (;;) {
       const Real end = from + interval_ * Real(passed_ + 1);
@@ -97,9 +95,9 @@ class IntervalClock {
   }
   /// Calls `row` for the remaining intervals up to the end of the record. The last one may be
   /// shorter; one that exists only by rounding is omitted.
-  template <class Row>
-  void finish(const Real& from, const Real& until, Row&& row) {
-    for (Real begin = from + interval_ * Real(passed_); until - begin > interval_ / 1000000000 && !full();
+  template <class Row> void finish(const Real& from, const Real& until, Row&& row) {
+    for (Real begin = from + interval_ * Real(passed_);
+         until - begin > interval_ / 1000000000 && !full();
          begin = from + interval_ * Real(++passed_)) {
       const Real end = from + interval_ * Real(passed_ + 1);
       row(begin, end < until ? end : until);
@@ -108,7 +106,6 @@ class IntervalClock {
   bool full() const { return rows_ && passed_ >= *rows_; }
 
   void archive(Archive& a) { a(passed_); }
-
  private:
   Real interval_;
   std::optional<std::uint64_t> rows_;

@@ -13,13 +13,11 @@
 namespace edmill::output {
 
 /// Makes scenes of a run.
-template <class Real>
-class SceneOutput : public Output<Real> {
+template <class Real> class SceneOutput : public Output<Real> {
  public:
   SceneOutput(const OutputSpec& spec, const RunContext<Real>& run) : Output<Real>(spec, run) {
     for (const auto& surface : run.surfaces(spec)) walls_.push_back(model::mesh_of(surface));
   }
-
  protected:
   /// A mark at a contact point, with the radius and colour given in the case.
   SceneBall contact_at(const Vec3<Real>& point) const {
@@ -46,21 +44,19 @@ class SceneOutput : public Output<Real> {
     const auto now = static_cast<double>(at.time);
     Scene s{.vessel = {walls_, this->run.vessel_colour, frame_of(mill.motion, now)}, .time = now};
     for (std::size_t k = 0; k < mill.bodies.size(); ++k)
-      s.bodies.push_back({{model::mesh_of(mill.bodies[k].shape)},
-                          this->run.body_colours[k],
-                          frame_of(mill.bodies[k].motion, now)});
+      s.bodies.push_back({{model::mesh_of(mill.bodies[k].shape)}, this->run.body_colours[k],
+          frame_of(mill.bodies[k].motion, now)});
     for_each_piston(mill.vessel, at.time, [&](std::size_t wall, const Vec3<double>& moved) {
       for (auto& point : s.vessel.walls[wall].points) point += moved;
     });
     for (int i = 0; i < at.simulation.ball_count(); ++i) {
       const auto state = at.state_of(i);
-      s.balls.push_back({static_cast<double>(at.simulation.properties(i).radius), this->run.ball_colours[i],
-                         vector_cast<double>(state.position), vector_cast<double>(state.velocity),
-                         vector_cast<double>(state.spin)});
+      s.balls.push_back({static_cast<double>(at.simulation.properties(i).radius),
+          this->run.ball_colours[i], vector_cast<double>(state.position),
+          vector_cast<double>(state.velocity), vector_cast<double>(state.spin)});
     }
     return s;
   }
-
  private:
   std::vector<model::Mesh> walls_;
 };
@@ -74,8 +70,7 @@ struct SnapshotKeys {
 };
 
 /// The mill at each impact of the record, a file each: NAME_<index>.x3d. (thesis D.4.1)
-template <class Real>
-class SnapshotOutput : public SceneOutput<Real> {
+template <class Real> class SnapshotOutput : public SceneOutput<Real> {
  public:
   using SceneOutput<Real>::SceneOutput;
 
@@ -83,7 +78,8 @@ class SnapshotOutput : public SceneOutput<Real> {
     const auto place = this->place();
     std::vector<io::WholeFile*> all;
     for (const auto& [index, text] : pages_) {
-      const auto name = place.stem().string() + "_" + std::to_string(index) + place.extension().string();
+      const auto name =
+          place.stem().string() + "_" + std::to_string(index) + place.extension().string();
       auto& file = files_.emplace_back(place.parent_path() / name);
       file.stream() << text;
       file.complete();
@@ -91,7 +87,6 @@ class SnapshotOutput : public SceneOutput<Real> {
     }
     return all;
   }
-
  protected:
   void archive_record(Archive& a) override { a(pages_); }
   void record(const ImpactFacts<Real>& f) override {
@@ -101,11 +96,11 @@ class SnapshotOutput : public SceneOutput<Real> {
     look_at(this->walls(), frames_around(f.simulation.mill().motion, static_cast<double>(time)), s);
     pages_.emplace_back(f.impact.index, x3d_text(s));
   }
-
  private:
-  /// The vessel frames at `time` and throughout a drive period, so that all pictures of a periodic motion
-  /// have the same viewpoint.
-  static std::vector<Frame<double>> frames_around(const model::AnyMotion<Real>& motion, double time) {
+  /// The vessel frames at `time` and throughout a drive period, so that all pictures of a periodic
+  /// motion have the same viewpoint.
+  static std::vector<Frame<double>> frames_around(
+      const model::AnyMotion<Real>& motion, double time) {
     constexpr int parts = 64;
     const auto period = static_cast<double>(motion.period());
     const double begin = std::floor(time / period) * period;
@@ -126,7 +121,6 @@ class FramesOutput : public OneFileOutput<Real, io::AtomicFile, SceneOutput<Real
   /// @param interval  its `interval` and `max_rows` are those of the frames
   FramesOutput(const OutputSpec& spec, const RunContext<Real>& run, const TimerSpec& interval)
       : OneFileOutput<Real, io::AtomicFile, SceneOutput<Real>>(spec, run), clock_(interval) {}
-
  protected:
   virtual void add_frame(const Moment<Real>& at) = 0;
 
@@ -147,7 +141,6 @@ class FramesOutput : public OneFileOutput<Real, io::AtomicFile, SceneOutput<Real
     if (!complete_) clock_.finish(from, until, [&](const Real&, const Real& end) { frame(end); });
   }
   void archive_record(Archive& a) override { a(clock_, begun_, complete_); }
-
  private:
   IntervalClock<Real> clock_;
   bool begun_ = false, complete_ = false;
@@ -162,12 +155,10 @@ struct AnimationKeys {
 
 /// The record as one X3D page that plays it. (thesis D.4.2)
 /// A ball has keys at its impacts and at the frames, between which its path looks straight.
-template <class Real>
-class AnimationOutput : public FramesOutput<Real> {
+template <class Real> class AnimationOutput : public FramesOutput<Real> {
  public:
   AnimationOutput(const OutputSpec& spec, const RunContext<Real>& run)
       : FramesOutput<Real>(spec, run, frames_of(spec.animation)) {}
-
  protected:
   void before(const ImpactFacts<Real>& f) override {
     FramesOutput<Real>::before(f);
@@ -181,8 +172,8 @@ class AnimationOutput : public FramesOutput<Real> {
     const SceneBall contact = this->contact_at(f.contact_point);
     // It stays where it was up to this impact, then jumps.
     if (!first_->contact) first_->contact = contact;
-    paths_.contact.emplace_back(key,
-                                paths_.contact.empty() ? contact.position : paths_.contact.back().second);
+    paths_.contact.emplace_back(
+        key, paths_.contact.empty() ? contact.position : paths_.contact.back().second);
     paths_.contact.emplace_back(key, contact.position);
   }
   void end_of_record(const Simulation<Real>& simulation, const Real& until) override {
@@ -193,14 +184,15 @@ class AnimationOutput : public FramesOutput<Real> {
     FramesOutput<Real>::archive_record(a);
     a(first_, paths_, frames_);
     const auto balls = this->run.ball_colours.size();
-    if (first_ ? first_->balls.size() != balls || paths_.balls.size() != balls : !paths_.balls.empty())
+    if (first_ ? first_->balls.size() != balls || paths_.balls.size() != balls
+               : !paths_.balls.empty())
       throw InputError("the saved animation is of other balls");
   }
-
  private:
   static TimerSpec frames_of(const casefile::AnimationSpec& a) {
     TimerSpec timer;
-    timer.interval = a.speed * Quantity{60} / Quantity(static_cast<std::int64_t>(a.frames_per_minute));
+    timer.interval =
+        a.speed * Quantity{60} / Quantity(static_cast<std::int64_t>(a.frames_per_minute));
     return timer;
   }
 
@@ -209,7 +201,8 @@ class AnimationOutput : public FramesOutput<Real> {
       first_ = this->scene(at);
       paths_.balls.resize(first_->balls.size());
     }
-    for (int i = 0; i < at.simulation.ball_count(); ++i) add_key(i, at.time, at.state_of(i).position);
+    for (int i = 0; i < at.simulation.ball_count(); ++i)
+      add_key(i, at.time, at.state_of(i).position);
     ++frames_;
   }
   void add_key(int ball, const Real& time, const Vec3<Real>& place) {
@@ -234,13 +227,14 @@ class AnimationOutput : public FramesOutput<Real> {
           frequency = std::max(frequency, std::abs(static_cast<double>(swing.frequency)));
     for (const auto& body : simulation.mill().bodies)
       for (const auto& joint : body.motion.joints().list) {
-        if (joint.rotates) frequency = std::max(frequency, std::abs(static_cast<double>(joint.speed)));
+        if (joint.rotates)
+          frequency = std::max(frequency, std::abs(static_cast<double>(joint.speed)));
         for (const auto& swing : joint.swings)
           frequency = std::max(frequency, std::abs(static_cast<double>(swing.frequency)));
       }
     const double turns = length * frequency;
-    const auto keys = std::max(
-        {this->spec.animation.min_frames, frames_ - 1, static_cast<std::uint64_t>(std::ceil(64 * turns))});
+    const auto keys = std::max({this->spec.animation.min_frames, frames_ - 1,
+        static_cast<std::uint64_t>(std::ceil(64 * turns))});
     const auto& bodies = simulation.mill().bodies;
     paths_.bodies.resize(bodies.size());
     std::vector<Vec3<double>> at_first;  // the pistons
@@ -250,14 +244,15 @@ class AnimationOutput : public FramesOutput<Real> {
       for (std::size_t body = 0; body < paths_.bodies.size(); ++body)
         paths_.bodies[body].emplace_back(key, frame_of(bodies[body].motion, from + length * key));
       std::size_t piston = 0;
-      this->for_each_piston(vessel, Real(from + length * key), [&](std::size_t wall, const auto& moved) {
-        if (k == 0) {
-          paths_.pistons.push_back({wall, {}});
-          at_first.push_back(moved);
-        }
-        paths_.pistons[piston].second.emplace_back(key, moved - at_first[piston]);
-        ++piston;
-      });
+      this->for_each_piston(
+          vessel, Real(from + length * key), [&](std::size_t wall, const auto& moved) {
+            if (k == 0) {
+              paths_.pistons.push_back({wall, {}});
+              at_first.push_back(moved);
+            }
+            paths_.pistons[piston].second.emplace_back(key, moved - at_first[piston]);
+            ++piston;
+          });
     }
     std::vector<Frame<double>> frames;
     for (const auto& [key, frame] : paths_.vessel) frames.push_back(frame);
@@ -279,14 +274,14 @@ struct ParaviewKeys {
 };
 
 /// Frames for ParaView: NAME.pvd, and a folder NAME with balls and vessel of each frame as VTP.
-template <class Real>
-class ParaviewOutput : public FramesOutput<Real> {
+template <class Real> class ParaviewOutput : public FramesOutput<Real> {
  public:
   ParaviewOutput(const OutputSpec& spec, const RunContext<Real>& run)
       : FramesOutput<Real>(spec, run, spec.timer),
         folder_(std::filesystem::path(this->place()).replace_extension()) {
     std::error_code ignored;
-    if (std::filesystem::exists(folder_, ignored) && !std::filesystem::is_directory(folder_, ignored))
+    if (std::filesystem::exists(folder_, ignored) &&
+        !std::filesystem::is_directory(folder_, ignored))
       throw InputError(folder_.string() + ": found a file, expected a folder");
   }
 
@@ -305,7 +300,6 @@ class ParaviewOutput : public FramesOutput<Real> {
     all.push_back(&this->file_);
     return all;
   }
-
  protected:
   void record(const ImpactFacts<Real>& f) override {
     doses_.resize(static_cast<std::size_t>(f.simulation.ball_count()), 0);
@@ -316,10 +310,10 @@ class ParaviewOutput : public FramesOutput<Real> {
   void archive_record(Archive& a) override {
     FramesOutput<Real>::archive_record(a);
     a(times_, doses_);
-    for (std::size_t frame = 0; a.loading() && frame < times_.size(); ++frame) add_files(frame, "", "");
+    for (std::size_t frame = 0; a.loading() && frame < times_.size(); ++frame)
+      add_files(frame, "", "");
     for (auto& frame : frames_) a(frame);
   }
-
  private:
   void add_frame(const Moment<Real>& at) override {
     Scene s = this->scene(at);
@@ -333,8 +327,8 @@ class ParaviewOutput : public FramesOutput<Real> {
   void add_files(std::size_t frame, const std::string& balls, const std::string& vessel) {
     const auto add = [&](const char* of, const std::string& text) {
       // The folder may be a link, and is made when the run has ended.
-      auto& file = frames_.emplace_back(folder_ / name_of(of, frame), false,
-                                        std::filesystem::weakly_canonical(folder_));
+      auto& file = frames_.emplace_back(
+          folder_ / name_of(of, frame), false, std::filesystem::weakly_canonical(folder_));
       file.stream() << text;
       file.complete();
     };

@@ -7,7 +7,7 @@ namespace edmill {
 std::span<const casefile::OutputType> casefile::output_types() {
   static constexpr auto types =
       std::apply([](const auto&... row) { return std::array<OutputType, sizeof...(row)>{row...}; },
-                 output::output_registry);
+          output::output_registry);
   return types;
 }
 

@@ -20,7 +20,8 @@ constexpr double margin = 1.05;
 
 }  // namespace
 
-void look_at(const std::vector<model::Mesh>& walls, const std::vector<Frame<double>>& frames, Scene& scene) {
+void look_at(
+    const std::vector<model::Mesh>& walls, const std::vector<Frame<double>>& frames, Scene& scene) {
   std::vector<Vec3<double>> places;
   for (const auto& frame : frames)
     for (const auto& wall : walls)
@@ -44,7 +45,7 @@ void look_at(const std::vector<model::Mesh>& walls, const std::vector<Frame<doub
 namespace {
 
 pugi::xml_node add(pugi::xml_node parent, const char* name,
-                   std::initializer_list<std::pair<const char*, std::string>> attributes = {}) {
+    std::initializer_list<std::pair<const char*, std::string>> attributes = {}) {
   auto node = parent.append_child(name);
   for (const auto& [key, value] : attributes) node.append_attribute(key) = value.c_str();
   return node;
@@ -56,7 +57,9 @@ std::string text_of(const pugi::xml_document& document) {
   return out.str();
 }
 
-std::string numbers(std::initializer_list<double> list) { return fmt::format("{}", fmt::join(list, " ")); }
+std::string numbers(std::initializer_list<double> list) {
+  return fmt::format("{}", fmt::join(list, " "));
+}
 std::string triple(const Vec3<double>& v) { return numbers({v[0], v[1], v[2]}); }
 /// The texts of all items, each with a space behind it.
 std::string list_of(const auto& items, auto&& text_of) {
@@ -66,7 +69,8 @@ std::string list_of(const auto& items, auto&& text_of) {
 }
 
 void add_look(pugi::xml_node shape, const casefile::Colour& c, double transparency = 0) {
-  auto material = add(add(shape, "Appearance"), "Material", {{"diffuseColor", numbers({c[0], c[1], c[2]})}});
+  auto material =
+      add(add(shape, "Appearance"), "Material", {{"diffuseColor", numbers({c[0], c[1], c[2]})}});
   if (transparency > 0) material.append_attribute("transparency") = numbers({transparency}).c_str();
 }
 
@@ -87,14 +91,14 @@ std::string rotation(const Frame<double>& frame) {
 }
 
 void add_wall(pugi::xml_node parent, const model::Mesh& wall, const casefile::Colour& colour,
-              double transparency = 0.7) {
+    double transparency = 0.7) {
   auto shape = add(parent, "Shape");
   add_look(shape, colour, transparency);
-  const auto corners =
-      list_of(wall.faces, [](const auto& face) { return fmt::format("{} -1", fmt::join(face, " ")); });
+  const auto corners = list_of(
+      wall.faces, [](const auto& face) { return fmt::format("{} -1", fmt::join(face, " ")); });
   // Faces of one curved wall meet at less than the crease angle and look smooth.
-  auto faces =
-      add(shape, "IndexedFaceSet", {{"solid", "false"}, {"creaseAngle", "0.5"}, {"coordIndex", corners}});
+  auto faces = add(shape, "IndexedFaceSet",
+      {{"solid", "false"}, {"creaseAngle", "0.5"}, {"coordIndex", corners}});
   add(faces, "Coordinate", {{"point", list_of(wall.points, triple)}});
 }
 
@@ -103,38 +107,35 @@ std::string name_of_wall(std::size_t wall) { return fmt::format("wall_{}", wall)
 /// A wall that moves in the vessel has a Transform of its own.
 void add_vessel(pugi::xml_node parent, const SceneVessel& vessel, const SceneMotion* motion) {
   auto place = add(parent, "Transform",
-                   {{"DEF", "vessel"},
-                    {"translation", triple(vessel.frame.origin)},
-                    {"rotation", rotation(vessel.frame)}});
+      {{"DEF", "vessel"}, {"translation", triple(vessel.frame.origin)},
+          {"rotation", rotation(vessel.frame)}});
   for (std::size_t id = 0; id < vessel.walls.size(); ++id) {
-    const bool moves = motion && std::any_of(motion->pistons.begin(), motion->pistons.end(),
-                                             [&](const auto& piston) { return piston.first == id; });
+    const bool moves = motion &&
+        std::any_of(motion->pistons.begin(), motion->pistons.end(),
+            [&](const auto& piston) { return piston.first == id; });
     add_wall(moves ? add(place, "Transform", {{"DEF", name_of_wall(id)}}) : place, vessel.walls[id],
-             vessel.colour);
+        vessel.colour);
   }
 }
 
 std::string name_of_body(std::size_t body) { return fmt::format("body_{}", body); }
 
 void add_body(pugi::xml_node parent, const SceneVessel& body, const std::string& name) {
-  auto place =
-      add(parent, "Transform",
-          {{"DEF", name}, {"translation", triple(body.frame.origin)}, {"rotation", rotation(body.frame)}});
+  auto place = add(parent, "Transform",
+      {{"DEF", name}, {"translation", triple(body.frame.origin)},
+          {"rotation", rotation(body.frame)}});
   add_wall(place, body.walls[0], body.colour, 0);
 }
 
 /// Drives one field of the node `target` by texts of the values at keys.
 void add_interpolator(pugi::xml_node scene, const char* type, const std::string& name,
-                      const std::string& target, const char* field, const auto& values, auto&& text_of) {
+    const std::string& target, const char* field, const auto& values, auto&& text_of) {
   add(scene, type,
-      {{"DEF", name},
-       {"key", list_of(values, [](const auto& at) { return numbers({at.first}); })},
-       {"keyValue", list_of(values, [&](const auto& at) { return text_of(at.second); })}});
+      {{"DEF", name}, {"key", list_of(values, [](const auto& at) { return numbers({at.first}); })},
+          {"keyValue", list_of(values, [&](const auto& at) { return text_of(at.second); })}});
   add(scene, "ROUTE",
-      {{"fromNode", "clock"},
-       {"fromField", "fraction_changed"},
-       {"toNode", name},
-       {"toField", "set_fraction"}});
+      {{"fromNode", "clock"}, {"fromField", "fraction_changed"}, {"toNode", name},
+          {"toField", "set_fraction"}});
   add(scene, "ROUTE",
       {{"fromNode", name}, {"fromField", "value_changed"}, {"toNode", target}, {"toField", field}});
 }
@@ -143,16 +144,17 @@ void add_motion(pugi::xml_node scene, const SceneMotion& motion) {
   add(scene, "TimeSensor",
       {{"DEF", "clock"}, {"cycleInterval", numbers({motion.duration})}, {"loop", "true"}});
   const auto add_path = [&](const std::string& target, const auto& path, auto&& text_of) {
-    add_interpolator(scene, "PositionInterpolator", target + "_path", target, "set_translation", path,
-                     text_of);
+    add_interpolator(
+        scene, "PositionInterpolator", target + "_path", target, "set_translation", path, text_of);
   };
   const auto add_frames = [&](const std::string& target, const SceneMotion::Frames& frames) {
     add_path(target, frames, [](const Frame<double>& frame) { return triple(frame.origin); });
-    add_interpolator(scene, "OrientationInterpolator", target + "_turn", target, "set_rotation", frames,
-                     rotation);
+    add_interpolator(scene, "OrientationInterpolator", target + "_turn", target, "set_rotation",
+        frames, rotation);
   };
   add_frames("vessel", motion.vessel);
-  for (std::size_t k = 0; k < motion.bodies.size(); ++k) add_frames(name_of_body(k), motion.bodies[k]);
+  for (std::size_t k = 0; k < motion.bodies.size(); ++k)
+    add_frames(name_of_body(k), motion.bodies[k]);
   for (const auto& [wall, path] : motion.pistons) add_path(name_of_wall(wall), path, triple);
   for (std::size_t i = 0; i < motion.balls.size(); ++i)
     add_path(fmt::format("ball_{}", i), motion.balls[i], triple);
@@ -174,14 +176,17 @@ std::string x3d_text(const Scene& s, const SceneMotion* motion) {
   auto head = add(x3d, "head");
   add(head, "meta", {{"name", "generator"}, {"content", "edmill"}});
   add(head, "meta",
-      {{"name", "description"}, {"content", fmt::format("Ball mill at {} s; lengths in metres", s.time)}});
+      {{"name", "description"},
+          {"content", fmt::format("Ball mill at {} s; lengths in metres", s.time)}});
   auto scene = add(x3d, "Scene");
   add(scene, "Background", {{"skyColor", "1 1 1"}});
   add(scene, "Viewpoint",
-      {{"description", "mill"}, {"position", triple(s.eye)}, {"centerOfRotation", triple(s.target)}});
+      {{"description", "mill"}, {"position", triple(s.eye)},
+          {"centerOfRotation", triple(s.target)}});
   add_vessel(scene, s.vessel, motion);
   for (std::size_t k = 0; k < s.bodies.size(); ++k) add_body(scene, s.bodies[k], name_of_body(k));
-  for (std::size_t i = 0; i < s.balls.size(); ++i) add_ball(scene, s.balls[i], fmt::format("ball_{}", i));
+  for (std::size_t i = 0; i < s.balls.size(); ++i)
+    add_ball(scene, s.balls[i], fmt::format("ball_{}", i));
   if (s.contact) add_ball(scene, *s.contact, "contact_point");
   if (motion) add_motion(scene, *motion);
   return text_of(document);
@@ -196,13 +201,14 @@ struct VtkFile {
 
   explicit VtkFile(const char* type) {
     document.append_child(pugi::node_declaration).append_attribute("version") = "1.0";
-    body = add(add(document, "VTKFile", {{"type", type}, {"version", "0.1"}, {"byte_order", "LittleEndian"}}),
-               type);
+    body = add(add(document, "VTKFile",
+                   {{"type", type}, {"version", "0.1"}, {"byte_order", "LittleEndian"}}),
+        type);
   }
 };
 
 void add_array(pugi::xml_node parent, const std::string& name, const char* type, int components,
-               const std::string& values) {
+    const std::string& values) {
   auto array = add(parent, "DataArray", {{"type", type}});
   if (!name.empty()) array.append_attribute("Name") = name.c_str();
   array.append_attribute("NumberOfComponents") = components;
@@ -217,21 +223,19 @@ void add_cells(pugi::xml_node piece, const char* name, const std::vector<std::ve
   for (const auto& cell : cells) offsets += fmt::format("{} ", end += cell.size());
   auto node = piece.append_child(name);
   add_array(node, "connectivity", "Int32", 1,
-            list_of(cells, [](const auto& cell) { return fmt::format("{}", fmt::join(cell, " ")); }));
+      list_of(cells, [](const auto& cell) { return fmt::format("{}", fmt::join(cell, " ")); }));
   add_array(node, "offsets", "Int32", 1, offsets);
 }
 
-pugi::xml_node add_piece(VtkFile& file, double time, std::size_t points, std::size_t vertices,
-                         std::size_t polygons) {
+pugi::xml_node add_piece(
+    VtkFile& file, double time, std::size_t points, std::size_t vertices, std::size_t polygons) {
   add(add(file.body, "FieldData"), "DataArray",
       {{"type", "Float64"}, {"Name", "TimeValue"}, {"NumberOfTuples", "1"}, {"format", "ascii"}})
       .text() = fmt::format("{}", time).c_str();
   return add(file.body, "Piece",
-             {{"NumberOfPoints", std::to_string(points)},
-              {"NumberOfVerts", std::to_string(vertices)},
-              {"NumberOfLines", "0"},
-              {"NumberOfStrips", "0"},
-              {"NumberOfPolys", std::to_string(polygons)}});
+      {{"NumberOfPoints", std::to_string(points)}, {"NumberOfVerts", std::to_string(vertices)},
+          {"NumberOfLines", "0"}, {"NumberOfStrips", "0"},
+          {"NumberOfPolys", std::to_string(polygons)}});
 }
 
 }  // namespace
@@ -244,14 +248,17 @@ std::string vtp_balls(const Scene& s) {
   const auto of_each = [&](auto&& text_of) { return list_of(s.balls, text_of); };
   auto data = piece.append_child("PointData");
   add_array(data, "diameter [m]", "Float64", 1,
-            of_each([](auto& ball) { return numbers({2 * ball.radius}); }));
-  add_array(data, "velocity [m/s]", "Float64", 3, of_each([](auto& ball) { return triple(ball.velocity); }));
-  add_array(data, "spin [rad/s]", "Float64", 3, of_each([](auto& ball) { return triple(ball.spin); }));
+      of_each([](auto& ball) { return numbers({2 * ball.radius}); }));
+  add_array(data, "velocity [m/s]", "Float64", 3,
+      of_each([](auto& ball) { return triple(ball.velocity); }));
+  add_array(
+      data, "spin [rad/s]", "Float64", 3, of_each([](auto& ball) { return triple(ball.spin); }));
   add_array(data, "milling_dose [J]", "Float64", 1,
-            of_each([](auto& ball) { return numbers({ball.milling_dose}); }));
-  add_array(data, "ball", "Int32", 1, list_of(cells, [](auto& cell) { return std::to_string(cell[0]); }));
+      of_each([](auto& ball) { return numbers({ball.milling_dose}); }));
+  add_array(
+      data, "ball", "Int32", 1, list_of(cells, [](auto& cell) { return std::to_string(cell[0]); }));
   add_array(piece.append_child("Points"), "", "Float64", 3,
-            of_each([](auto& ball) { return triple(ball.position); }));
+      of_each([](auto& ball) { return triple(ball.position); }));
   add_cells(piece, "Verts", cells);
   return text_of(file.document);
 }
@@ -286,9 +293,8 @@ std::string pvd_text(const std::vector<std::pair<double, std::vector<std::string
   for (const auto& [time, parts] : frames)
     for (std::size_t part = 0; part < parts.size(); ++part)
       add(file.body, "DataSet",
-          {{"timestep", fmt::format("{}", time)},
-           {"part", std::to_string(part)},
-           {"file", clean_text(parts[part])}});
+          {{"timestep", fmt::format("{}", time)}, {"part", std::to_string(part)},
+              {"file", clean_text(parts[part])}});
   return text_of(file.document);
 }
 

@@ -35,7 +35,8 @@ struct SceneVessel {
 struct Scene {
   SceneVessel vessel;
   std::vector<SceneVessel> bodies{};  ///< inside the vessel, each with one mesh
-  Vec3<double> eye = Vec3<double>::Zero(), target = Vec3<double>::Zero();  ///< viewer and viewed point [m]
+  Vec3<double> eye = Vec3<double>::Zero(),
+               target = Vec3<double>::Zero();  ///< viewer and viewed point [m]
   std::vector<SceneBall> balls{};
   std::optional<SceneBall> contact{};  ///< marks the contact point
   double time;                         ///< [s]
@@ -44,11 +45,11 @@ struct Scene {
 };
 
 /// The frame of the vessel or of a body at a time [s], in the inertial one.
-template <class Motion>
-Frame<double> frame_of(const Motion& motion, double time) {
+template <class Motion> Frame<double> frame_of(const Motion& motion, double time) {
   const auto own = motion.template cast<double>();
   const auto pose = own.pose(DriveClock<double>(own.period()).at(time));
-  return {own.to_inertial(pose, Vec3<double>::Zero()), own.axis_x(pose), own.axis_y(pose), own.axis_z(pose)};
+  return {own.to_inertial(pose, Vec3<double>::Zero()), own.axis_x(pose), own.axis_y(pose),
+      own.axis_z(pose)};
 }
 
 /// The motion in an animation: keys are fractions of its duration, from 0 to 1.
@@ -58,16 +59,18 @@ struct SceneMotion {
   Frames vessel;
   std::vector<Frames> bodies;
   using Path = std::vector<std::pair<double, Vec3<double>>>;
-  std::vector<std::pair<std::size_t, Path>> pistons;  ///< by wall, relative to the place in the scene [m]
-  std::vector<Path> balls;                            ///< of each ball
-  Path contact;                                       ///< where the scene marks the contact point
+  std::vector<std::pair<std::size_t, Path>>
+      pistons;              ///< by wall, relative to the place in the scene [m]
+  std::vector<Path> balls;  ///< of each ball
+  Path contact;             ///< where the scene marks the contact point
 
   void archive(Archive& a) { a(duration, vessel, bodies, pistons, balls, contact); }
 };
 
 /// Places the viewer so that all walls are visible in all of these frames.
 /// @param walls  in the vessel frame; a wall that moves is in its outermost position
-void look_at(const std::vector<model::Mesh>& walls, const std::vector<Frame<double>>& frames, Scene& scene);
+void look_at(
+    const std::vector<model::Mesh>& walls, const std::vector<Frame<double>>& frames, Scene& scene);
 
 /// An X3D 3.3 page: a still picture or, with `motion`, an animation that is repeated forever.
 std::string x3d_text(const Scene& scene, const SceneMotion* motion = nullptr);

@@ -27,14 +27,15 @@ struct SpectraKeys {
   static void keys(auto& output, auto&& row) {
     auto& k = output.template make_own<SpectraKeys>();
     row(Parameter{"of",
-                  "quantity of the spectrum: the dissipated energy; or `speed`; or `impact_energy`, M/2 "
-                  "v^2 along the normal"}
+            "quantity of the spectrum: the dissipated energy; or `speed`; or `impact_energy`, M/2 "
+            "v^2 along the normal"}
             .as("name")
             .usually("`\"energy\"`"),
         k.by);
     const bool speed = k.by == BinnedBy::speed;
     const auto dimension = speed ? Dimension::speed : Dimension::energy;
-    row(Parameter{"low", dimension, "start of the first bin", Range::any, speed ? "1 mm/s" : "1e-9 J"}
+    row(Parameter{"low", dimension, "start of the first bin", Range::any,
+            speed ? "1 mm/s" : "1e-9 J"}
             .as("energy or speed")
             .usually("`\"1e-9 J\"`, `\"1 mm/s\"`"),
         k.low);
@@ -42,7 +43,8 @@ struct SpectraKeys {
             .as("energy or speed")
             .usually("`\"1 J\"`, `\"10 m/s\"`"),
         k.high);
-    row({"bins_per_decade", "number of bins per factor of ten", table_size, "10"}, k.bins_per_decade);
+    row({"bins_per_decade", "number of bins per factor of ten", table_size, "10"},
+        k.bins_per_decade);
   }
   static void check(Section& s, const CaseSpec&, OutputSpec& output) {
     const auto& k = output.own_keys<SpectraKeys>();
@@ -51,18 +53,18 @@ struct SpectraKeys {
     const bool ascending = low > 0 && high > low * (1 + 1e-6) && std::isfinite(high);
     const bool low_is_wrong = s.has("low") && !s.has("high");
     s.require(ascending || !k.low.positive(), low_is_wrong ? "low" : "high",
-              low_is_wrong ? "a value below high" : "a value above low");
+        low_is_wrong ? "a value below high" : "a value above low");
   }
 };
 
-/// Edges low 10^(k / bins_per_decade) up to high; the last bin may be shorter. They are computed in a wider
-/// scalar, so that they are the same bits everywhere.
+/// Edges low 10^(k / bins_per_decade) up to high; the last bin may be shorter. They are computed in
+/// a wider scalar, so that they are the same bits everywhere.
 /// @pre 0 < low < high, bins_per_decade > 0
-template <class Real>
-std::vector<Real> edges_of(const SpectraKeys& keys) {
+template <class Real> std::vector<Real> edges_of(const SpectraKeys& keys) {
   using Fine = std::conditional_t<std::is_void_v<Wider<Real>>, Real, Wider<Real>>;
   const Fine first = keys.low.to<Fine>(), last = keys.high.to<Fine>();
-  const Fine short_of_last = last * (1 - Fine(1) / 1000000000);  // no bin that exists only by rounding
+  const Fine short_of_last =
+      last * (1 - Fine(1) / 1000000000);  // no bin that exists only by rounding
   std::vector<Real> edges{keys.low.to<Real>()};
   for (std::uint64_t k = 1;; ++k) {
     using std::pow;
@@ -74,15 +76,13 @@ std::vector<Real> edges_of(const SpectraKeys& keys) {
   return edges;
 }
 
-template <class Real>
-class SpectraOutput : public TableOutput<Real> {
+template <class Real> class SpectraOutput : public TableOutput<Real> {
  public:
   SpectraOutput(const OutputSpec& spec, const RunContext<Real>& run)
-      : TableOutput<Real>(spec, run),
-        by_(spec.own_keys<SpectraKeys>().by),
+      : TableOutput<Real>(spec, run), by_(spec.own_keys<SpectraKeys>().by),
         edges_(edges_of<Real>(spec.own_keys<SpectraKeys>())),
-        spectra_(names().size(), Spectrum(edges_.size() + 1, PartnerTally<Real>(run.partners.count()))) {}
-
+        spectra_(names().size(),
+            Spectrum(edges_.size() + 1, PartnerTally<Real>(run.partners.count()))) {}
  protected:
   void archive_record(Archive& a) override { a(spectra_); }
 
@@ -108,11 +108,12 @@ class SpectraOutput : public TableOutput<Real> {
         {"bin", text, "", "number of the bin from 1, or below or above all"},
         {"low", number, unit, "lower edge of the bin"},
         {"high", number, unit, "upper edge of the bin, not in it"}};
-    add_partner_columns(columns, this->run.partners, {"impacts", integer, "1", "number of impacts"});
     add_partner_columns(
-        columns, this->run.partners,
+        columns, this->run.partners, {"impacts", integer, "1", "number of impacts"});
+    add_partner_columns(columns, this->run.partners,
         {"energy", number, "J",
-         by_ == BinnedBy::energy ? "this part of the dose of the impacts" : "dose of the impacts"});
+            by_ == BinnedBy::energy ? "this part of the dose of the impacts"
+                                    : "dose of the impacts"});
     this->begin(std::move(columns), {this->window(until)});
     for (std::size_t s = 0; s < spectra_.size(); ++s)
       for (std::size_t bin = 0; bin < spectra_[s].size(); ++bin) {
@@ -124,15 +125,18 @@ class SpectraOutput : public TableOutput<Real> {
         put_partners(tallies, put, [](const Tally<Real>& t) { return t.energy.value(); });
       }
   }
-
  private:
-  using Spectrum = std::vector<PartnerTally<Real>>;  ///< below the first edge, the bins, above the last
+  using Spectrum =
+      std::vector<PartnerTally<Real>>;  ///< below the first edge, the bins, above the last
 
-  void add(const ImpactFacts<Real>& f, std::size_t spectrum, const Real& value, const Real& energy) {
+  void add(
+      const ImpactFacts<Real>& f, std::size_t spectrum, const Real& value, const Real& energy) {
     of_partner(f, spectra_[spectrum][bin_of<Real>(edges_, value)]).add(energy);
   }
 
-  const std::vector<std::string>& names() const { return spectra_by[static_cast<std::size_t>(by_)]; }
+  const std::vector<std::string>& names() const {
+    return spectra_by[static_cast<std::size_t>(by_)];
+  }
 
   BinnedBy by_;
   std::vector<Real> edges_;
@@ -168,14 +172,14 @@ struct RatesAboveKeys {
 };
 
 /// Rates of the impacts above speed cutoffs. docs/outputs.md, "rates_above"
-template <class Real>
-class RatesAboveOutput : public TableOutput<Real> {
+template <class Real> class RatesAboveOutput : public TableOutput<Real> {
  public:
-  RatesAboveOutput(const OutputSpec& spec, const RunContext<Real>& run) : TableOutput<Real>(spec, run) {
-    for (const auto& cutoff : spec.own_keys<RatesAboveKeys>().cutoffs) cutoffs_.push_back(cutoff.to<Real>());
+  RatesAboveOutput(const OutputSpec& spec, const RunContext<Real>& run)
+      : TableOutput<Real>(spec, run) {
+    for (const auto& cutoff : spec.own_keys<RatesAboveKeys>().cutoffs)
+      cutoffs_.push_back(cutoff.to<Real>());
     from_.resize(cutoffs_.size() + 1, PartnerTally<Real>(run.partners.count()));
   }
-
  protected:
   void archive_record(Archive& a) override { a(from_); }
 
@@ -187,7 +191,8 @@ class RatesAboveOutput : public TableOutput<Real> {
 
   void end_of_record(const Simulation<Real>&, const Real& until) override {
     const auto& partners = this->run.partners;
-    std::vector<Column> columns{{"cutoff", number, "m/s", "the approach speed from which on impacts count"}};
+    std::vector<Column> columns{
+        {"cutoff", number, "m/s", "the approach speed from which on impacts count"}};
     add_partner_columns(columns, partners, {"rate", number, "1/s", "collision rate"});
     add_partner_columns(columns, partners, {"dose_rate", number, "W", "milling dose rate"});
     this->begin(std::move(columns), {this->window(until)});
@@ -199,11 +204,12 @@ class RatesAboveOutput : public TableOutput<Real> {
         for (int p = 0; p < partners.count(); ++p) above[p].add(from_[bin][p]);
       this->put(cutoffs_[k]);
       const auto put = [&](const Real& value) { this->put(value); };
-      put_partners(above, put, [&](const Tally<Real>& t) { return Real(Real(t.impacts) / duration); });
-      put_partners(above, put, [&](const Tally<Real>& t) { return Real(t.energy.value() / duration); });
+      put_partners(
+          above, put, [&](const Tally<Real>& t) { return Real(Real(t.impacts) / duration); });
+      put_partners(
+          above, put, [&](const Tally<Real>& t) { return Real(t.energy.value() / duration); });
     }
   }
-
  private:
   std::vector<Real> cutoffs_;             ///< ascending [m/s]
   std::vector<PartnerTally<Real>> from_;  ///< below all cutoffs, then from each up to the next

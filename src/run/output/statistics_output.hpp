@@ -12,21 +12,21 @@ namespace edmill::output {
 struct StatisticsKeys {
   static void keys(auto& output, auto&& row) {
     using enum Statistic;
-    row(columns_key, ColumnReader{{.flags = true,
-                                   .numbers = true,
-                                   .of_flags = {sum, rate, percentage},
-                                   .of_numbers = {sum, average, minimum, maximum, rate, percentage}},
-                                  output.columns});
+    row(columns_key,
+        ColumnReader{{.flags = true,
+                         .numbers = true,
+                         .of_flags = {sum, rate, percentage},
+                         .of_numbers = {sum, average, minimum, maximum, rate, percentage}},
+            output.columns});
   }
 };
 
 /// Sums, averages, extremes, rates and shares, for walls, other balls and all. (thesis D.4.3)
-template <class Real>
-class StatisticsOutput : public TableOutput<Real> {
+template <class Real> class StatisticsOutput : public TableOutput<Real> {
  public:
   StatisticsOutput(const OutputSpec& spec, const RunContext<Real>& run)
-      : TableOutput<Real>(spec, run), gathered_(spec.columns.size(), Accumulators(run.partners.count())) {}
-
+      : TableOutput<Real>(spec, run),
+        gathered_(spec.columns.size(), Accumulators(run.partners.count())) {}
  protected:
   void archive_record(Archive& a) override { a(gathered_); }
   void record(const ImpactFacts<Real>& f) override {
@@ -38,12 +38,14 @@ class StatisticsOutput : public TableOutput<Real> {
     const auto& partners = this->run.partners;
     const Real duration = until - this->timer().from();
     std::vector<Column> columns{{"variable", text, "", "what the row shows"},
-                                {"statistic", text, "", "which statistic of it"},
-                                {"unit", text, "", "of the numbers in the row"}};
+        {"statistic", text, "", "which statistic of it"},
+        {"unit", text, "", "of the numbers in the row"}};
     const auto groups = groups_of(partners, true);
-    for (const auto& group : groups) columns.push_back({group.column.key, number, "", group.column.meaning});
-    this->begin(std::move(columns), {this->window(until) + "; " + std::to_string(simulation.ball_count()) +
-                                     " balls, " + std::to_string(partners.walls()) + " walls"});
+    for (const auto& group : groups)
+      columns.push_back({group.column.key, number, "", group.column.meaning});
+    this->begin(std::move(columns),
+        {this->window(until) + "; " + std::to_string(simulation.ball_count()) + " balls, " +
+            std::to_string(partners.walls()) + " walls"});
     for (std::size_t c = 0; c < gathered_.size(); ++c) {
       const auto& column = this->spec.columns[c];
       const auto& variable = model::impact_variables[column.variable];
@@ -52,12 +54,12 @@ class StatisticsOutput : public TableOutput<Real> {
         for (int partner = groups[k].first; partner <= groups[k].last; ++partner)
           shown[k].add(gathered_[c][partner]);
       for (const Statistic s : column.statistics) {
-        this->put(name_of(column, variable.name), statistic_name(s), statistic_unit(s, variable.unit));
+        this->put(
+            name_of(column, variable.name), statistic_name(s), statistic_unit(s, variable.unit));
         for (const auto& group : shown) this->put(group.value(s, duration, shown.back().sum()));
       }
     }
   }
-
  private:
   using Accumulators = std::vector<Accumulator<Real>>;
   std::vector<Accumulators> gathered_;  ///< for each column, by partner
@@ -68,7 +70,8 @@ struct FrequencyKeys {
     auto& f = output.frequency;
     row(Parameter{"variable", "a number"}.as("name").usually("required"), f.name);
     const auto variable = model::find_variable(f.name);
-    const bool known = variable && model::impact_variables[*variable].kind == model::VariableKind::number;
+    const bool known =
+        variable && model::impact_variables[*variable].kind == model::VariableKind::number;
     const auto dimension =
         known ? casefile::dimension_of(model::impact_variables[*variable].unit) : Dimension::none;
     const auto bound = [&](const char* key, const char* meaning, Quantity& value) {
@@ -80,7 +83,8 @@ struct FrequencyKeys {
     };
     bound("low", "start of the first interval", f.low);
     bound("high", "end of the last interval", f.high);
-    row({"intervals", "number of intervals, of equal length", Range(1, 1000000), "10"}, f.intervals);
+    row({"intervals", "number of intervals, of equal length", Range(1, 1000000), "10"},
+        f.intervals);
     row(Parameter{"label", "name of the variable in the header"}.usually("the variable's name"),
         f.variable.label);
     row(Parameter{"title", "title of the table"}.usually("none"), f.title);
@@ -101,12 +105,10 @@ struct FrequencyKeys {
 };
 
 /// How often a variable falls into each of equal intervals [lower, upper). (thesis D.4.4)
-template <class Real>
-class FrequencyOutput : public TableOutput<Real> {
+template <class Real> class FrequencyOutput : public TableOutput<Real> {
  public:
   FrequencyOutput(const OutputSpec& spec, const RunContext<Real>& run)
-      : TableOutput<Real>(spec, run),
-        parts_(groups_of(run.partners, asked().wall_details)),
+      : TableOutput<Real>(spec, run), parts_(groups_of(run.partners, asked().wall_details)),
         formula_(variable_formula<Real>(asked().variable.variable)),
         high_(asked().high.template to<Real>()),
         counts_(asked().intervals + 2, std::vector<std::uint64_t>(run.partners.count())) {
@@ -114,10 +116,11 @@ class FrequencyOutput : public TableOutput<Real> {
     for (std::size_t k = 0; k <= asked().intervals; ++k)
       bounds_.push_back(low + (high_ - low) * Real(k) / Real(asked().intervals));
   }
-
  protected:
   void archive_record(Archive& a) override { a(counts_); }
-  void record(const ImpactFacts<Real>& f) override { ++of_partner(f, counts_[row_of(formula_(f))]); }
+  void record(const ImpactFacts<Real>& f) override {
+    ++of_partner(f, counts_[row_of(formula_(f))]);
+  }
 
   void end_of_record(const Simulation<Real>&, const Real&) override {
     const auto& variable = model::impact_variables[asked().variable.variable];
@@ -126,13 +129,14 @@ class FrequencyOutput : public TableOutput<Real> {
         {"lower", number, "", "lower end, in the interval"},
         {"upper", number, "", "upper end, not in the interval"},
         {"mean", number, "", "middle of the interval"}};
-    for (const auto& part : parts_) columns.push_back({part.column.key, integer, "", part.column.meaning});
+    for (const auto& part : parts_)
+      columns.push_back({part.column.key, integer, "", part.column.meaning});
     if (asked().percentages)
       for (const auto& part : parts_) columns.push_back({part.column.key + "_percentage", number});
     std::vector<std::string> comments;
     if (!asked().title.empty()) comments.push_back(asked().title);
-    comments.push_back(name_of(asked().variable, variable.name) + " [" + std::string(variable.unit) +
-                       "]: impacts with lower <= value < upper");
+    comments.push_back(name_of(asked().variable, variable.name) + " [" +
+        std::string(variable.unit) + "]: impacts with lower <= value < upper");
     this->begin(std::move(columns), std::move(comments));
     const std::size_t first = asked().out_of_range ? 0 : 1, end = counts_.size() - first;
     std::vector<std::uint64_t> wholes(parts_.size());  // of the impacts in this table
@@ -141,14 +145,13 @@ class FrequencyOutput : public TableOutput<Real> {
     for (std::size_t row = first; row < end; ++row) {
       this->put_bin(bounds_, row);
       this->put(io::value_if(row > 0 && row < bounds_.size(),
-                             [&] { return Real((bounds_[row - 1] + bounds_[row]) / 2); }));
+          [&] { return Real((bounds_[row - 1] + bounds_[row]) / 2); }));
       for (const auto& part : parts_) this->put(sum(row, part));
       for (std::size_t k = 0; asked().percentages && k < parts_.size(); ++k)
-        this->put(io::value_if(
-            wholes[k] > 0, [&] { return Real(Real(100) * Real(sum(row, parts_[k])) / Real(wholes[k])); }));
+        this->put(io::value_if(wholes[k] > 0,
+            [&] { return Real(Real(100) * Real(sum(row, parts_[k])) / Real(wholes[k])); }));
     }
   }
-
  private:
   const casefile::FrequencySpec& asked() const { return this->spec.frequency; }
 
@@ -175,7 +178,8 @@ inline const std::vector<Column> dose_fields{
     {"milling_dose_rate", number, "W", "milling dose per second of the record"},
     {"inverse_milling_dose_rate", number, "s/J", "time of the record over its milling dose"},
     {"specific_milling_dose", number, "J/kg", "milling dose over the mass of the powder"},
-    {"specific_milling_dose_rate", number, "W/kg", "milling dose per second over the mass of the powder"},
+    {"specific_milling_dose_rate", number, "W/kg",
+        "milling dose per second over the mass of the powder"},
     {"powder_mass", number, "kg", "mass of the powder"},
     {"charge_ratio", number, "1", "mass of the balls over the mass of the powder"}};
 
@@ -185,8 +189,8 @@ struct MillingDoseKeys {
 
   static void keys(auto& output, auto&& row) {
     row(Parameter{"fields",
-                  "`milling_dose`, `milling_dose_rate`, `inverse_milling_dose_rate`, "
-                  "`specific_milling_dose`, `specific_milling_dose_rate`, `powder_mass`, `charge_ratio`"}
+            "`milling_dose`, `milling_dose_rate`, `inverse_milling_dose_rate`, "
+            "`specific_milling_dose`, `specific_milling_dose_rate`, `powder_mass`, `charge_ratio`"}
             .as("list of names")
             .usually("all"),
         output.template make_own<MillingDoseKeys>().names);
@@ -206,11 +210,9 @@ struct MillingDoseKeys {
 };
 
 /// Milling dose of the record and what follows from it. (thesis 4.3.3)
-template <class Real>
-class MillingDoseOutput : public TableOutput<Real> {
+template <class Real> class MillingDoseOutput : public TableOutput<Real> {
  public:
   using TableOutput<Real>::TableOutput;
-
  protected:
   void archive_record(Archive& a) override { a(dose_); }
   void record(const ImpactFacts<Real>& f) override { dose_ += f.outcome.milling_dose; }
@@ -221,21 +223,18 @@ class MillingDoseOutput : public TableOutput<Real> {
     for (int i = 0; i < simulation.ball_count(); ++i) ball_mass += simulation.properties(i).mass;
     const auto& powder_mass = this->run.powder_mass;
     const bool timed = time > 0, powder = powder_mass.has_value();
-    const std::optional<Real> values[] = {
-        dose,
+    const std::optional<Real> values[] = {dose,
         io::value_if(timed, [&] { return Real(dose / time); }),
         io::value_if(dose > 0, [&] { return Real(time / dose); }),
         io::value_if(powder, [&] { return Real(dose / *powder_mass); }),
         io::value_if(powder && timed, [&] { return Real(dose / time / *powder_mass); }),
-        powder_mass,
-        io::value_if(powder, [&] { return Real(ball_mass / *powder_mass); })};
+        powder_mass, io::value_if(powder, [&] { return Real(ball_mass / *powder_mass); })};
     const auto& fields = this->spec.template own_keys<MillingDoseKeys>().fields;
     std::vector<Column> columns;
     for (const int field : fields) columns.push_back(dose_fields[field]);
     this->begin(std::move(columns));
     for (const int field : fields) this->put(values[field]);
   }
-
  private:
   numerics::CompensatedSum<Real> dose_;
 };

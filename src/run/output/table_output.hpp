@@ -43,11 +43,9 @@ inline std::string meaning_of(std::string_view variable) {
 }
 
 /// One table: CSV, written row by row, or HDF5 if the file's name ends in .h5, at the end.
-template <class Real>
-class TableOutput : public OneFileOutput<Real, io::AtomicFile> {
+template <class Real> class TableOutput : public OneFileOutput<Real, io::AtomicFile> {
   using Base = OneFileOutput<Real, io::AtomicFile>;
   using Base::file_;
-
  public:
   TableOutput(const OutputSpec& spec, const RunContext<Real>& run) : Base(spec, run, spec.append) {}
   std::vector<io::WholeFile*> complete() override {
@@ -58,7 +56,6 @@ class TableOutput : public OneFileOutput<Real, io::AtomicFile> {
     Base::archive(a);
     a(table_);
   }
-
  protected:
   /// To be called once: in the constructor when rows come during the run, else before the first.
   void begin(std::vector<io::Column> columns, std::vector<std::string> comments = {}) {
@@ -71,9 +68,9 @@ class TableOutput : public OneFileOutput<Real, io::AtomicFile> {
   /// @param bin  as returned by `bin_of`
   void put_bin(const std::vector<Real>& edges, std::size_t bin) {
     const bool below = bin == 0, above = bin == edges.size();
-    put(below   ? "below"
-        : above ? "above"
-                : std::to_string(bin),
+    put(below       ? "below"
+            : above ? "above"
+                    : std::to_string(bin),
         io::value_if(!below, [&] { return edges[bin - 1]; }),
         io::value_if(!above, [&] { return edges[bin]; }));
   }
@@ -87,9 +84,8 @@ class TableOutput : public OneFileOutput<Real, io::AtomicFile> {
   std::string window(const Real& until) const {
     const Real &from = this->timer().from(), duration = until - from;
     return "from " + to_text<Real>(from) + " s to " + to_text<Real>(until) +
-           " s: " + to_text<Real>(duration) + " s";
+        " s: " + to_text<Real>(duration) + " s";
   }
-
  private:
   void put_one(const auto& cell) {
     table_.put(cell);
@@ -105,8 +101,7 @@ class TableOutput : public OneFileOutput<Real, io::AtomicFile> {
 };
 
 /// A table with a row at the end of each interval of the record, where it has intervals.
-template <class Real>
-class IntervalOutput : public TableOutput<Real> {
+template <class Real> class IntervalOutput : public TableOutput<Real> {
  public:
   IntervalOutput(const OutputSpec& spec, const RunContext<Real>& run)
       : TableOutput<Real>(spec, run), clock_(spec.timer) {}
@@ -114,7 +109,6 @@ class IntervalOutput : public TableOutput<Real> {
     TableOutput<Real>::archive(a);
     a(clock_);
   }
-
  protected:
   virtual void write_row(const Real& begin, const Moment<Real>& end) = 0;
 
@@ -130,7 +124,6 @@ class IntervalOutput : public TableOutput<Real> {
       write_row(begin, {simulation, end});
     });
   }
-
  private:
   IntervalClock<Real> clock_;
 };

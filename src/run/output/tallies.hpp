@@ -1,5 +1,5 @@
-// Accumulators of tables: statistics of a variable, and counts for each partner, which are the walls by id,
-// other balls, and their total.
+// Accumulators of tables: statistics of a variable, and counts for each partner, which are the
+// walls by id, other balls, and their total.
 #pragma once
 
 #include <algorithm>
@@ -20,8 +20,7 @@ namespace edmill::output {
 using casefile::Statistic;
 
 /// Running statistics of one variable.
-template <class Real>
-class Accumulator {
+template <class Real> class Accumulator {
  public:
   void add(const Real& value) {
     if (count_ == 0 || value < least_) least_ = value;
@@ -47,14 +46,11 @@ class Accumulator {
   /// @param whole     total for percentages
   std::optional<Real> value(Statistic s, const Real& duration, const Real& whole) const {
     switch (s) {
-      case Statistic::sum:
-        return sum();
+      case Statistic::sum: return sum();
       case Statistic::average:
         return io::value_if(count_ > 0, [&] { return Real(sum() / Real(count_)); });
-      case Statistic::minimum:
-        return io::value_if(count_ > 0, [&] { return least_; });
-      case Statistic::maximum:
-        return io::value_if(count_ > 0, [&] { return largest_; });
+      case Statistic::minimum: return io::value_if(count_ > 0, [&] { return least_; });
+      case Statistic::maximum: return io::value_if(count_ > 0, [&] { return largest_; });
       case Statistic::rate:
         return io::value_if(duration > 0, [&] { return Real(sum() / duration); });
       case Statistic::percentage:
@@ -62,7 +58,6 @@ class Accumulator {
     }
     return std::nullopt;
   }
-
  private:
   std::uint64_t count_ = 0;
   numerics::CompensatedSum<Real> sum_;
@@ -70,8 +65,7 @@ class Accumulator {
 };
 
 /// The entry for the partner of an impact, in a list with one entry for each partner.
-template <class Real, class List>
-auto& of_partner(const ImpactFacts<Real>& f, List& list) {
+template <class Real, class List> auto& of_partner(const ImpactFacts<Real>& f, List& list) {
   return f.impact.with_wall ? list[f.impact.partner] : list.back();
 }
 
@@ -98,24 +92,23 @@ inline std::vector<PartnerGroup> groups_of(const model::Partners& partners, bool
 }
 
 /// Adds a column for each partner and their total: "wall_0 energy [J]" to "total energy [J]".
-inline void add_partner_columns(std::vector<io::Column>& columns, const model::Partners& partners,
-                                const io::Column& of_each) {
+inline void add_partner_columns(
+    std::vector<io::Column>& columns, const model::Partners& partners, const io::Column& of_each) {
   for (int place = 0; place <= partners.count(); ++place) {
     const auto& partner = place < partners.count() ? partners[place] : total_column;
     columns.push_back({partner.key + " " + of_each.name, of_each.type, of_each.unit,
-                       of_each.description + ", " + partner.meaning});
+        of_each.description + ", " + partner.meaning});
   }
 }
 
 /// The bin of a value: 0 below all edges, k from edge k - 1 to below edge k, edges.size() above.
-template <class Real>
-std::size_t bin_of(const std::vector<Real>& edges, const Real& value) {
-  return static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), value) - edges.begin());
+template <class Real> std::size_t bin_of(const std::vector<Real>& edges, const Real& value) {
+  return static_cast<std::size_t>(
+      std::upper_bound(edges.begin(), edges.end(), value) - edges.begin());
 }
 
 /// Number of impacts with one partner, and the sum of one of their energies [J].
-template <class Real>
-struct Tally {
+template <class Real> struct Tally {
   std::uint64_t impacts = 0;
   numerics::CompensatedSum<Real> energy;
 
@@ -130,8 +123,7 @@ struct Tally {
   void archive(Archive& a) { a(impacts, energy); }
 };
 /// A tally for each partner.
-template <class Real>
-using PartnerTally = std::vector<Tally<Real>>;
+template <class Real> using PartnerTally = std::vector<Tally<Real>>;
 
 /// Calls `put` with the value of each partner and with their total.
 /// @param value_of  function that extracts the value from the tally of a partner

@@ -29,10 +29,11 @@ inline double cpu_seconds() {
 
 /// Progress of a run.
 struct Progress {
-  double now;                 ///< simulated time [s]
-  std::optional<double> end;  ///< simulated time at the end [s]; empty if only other rules stop the run
-  std::uint64_t collisions;   ///< since the start of the run
-  double milling_dose;        ///< since the program started it, or resumed it [J]
+  double now;  ///< simulated time [s]
+  std::optional<double>
+      end;  ///< simulated time at the end [s]; empty if only other rules stop the run
+  std::uint64_t collisions;  ///< since the start of the run
+  double milling_dose;       ///< since the program started it, or resumed it [J]
 };
 
 /// A contact law of a program, with numbers as decimal texts in all digits of the run's scalar.
@@ -40,7 +41,7 @@ using LawInTexts = CustomLaw<std::string>;
 
 /// Settings of a run besides its case.
 struct RunSetup {
-  const std::atomic<bool>* interrupt = nullptr;                   ///< ends the run when it becomes true
+  const std::atomic<bool>* interrupt = nullptr;  ///< ends the run when it becomes true
   double max_cpu_time = std::numeric_limits<double>::infinity();  ///< of the run [s]
   std::function<void(const Progress&)> progress{};                ///< called now and then
   std::shared_ptr<const LawInTexts> ball_ball{}, ball_wall{};     ///< in place of the case's
@@ -68,14 +69,14 @@ class AnyRun {
  public:
   virtual ~AnyRun() = default;
 
-  /// Makes the run write the outputs of the case, case.toml, final_state.csv and summary.json to a folder.
-  /// Must be called before the run begins.
+  /// Makes the run write the outputs of the case, case.toml, final_state.csv and summary.json to a
+  /// folder. Must be called before the run begins.
   /// @param checkpoint  of what checkpoints contain; with a state, the run continues from there
   /// @param without_locks  called if the file system cannot lock the folder against a second run
   /// @throws InputError when a file cannot be written, or for a folder in use or with a checkpoint
   virtual void write_to(const std::filesystem::path& folder,
-                        std::optional<io::Checkpoint> checkpoint = std::nullopt,
-                        const std::function<void(const std::filesystem::path&)>& without_locks = {}) = 0;
+      std::optional<io::Checkpoint> checkpoint = std::nullopt,
+      const std::function<void(const std::filesystem::path&)>& without_locks = {}) = 0;
   /// Watchers receive every impact, in the order of attachment; they must outlive the run.
   virtual void attach(Watcher& watcher) = 0;
 
@@ -104,8 +105,8 @@ class AnyRun {
 
 /// @param precision  name of the scalar, one of casefile::precisions()
 /// @throws InputError when the balls find no room or the scalar cannot resolve the case
-std::unique_ptr<AnyRun> make_run(const std::string& precision, const casefile::CaseSpec& spec,
-                                 const RunSetup& setup = {});
+std::unique_ptr<AnyRun> make_run(
+    const std::string& precision, const casefile::CaseSpec& spec, const RunSetup& setup = {});
 template <class Real>
 std::unique_ptr<AnyRun> make_run_in(const casefile::CaseSpec& spec, const RunSetup& setup);
 

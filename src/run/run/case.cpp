@@ -11,13 +11,15 @@ namespace edmill {
 
 std::string library_version() { return version(); }
 
-Case::Case(casefile::CaseSpec spec) : spec_(std::make_shared<casefile::CaseSpec>(std::move(spec))) {}
+Case::Case(casefile::CaseSpec spec)
+    : spec_(std::make_shared<casefile::CaseSpec>(std::move(spec))) {}
 
 Case Case::read(const std::string& path, const std::vector<std::string>& settings) {
   const StandardArithmetic scope;
   return Case(casefile::read_case(path, settings));
 }
-Case Case::parse(const std::string& text, const std::string& name, const std::vector<std::string>& settings) {
+Case Case::parse(
+    const std::string& text, const std::string& name, const std::vector<std::string>& settings) {
   const StandardArithmetic scope;
   return Case(casefile::parse_case(text, name, settings));
 }

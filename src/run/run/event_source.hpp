@@ -43,10 +43,10 @@ class EventSource {
 /// @param precision  name of the scalar, in which the balls are placed
 /// @param to_end     whether the run ends where the case does; otherwise it continues on request
 /// @param interrupt  ends it when it becomes true @throws InterruptedError at the start
-std::unique_ptr<EventSource> make_source(const std::string& precision, const casefile::CaseSpec& spec,
-                                         bool to_end, const std::atomic<bool>* interrupt = nullptr);
+std::unique_ptr<EventSource> make_source(const std::string& precision,
+    const casefile::CaseSpec& spec, bool to_end, const std::atomic<bool>* interrupt = nullptr);
 template <class Real>
-std::unique_ptr<EventSource> make_source_in(const casefile::CaseSpec& spec, bool to_end,
-                                            const std::atomic<bool>* interrupt);
+std::unique_ptr<EventSource> make_source_in(
+    const casefile::CaseSpec& spec, bool to_end, const std::atomic<bool>* interrupt);
 
 }  // namespace edmill::run

@@ -5,8 +5,8 @@
 
 namespace edmill::run {
 
-std::unique_ptr<AnyRun> make_run(const std::string& precision, const casefile::CaseSpec& spec,
-                                 const RunSetup& setup) {
+std::unique_ptr<AnyRun> make_run(
+    const std::string& precision, const casefile::CaseSpec& spec, const RunSetup& setup) {
   return with_scalar(precision, [&]<class Real>() {
     // Files and texts contain only the digits that the case asks for and a few more.
     auto digits = ChosenDigits<Real>();
@@ -17,9 +17,10 @@ std::unique_ptr<AnyRun> make_run(const std::string& precision, const casefile::C
   });
 }
 
-std::unique_ptr<EventSource> make_source(const std::string& precision, const casefile::CaseSpec& spec,
-                                         bool to_end, const std::atomic<bool>* interrupt) {
-  return with_scalar(precision, [&]<class Real>() { return make_source_in<Real>(spec, to_end, interrupt); });
+std::unique_ptr<EventSource> make_source(const std::string& precision,
+    const casefile::CaseSpec& spec, bool to_end, const std::atomic<bool>* interrupt) {
+  return with_scalar(
+      precision, [&]<class Real>() { return make_source_in<Real>(spec, to_end, interrupt); });
 }
 
 }  // namespace edmill::run

@@ -25,8 +25,7 @@
 namespace edmill::run {
 
 /// Watches the stop rules of a case.
-template <class Real>
-class StopRuleWatch : public engine::Observer<Real> {
+template <class Real> class StopRuleWatch : public engine::Observer<Real> {
  public:
   explicit StopRuleWatch(const model::Case<Real>& of) {
     for_each([&]<class Watch>(std::optional<Watch>& watch, std::size_t place) {
@@ -36,9 +35,11 @@ class StopRuleWatch : public engine::Observer<Real> {
     });
   }
 
-  void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override {
+  void on_impact(
+      const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override {
     for_each([&](auto& watch, std::size_t place) {
-      if (watch && watch->is_met(impact, simulation)) simulation.request_stop(model::reason_of_rule(place));
+      if (watch && watch->is_met(impact, simulation))
+        simulation.request_stop(model::reason_of_rule(place));
     });
   }
   void archive(Archive& a) override {
@@ -46,14 +47,13 @@ class StopRuleWatch : public engine::Observer<Real> {
       if (watch) a(*watch);
     });
   }
-
  private:
   template <class... Rule>
-  static std::tuple<std::optional<typename Rule::template Watch<Real>>...> watches_of(std::tuple<Rule...>);
+  static std::tuple<std::optional<typename Rule::template Watch<Real>>...> watches_of(
+      std::tuple<Rule...>);
 
   /// Calls f(watch of the rule or none, place of the rule).
-  template <class F>
-  void for_each(F&& f) {
+  template <class F> void for_each(F&& f) {
     std::size_t place = 0;
     std::apply([&](auto&... watch) { (f(watch, place++), ...); }, watches_);
   }
@@ -63,13 +63,12 @@ class StopRuleWatch : public engine::Observer<Real> {
 
 /// The observers of every run. Each is constructed from the case, `Observer(const
 /// model::Case<Real>&)`, and may `note(summary)`. A new one is a file in run/ and a line here.
-template <class Real>
-using EveryRunList = std::tuple<StopRuleWatch<Real>>;
+template <class Real> using EveryRunList = std::tuple<StopRuleWatch<Real>>;
 
-template <class Real>
-class EveryRun {
+template <class Real> class EveryRun {
  public:
-  explicit EveryRun(const model::Case<Real>& of) : EveryRun(of, static_cast<EveryRunList<Real>*>(nullptr)) {}
+  explicit EveryRun(const model::Case<Real>& of)
+      : EveryRun(of, static_cast<EveryRunList<Real>*>(nullptr)) {}
 
   void attach_to(engine::Simulation<Real>& simulation) {
     std::apply([&](auto&... observer) { (simulation.attach(observer), ...); }, all_);
@@ -83,7 +82,6 @@ class EveryRun {
   void archive(Archive& a) {
     std::apply([&](auto&... observer) { a(observer...); }, all_);
   }
-
  private:
   template <class... Each>
   EveryRun(const model::Case<Real>& of, std::tuple<Each...>*) : all_(Each(of)...) {}
@@ -91,16 +89,14 @@ class EveryRun {
   EveryRunList<Real> all_;
 };
 
-template <class Real>
-struct Guests {
+template <class Real> struct Guests {
   std::vector<engine::Observer<Real>*> observers;  ///< notified of every impact, in this order
   const std::atomic<bool>* interrupt = nullptr;    ///< ends the run when it becomes true
   Checkpoints checkpoints{};                       ///< they include the observers
 };
 
 /// Limits how often a clock is read, since that costs more than a collision.
-template <class Real>
-struct SeldomLook {
+template <class Real> struct SeldomLook {
   int every = std::is_same_v<Real, double> ? 1024 : 16, since = 0;
 
   bool is_due() {
@@ -111,33 +107,32 @@ struct SeldomLook {
 };
 
 /// Ends a run that has taken `limit` [s] of processor time.
-template <class Real>
-class CpuLimit : public engine::Observer<Real> {
+template <class Real> class CpuLimit : public engine::Observer<Real> {
  public:
   explicit CpuLimit(double limit) : end_(cpu_seconds() + limit) {}
 
   void on_impact(const engine::Impact<Real>&, engine::Simulation<Real>& simulation) override {
-    if (look_.is_due() && cpu_seconds() > end_) simulation.request_stop(engine::EndReason::max_cpu_time);
+    if (look_.is_due() && cpu_seconds() > end_)
+      simulation.request_stop(engine::EndReason::max_cpu_time);
   }
-
  private:
   double end_;
   SeldomLook<Real> look_;
 };
 
 /// Reports the progress of a run.
-template <class Real>
-class ProgressWatch : public engine::Observer<Real> {
+template <class Real> class ProgressWatch : public engine::Observer<Real> {
  public:
   /// @param end  of the simulated time, where it is known [s]
   ProgressWatch(std::function<void(const Progress&)> show, std::optional<double> end)
       : show_(std::move(show)), end_(end) {}
 
-  void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override {
+  void on_impact(
+      const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override {
     dose_ += static_cast<double>(impact.outcome.milling_dose);
-    if (look_.is_due()) show_({static_cast<double>(simulation.seconds()), end_, impact.index + 1, dose_});
+    if (look_.is_due())
+      show_({static_cast<double>(simulation.seconds()), end_, impact.index + 1, dose_});
   }
-
  private:
   static constexpr int every_ = std::is_same_v<Real, double> ? 4096 : 64;
   SeldomLook<Real> look_{every_, every_};  // at the first impact, too
@@ -147,8 +142,7 @@ class ProgressWatch : public engine::Observer<Real> {
 };
 
 /// Pauses the run when a checkpoint is due. It does not change the run: its moment does not matter.
-template <class Real>
-class CheckpointWatch : public engine::Observer<Real> {
+template <class Real> class CheckpointWatch : public engine::Observer<Real> {
  public:
   CheckpointWatch(const CheckpointInterval& interval, double start)
       : interval_(interval), next_(start + interval.seconds), made_(Clock::now()) {}
@@ -158,14 +152,14 @@ class CheckpointWatch : public engine::Observer<Real> {
       const auto now = static_cast<double>(simulation.seconds());
       if (now < next_) return;
       next_ = now + interval_.seconds;
-    } else if (!look_.is_due() || Clock::now() - made_ < std::chrono::duration<double>(interval_.seconds)) {
+    } else if (!look_.is_due() ||
+        Clock::now() - made_ < std::chrono::duration<double>(interval_.seconds)) {
       return;
     }
     simulation.request_pause();
   }
   /// Counts the interval from now on.
   void made() { made_ = Clock::now(); }
-
  private:
   using Clock = std::chrono::steady_clock;
   CheckpointInterval interval_;
@@ -175,17 +169,13 @@ class CheckpointWatch : public engine::Observer<Real> {
 };
 
 /// Runs up to the start of statistics, then with them to the end, with checkpoints in between.
-template <class Real>
-class RunDriver {
+template <class Real> class RunDriver {
  public:
   RunDriver(const casefile::InitialCase<Real>& built, const Guests<Real>& guests)
-      : guests_(guests),
-        simulation_(built.the_case, built.states, built.start, guests.interrupt),
-        every_run_(built.the_case),
-        statistics_(model::partners_of(built.the_case.mill), built.the_case.balls,
-                    built.the_case.counted_dose),
-        first_(built.start),
-        start_(std::max(first_, built.the_case.statistics_start)) {
+      : guests_(guests), simulation_(built.the_case, built.states, built.start, guests.interrupt),
+        every_run_(built.the_case), statistics_(model::partners_of(built.the_case.mill),
+                                        built.the_case.balls, built.the_case.counted_dose),
+        first_(built.start), start_(std::max(first_, built.the_case.statistics_start)) {
     every_run_.attach_to(simulation_);
     for (auto* observer : guests.observers) simulation_.attach(*observer);
     const auto& end_time = built.the_case.stop.end_time;
@@ -227,7 +217,9 @@ class RunDriver {
   const RunStatistics<Real>& statistics() const { return statistics_; }
   const EveryRun<Real>& every_run() const { return every_run_; }
   /// Start of statistics; the current time before they have begun [s].
-  Real counted_from() const { return simulation_.clock().seconds(counting_ ? start_ : simulation_.now()); }
+  Real counted_from() const {
+    return simulation_.clock().seconds(counting_ ? start_ : simulation_.now());
+  }
   model::Energy<Real> energy_at_start() const {
     return counting_ ? energy_at_start_ : simulation_.energy_at(simulation_.now());
   }
@@ -240,7 +232,6 @@ class RunDriver {
     a(cpu);
     if (a.loading()) cpu_before_ = cpu;
   }
-
  private:
   void start_counting() {
     counting_ = true;
@@ -278,8 +269,8 @@ class RunDriver {
 /// Summary of what has been simulated so far.
 /// @param driver  empty if the first contacts of the balls could not be decided
 template <class Real>
-io::Summary<Real> summary_of(const casefile::CaseSpec& spec, const casefile::InitialCase<Real>& built,
-                             const std::optional<RunDriver<Real>>& driver) {
+io::Summary<Real> summary_of(const casefile::CaseSpec& spec,
+    const casefile::InitialCase<Real>& built, const std::optional<RunDriver<Real>>& driver) {
   io::Summary<Real> summary(model::partners_of(built.the_case.mill));
   if (spec.powder_mass) summary.powder_mass = spec.powder_mass->template to<Real>();
   if (spec.target.dose)
@@ -290,7 +281,7 @@ io::Summary<Real> summary_of(const casefile::CaseSpec& spec, const casefile::Ini
   summary.ball_mass = Real(0);
   for (const auto& ball : built.the_case.balls) *summary.ball_mass += ball.mass;
   summary.provenance = {spec.file, spec.digest, spec.settings, spec.reported, scalar_name<Real>(),
-                        version(), commit(),    compiler(),    spec.seed,     spec.right_digits};
+      version(), commit(), compiler(), spec.seed, spec.right_digits};
   if (!driver) {
     summary.period = built.the_case.mill.motion.period();
     summary.start_time = summary.end_time = DriveClock<Real>(summary.period).seconds(built.start);
@@ -333,7 +324,7 @@ io::Summary<Real> summary_of(const casefile::CaseSpec& spec, const casefile::Ini
   summary.escalations = simulation.escalations();
   const auto &first = summary.energy_at_start, &last = summary.energy_at_end;
   summary.energy_closure = summary.wall_work - summary.milling_dose + summary.supplied_energy -
-                           ((last.kinetic + last.potential) - (first.kinetic + first.potential));
+      ((last.kinetic + last.potential) - (first.kinetic + first.potential));
   driver->every_run().note(summary);
   // An instant consists of whole periods and a remainder, whose sum is rounded: a time of the case
   // is exact.
@@ -345,15 +336,16 @@ io::Summary<Real> summary_of(const casefile::CaseSpec& spec, const casefile::Ini
   if (summary.duration() > 0) {
     summary.intervals =
         statistics.intervals(simulation.now(), simulation.clock().period(), summary.duration());
-    if (summary.target) summary.target->counted_dose_rate = statistics.counted_dose() / summary.duration();
+    if (summary.target)
+      summary.target->counted_dose_rate = statistics.counted_dose() / summary.duration();
   }
   return summary;
 }
 
 /// The balls as they are now.
 template <class Real>
-io::SavedState<Real> saved_state(const casefile::InitialCase<Real>& built,
-                                 const std::optional<RunDriver<Real>>& driver) {
+io::SavedState<Real> saved_state(
+    const casefile::InitialCase<Real>& built, const std::optional<RunDriver<Real>>& driver) {
   if (!driver) return {built.start, built.states};
   const auto& simulation = driver->simulation();
   io::SavedState<Real> saved{simulation.now(), {}};
@@ -363,7 +355,8 @@ io::SavedState<Real> saved_state(const casefile::InitialCase<Real>& built,
 }
 
 template <class Real>
-void finish_summary(io::Summary<Real>& summary, model::EndReason end_reason, const std::string& error) {
+void finish_summary(
+    io::Summary<Real>& summary, model::EndReason end_reason, const std::string& error) {
   summary.end_reason = end_reason;
   summary.warnings = warnings_of(io::facts_of(summary), summary.wanted_precision);
   summary.error = summary.stall ? io::stall_message(summary) : error;

@@ -17,10 +17,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::pair<const char*, const char*> encodings[] = {
-    {".csv", "text/csv"},          {".json", "application/json"}, {".toml", "application/toml"},
-    {".h5", "application/x-hdf5"}, {".x3d", "model/x3d+xml"},     {".pvd", "application/xml"},
-    {".vtp", "application/xml"}};
+constexpr std::pair<const char*, const char*> encodings[] = {{".csv", "text/csv"},
+    {".json", "application/json"}, {".toml", "application/toml"}, {".h5", "application/x-hdf5"},
+    {".x3d", "model/x3d+xml"}, {".pvd", "application/xml"}, {".vtp", "application/xml"}};
 
 std::string today() {
   std::time_t now = std::time(nullptr);
@@ -33,12 +32,14 @@ std::string today() {
 std::string id(const std::string& name) { return "{\"@id\": " + io::JsonText::of(name) + "}"; }
 
 std::string entity(const std::string& name, const char* type, const std::string& others) {
-  return ",\n    {\"@id\": " + io::JsonText::of(name) + ", \"@type\": \"" + type + "\", " + others + "}";
+  return ",\n    {\"@id\": " + io::JsonText::of(name) + ", \"@type\": \"" + type + "\", " + others +
+      "}";
 }
 
 }  // namespace
 
-RunFolder::RunFolder(fs::path place, const casefile::CaseSpec& spec, std::optional<io::Checkpoint> checkpoint)
+RunFolder::RunFolder(
+    fs::path place, const casefile::CaseSpec& spec, std::optional<io::Checkpoint> checkpoint)
     : place_(std::move(place)), checkpoint_(std::move(checkpoint)) {
   take(place_);
   const bool begins = !checkpoint_ || (checkpoint_->state.empty() && checkpoint_->result.empty());
@@ -47,12 +48,12 @@ RunFolder::RunFolder(fs::path place, const casefile::CaseSpec& spec, std::option
     io::require_own_files(place_, {"case.toml", "final_state.csv", "summary.json", crate_file});
     if (fs::exists(place_ / "runs") && fs::exists(place_ / "runs.csv"))
       throw InputError(place_.string() +
-                       ": this folder has the runs of a sweep, an optimisation or several seeds: use another "
-                       "--out");
+          ": this folder has the runs of a sweep, an optimisation or several seeds: use another "
+          "--out");
   }
   if (!begins && io::read_checkpoint(place_).state != checkpoint_->state)
     throw InputError(io::checkpoint_place(place_).string() +
-                     ": another process has just changed this checkpoint: run one at a time");
+        ": another process has just changed this checkpoint: run one at a time");
   for (const auto& output : spec.outputs) {
     if (checkpoint_) io::Destination(place_ / output.folder / output.file).require_file();
     take(place_ / output.folder);
@@ -97,14 +98,15 @@ void RunFolder::write(const std::string& name, const std::function<void(std::ost
 }
 
 void RunFolder::write_crate(const std::string& case_digest, const std::string& precision,
-                            const std::vector<fs::path>& files) {
+    const std::vector<fs::path>& files) {
   std::string parts, entities;
   for (const auto& file : files) {
     const auto name = file.generic_string();
     parts += (parts.empty() ? "" : ", ") + id(name);
     std::string others = "\"name\": " + io::JsonText::of(name);
     for (const auto& [ending, encoding] : encodings)
-      if (file.extension() == ending) others += fmt::format(", \"encodingFormat\": \"{}\"", encoding);
+      if (file.extension() == ending)
+        others += fmt::format(", \"encodingFormat\": \"{}\"", encoding);
     entities += entity(name, "File", others);
   }
   const auto dataset = fmt::format(
@@ -113,7 +115,7 @@ void RunFolder::write_crate(const std::string& case_digest, const std::string& p
       "\"mentions\": {{\"@id\": \"#run\"}}",
       version(), precision, case_digest, today(), parts);
   const auto action = "\"name\": \"edmill run\", \"instrument\": " + id("#edmill") +
-                      ", \"object\": " + id("case.toml") + ", \"result\": [" + parts + "]";
+      ", \"object\": " + id("case.toml") + ", \"result\": [" + parts + "]";
   const auto program = "\"name\": \"edmill\", \"softwareVersion\": \"" + version() + "\"";
   write(crate_file, [&](std::ostream& out) {
     out << "{\n  \"@context\": \"https://w3id.org/ro/crate/1.1/context\",\n  \"@graph\": [\n    "
@@ -150,13 +152,13 @@ void RunFolder::remove_checkpoint(const std::string& result) {
 CheckpointInterval parse_checkpoint_interval(const std::string& text) {
   const std::string mark = " simulated";
   const bool simulated = text.ends_with(mark);
-  const auto parsed = casefile::parse_quantity(text.substr(0, text.size() - (simulated ? mark.size() : 0)),
-                                               casefile::Dimension::time);
+  const auto parsed = casefile::parse_quantity(
+      text.substr(0, text.size() - (simulated ? mark.size() : 0)), casefile::Dimension::time);
   const auto* time = std::get_if<casefile::Quantity>(&parsed);
   if (!time || !time->positive())
     throw InputError("--checkpoint: found " +
-                     (time ? "\"" + text + "\"" : std::get<casefile::QuantityProblem>(parsed).found) +
-                     ", expected a positive time, such as '10 min' by the clock or '2 s simulated'");
+        (time ? "\"" + text + "\"" : std::get<casefile::QuantityProblem>(parsed).found) +
+        ", expected a positive time, such as '10 min' by the clock or '2 s simulated'");
   return {time->to<double>(), simulated};
 }
 

@@ -41,7 +41,7 @@ class RunFolder {
   /// @param checkpoint  of a run that makes them; with a state, the run continues there
   /// @throws InputError for a folder that is unusable, in use, or has the checkpoint of another run
   RunFolder(std::filesystem::path place, const casefile::CaseSpec& spec,
-            std::optional<io::Checkpoint> checkpoint = std::nullopt);
+      std::optional<io::Checkpoint> checkpoint = std::nullopt);
   RunFolder(const RunFolder&) = delete;
   RunFolder& operator=(const RunFolder&) = delete;
   /// Removes temporary files unless a checkpoint needs them.
@@ -56,15 +56,14 @@ class RunFolder {
 
   /// Writes a file of the run itself, which `commit` puts in place. @throws std::runtime_error
   void write(const std::string& name, const std::function<void(std::ostream&)>& put);
-  /// Describes these files, relative to the folder, and the program that made them, with the date of
-  /// SOURCE_DATE_EPOCH if the environment has it, else today's (UTC).
+  /// Describes these files, relative to the folder, and the program that made them, with the date
+  /// of SOURCE_DATE_EPOCH if the environment has it, else today's (UTC).
   void write_crate(const std::string& case_digest, const std::string& precision,
-                   const std::vector<std::filesystem::path>& files);
+      const std::vector<std::filesystem::path>& files);
   /// Moves these complete results into place, then the run's own; removes others of earlier runs.
   void commit(std::vector<io::WholeFile*> files);
   /// Removes the checkpoint of a run that has ended. @param result  kept there until then
   void remove_checkpoint(const std::string& result);
-
  private:
   void take(const std::filesystem::path& folder);
   void remove_leftovers() const;

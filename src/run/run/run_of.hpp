@@ -24,14 +24,15 @@
 
 namespace edmill::run {
 
-template <class Real>
-class RunningCase : public EventSource, private engine::Observer<Real> {
+template <class Real> class RunningCase : public EventSource, private engine::Observer<Real> {
  public:
   RunningCase(const casefile::CaseSpec& spec, bool to_end, const std::atomic<bool>* interrupt)
-      : spec_(spec), built_(casefile::build_case<Real>(spec)), interrupt_(interrupt), reached_(built_.start) {
+      : spec_(spec), built_(casefile::build_case<Real>(spec)), interrupt_(interrupt),
+        reached_(built_.start) {
     if (const auto& stop = built_.the_case.stop; to_end) {
       const auto is_set = [](const auto& limit) { return limit.has_value(); };
-      if (std::any_of(stop.limits.begin(), stop.limits.end(), is_set)) stop_rules_.emplace(built_.the_case);
+      if (std::any_of(stop.limits.begin(), stop.limits.end(), is_set))
+        stop_rules_.emplace(built_.the_case);
       if (stop.end_time) end_ = *stop.end_time;
     }
     begin(built_.states);
@@ -40,7 +41,8 @@ class RunningCase : public EventSource, private engine::Observer<Real> {
   std::vector<Event> next(std::size_t count) override {
     const auto scope = digits_.use();
     while (waiting_.size() < count && !over_) advance();
-    const auto end = waiting_.begin() + static_cast<std::ptrdiff_t>(std::min(count, waiting_.size()));
+    const auto end =
+        waiting_.begin() + static_cast<std::ptrdiff_t>(std::min(count, waiting_.size()));
     std::vector<Event> events(waiting_.begin(), end);
     waiting_.erase(waiting_.begin(), end);
     return events;
@@ -74,7 +76,6 @@ class RunningCase : public EventSource, private engine::Observer<Real> {
       begin(states);
     }
   }
-
  private:
   void begin(const std::vector<model::BallState<Real>>& states) {
     simulation_.emplace(built_.the_case, states, reached_, interrupt_);
@@ -84,7 +85,9 @@ class RunningCase : public EventSource, private engine::Observer<Real> {
   void advance() {
     reached_ = simulation_->clock().after(reached_, simulation_->clock().period() / 16);
     const bool last = !(reached_ < end_);
-    over_ = simulation_->run_until(last ? end_ : reached_, interrupt_) != engine::EndReason::end_time || last;
+    over_ =
+        simulation_->run_until(last ? end_ : reached_, interrupt_) != engine::EndReason::end_time ||
+        last;
   }
   std::vector<model::BallState<Real>> states_now() const {
     const auto scope = digits_.use();
@@ -93,7 +96,8 @@ class RunningCase : public EventSource, private engine::Observer<Real> {
       states.push_back(simulation_->state_at(k, simulation_->now()));
     return states;
   }
-  void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override {
+  void on_impact(
+      const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override {
     if (stop_rules_) {
       auto numbered = impact;
       numbered.index = impacts_;  // earlier simulations have had impacts, too
@@ -123,8 +127,8 @@ class RunningCase : public EventSource, private engine::Observer<Real> {
 };
 
 template <class Real>
-std::unique_ptr<EventSource> make_source_in(const casefile::CaseSpec& spec, bool to_end,
-                                            const std::atomic<bool>* interrupt) {
+std::unique_ptr<EventSource> make_source_in(
+    const casefile::CaseSpec& spec, bool to_end, const std::atomic<bool>* interrupt) {
   return std::make_unique<RunningCase<Real>>(spec, to_end, interrupt);
 }
 
@@ -132,21 +136,10 @@ std::unique_ptr<EventSource> make_source_in(const casefile::CaseSpec& spec, bool
 template <class To, class Real, class Of>
 Impact<To> to_public(const engine::Impact<Real>& i, const Real& time, const Of& of) {
   const auto& o = i.outcome;
-  return {i.index,
-          of(time),
-          i.ball,
-          i.with_wall,
-          i.partner,
-          {of(i.normal[0]), of(i.normal[1]), of(i.normal[2])},
-          of(o.approach_speed),
-          of(o.slip_speed),
-          of(o.separation_speed),
-          of(o.restitution_tangential),
-          of(o.normal_impulse),
-          of(o.tangential_impulse),
-          of(o.milling_dose),
-          of(o.supplied_energy),
-          of(o.wall_work)};
+  return {i.index, of(time), i.ball, i.with_wall, i.partner,
+      {of(i.normal[0]), of(i.normal[1]), of(i.normal[2])}, of(o.approach_speed), of(o.slip_speed),
+      of(o.separation_speed), of(o.restitution_tangential), of(o.normal_impulse),
+      of(o.tangential_impulse), of(o.milling_dose), of(o.supplied_energy), of(o.wall_work)};
 }
 template <class To, class Real, class Of>
 BallState<To> to_public(const model::BallState<Real>& s, const Of& of) {
@@ -160,15 +153,17 @@ model::AnyMotion<Real> to_motion(const Joints<Real>& given, const Real& period) 
   const auto per_period = [](const TurnsPerPeriod& t) {
     using casefile::Quantity;
     if (t.of < 1)
-      throw InputError("joint: found turns per " + std::to_string(t.of) + " periods, expected 1 or more");
-    const std::vector<model::Swing<Quantity>> turning{{Quantity{1}, Quantity{t.turns, t.of}, Quantity{0}}};
+      throw InputError(
+          "joint: found turns per " + std::to_string(t.of) + " periods, expected 1 or more");
+    const std::vector<model::Swing<Quantity>> turning{
+        {Quantity{1}, Quantity{t.turns, t.of}, Quantity{0}}};
     return casefile::with_phases(turning, Quantity{1}).front().per_period;
   };
   model::Joints<Real> joints{{}, period};
   for (const auto& j : given) {
     const auto turns = per_period(j.speed);
-    model::Joint<Real> joint{j.rotates, j.axis,  j.shift,
-                             j.angle,   Real(0), j.rotates ? turns : model::TurnFraction{}};
+    model::Joint<Real> joint{
+        j.rotates, j.axis, j.shift, j.angle, Real(0), j.rotates ? turns : model::TurnFraction{}};
     for (const auto& h : j.harmonics)
       joint.swings.push_back({h.amplitude, Real(0), h.phase, per_period(h.frequency)});
     if (!j.rotates && j.speed.turns != 0)
@@ -198,7 +193,7 @@ void forget_walls(model::Mill<Real>& mill, const model::AnyVessel<Real>& own) {
   constexpr std::size_t most = 48;  // as of a case
   if (bodies > 0 && new_count + bodies > most)
     throw InputError("vessel of the program: found " + std::to_string(new_count + bodies) +
-                     " walls and bodies, expected at most " + std::to_string(most));
+        " walls and bodies, expected at most " + std::to_string(most));
   if (foreign)
     throw InputError(
         "vessel of the program: found a case whose walls move or have materials, expected a case "
@@ -220,8 +215,8 @@ void fit_bodies(model::Mill<Real>& mill, const casefile::CaseSpec& spec, bool ow
       body.motion = model::ChainMotion<Real>(joints);
     }
     const Real domain = body.motion.reach(mill.motion.reach(mill.vessel.reach()));
-    body.shape = body.shape.among(Real(spec.largest_diameter() / 2 * (1 + 1e-9)),
-                                  domain * (1 + rounding_margin<Real>()));
+    body.shape = body.shape.among(
+        Real(spec.largest_diameter() / 2 * (1 + 1e-9)), domain * (1 + rounding_margin<Real>()));
   }
 }
 
@@ -237,7 +232,8 @@ casefile::InitialCase<Real> build(const casefile::CaseSpec& spec, const OwnParts
     forget_walls<Real>(mill, model::PolyhedronVessel<Real>(planes));
   } else if (own.vessel) {
     const auto& half = own.vessel->half_sizes;
-    forget_walls<Real>(mill, model::AlgebraicVessel<Real>(own.vessel->walls, {half[0], half[1], half[2]}));
+    forget_walls<Real>(
+        mill, model::AlgebraicVessel<Real>(own.vessel->walls, {half[0], half[1], half[2]}));
   }
   if (!own.joints.empty()) mill.motion = to_motion<Real>(own.joints, mill.motion.period());
   fit_bodies<Real>(mill, spec, !own.joints.empty());
@@ -245,38 +241,36 @@ casefile::InitialCase<Real> build(const casefile::CaseSpec& spec, const OwnParts
 }
 
 /// Adapts a contact law with numbers as texts to one with numbers.
-template <class Real>
-class LawOfTexts : public CustomLaw<Real> {
+template <class Real> class LawOfTexts : public CustomLaw<Real> {
  public:
   explicit LawOfTexts(std::shared_ptr<const LawInTexts> law) : law_(std::move(law)) {}
   Real restitution(const Real& approach_speed) const override {
     return number(law_->restitution(to_text<Real>(approach_speed)), "restitution");
   }
-  Real restitution_of_slip(const Real& change, const Real& slip, const Real& compliance) const override {
-    const auto text =
-        law_->restitution_of_slip(to_text<Real>(change), to_text<Real>(slip), to_text<Real>(compliance));
+  Real restitution_of_slip(
+      const Real& change, const Real& slip, const Real& compliance) const override {
+    const auto text = law_->restitution_of_slip(
+        to_text<Real>(change), to_text<Real>(slip), to_text<Real>(compliance));
     return number(text, "restitution_of_slip");
   }
-
  private:
   static Real number(const std::string& text, const char* what) {
     try {
       return from_text<Real>(text);
     } catch (const std::invalid_argument&) {
       throw InputError("contact law of the program: " + std::string(what) + ": found " + text +
-                       ", expected a number");
+          ", expected a number");
     }
   }
 
   std::shared_ptr<const LawInTexts> law_;
 };
 
-template <class Real>
-class RunOf : public AnyRun, private engine::Observer<Real> {
+template <class Real> class RunOf : public AnyRun, private engine::Observer<Real> {
  public:
-  RunOf(std::shared_ptr<const casefile::CaseSpec> spec, const OwnParts<Real>& own, const RunSetup& setup = {})
-      : spec_(std::move(spec)),
-        built_(build(*spec_, own)),
+  RunOf(std::shared_ptr<const casefile::CaseSpec> spec, const OwnParts<Real>& own,
+      const RunSetup& setup = {})
+      : spec_(std::move(spec)), built_(build(*spec_, own)),
         own_laws_(own.laws.ball_ball || own.laws.ball_wall) {
     guests_.interrupt = setup.interrupt;
     guests_.observers.push_back(this);
@@ -297,10 +291,10 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
   Scope use() const { return {{}, digits_.use()}; }
 
   void write_to(const std::filesystem::path& folder, std::optional<io::Checkpoint> checkpoint,
-                const std::function<void(const std::filesystem::path&)>& without_locks) override {
+      const std::function<void(const std::filesystem::path&)>& without_locks) override {
     const auto scope = use();
     EDMILL_REQUIRE(end_reason_ == model::EndReason::paused && !advanced_ && !outputs_,
-                   "write_to is called once, before the run advances");
+        "write_to is called once, before the run advances");
     folder_.emplace(folder, *spec_, std::move(checkpoint));
     if (without_locks && !folder_->locked()) without_locks(folder_->place());
     guests_.checkpoints = folder_->checkpoints();
@@ -398,14 +392,15 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
     outputs_.reset();
     folder_.reset();
   }
-
  private:
-  void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override {
+  void on_impact(
+      const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override {
     if (own_laws_ || !spec_->outputs.empty() || !calls_.empty() || !watchers_.empty())
       show(impact, simulation);
   }
   /// A separate function, so that an impact that nobody observes costs a few instructions.
-  [[gnu::noinline]] void show(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) {
+  [[gnu::noinline]] void show(
+      const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) {
     if (own_laws_) require_no_gain(impact);
     if (outputs_ && !spec_->outputs.empty()) outputs_->on_impact(impact, simulation);
     if (watchers_.empty() && calls_.empty()) return;
@@ -416,8 +411,8 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
     }
     const auto rounded = [](const Real& x) { return static_cast<double>(x); };
     const SeenImpact seen{impact.index, rounded(time),
-                          [&] { return to_public<double>(impact, time, rounded); },
-                          [&] { return to_public<std::string>(impact, time, to_text<Real>); }};
+        [&] { return to_public<double>(impact, time, rounded); },
+        [&] { return to_public<std::string>(impact, time, to_text<Real>); }};
     for (auto* watcher : watchers_) watcher->on_impact(seen, *this);
   }
   void archive(Archive& a) override {
@@ -431,9 +426,11 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
     folder_->write("final_state.csv", [&](std::ostream& out) {
       io::write_final_state<Real>(out, saved_state(built_, driver_), clock);
     });
-    folder_->write("case.toml", [&](std::ostream& out) { out << casefile::text_with_settings(*spec_); });
+    folder_->write(
+        "case.toml", [&](std::ostream& out) { out << casefile::text_with_settings(*spec_); });
     std::vector<std::filesystem::path> all{"case.toml", "summary.json", "final_state.csv"};
-    for (const auto* file : files) all.push_back(file->place().lexically_proximate(folder_->place()));
+    for (const auto* file : files)
+      all.push_back(file->place().lexically_proximate(folder_->place()));
     folder_->write_crate(spec_->digest, scalar_name<Real>(), all);
     folder_->write("summary.json", [&](std::ostream& out) { out << summary_json(); });
     folder_->commit(std::move(files));
@@ -445,10 +442,11 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
     const Real rounding =
         (o.normal_impulse * o.approach_speed + o.tangential_impulse * o.slip_speed) / 1000000000;
     if (!(o.milling_dose >= -rounding))
-      throw InputError("contact law of the program: impact " + std::to_string(impact.index) + " of ball " +
-                       std::to_string(impact.ball) + " and " + (impact.with_wall ? "wall " : "ball ") +
-                       std::to_string(impact.partner) + " gains " + to_text<Real>(-o.milling_dose) +
-                       " J: e_t is " + to_text<Real>(o.restitution_tangential) + ", expected -1 to 1");
+      throw InputError("contact law of the program: impact " + std::to_string(impact.index) +
+          " of ball " + std::to_string(impact.ball) + " and " +
+          (impact.with_wall ? "wall " : "ball ") + std::to_string(impact.partner) + " gains " +
+          to_text<Real>(-o.milling_dose) + " J: e_t is " + to_text<Real>(o.restitution_tangential) +
+          ", expected -1 to 1");
   }
 
   ChosenDigits<Real> digits_;
@@ -464,7 +462,8 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
   std::vector<std::function<void(const Impact<Real>&)>> calls_;
   std::optional<RunDriver<Real>> driver_;
   bool advanced_ = false;
-  std::pair<Instant<Real>, Real> asked_{Instant<Real>::long_ago(), Real(0)};  ///< end of the last advance [s]
+  std::pair<Instant<Real>, Real> asked_{
+      Instant<Real>::long_ago(), Real(0)};  ///< end of the last advance [s]
   model::EndReason end_reason_ = model::EndReason::paused;
   std::string error_;
   mutable std::optional<io::Summary<Real>> ended_;
@@ -475,8 +474,7 @@ std::unique_ptr<AnyRun> make_run_in(const casefile::CaseSpec& spec, const RunSet
   const auto law = [](const auto& texts) {
     return texts ? std::make_shared<LawOfTexts<Real>>(texts) : nullptr;
   };
-  return std::make_unique<RunOf<Real>>(
-      std::make_shared<const casefile::CaseSpec>(spec),
+  return std::make_unique<RunOf<Real>>(std::make_shared<const casefile::CaseSpec>(spec),
       OwnParts<Real>{{}, {}, {}, {law(setup.ball_ball), law(setup.ball_wall)}}, setup);
 }
 
@@ -484,8 +482,7 @@ std::unique_ptr<AnyRun> make_run_in(const casefile::CaseSpec& spec, const RunSet
 
 namespace edmill {
 
-template <class Real>
-class Run<Real>::Implementation : public run::RunOf<Real> {
+template <class Real> class Run<Real>::Implementation : public run::RunOf<Real> {
  public:
   using run::RunOf<Real>::RunOf;
 };
@@ -501,59 +498,40 @@ Run<Real>::Run(const Case& the_case, const OwnParts<Real>& own)
         made->begin();
         return made;
       }()) {}
-template <class Real>
-Run<Real>::~Run() = default;
+template <class Real> Run<Real>::~Run() = default;
 
-template <class Real>
-void Run<Real>::attach(Observer<Real>& observer) {
+template <class Real> void Run<Real>::attach(Observer<Real>& observer) {
   implementation_->attach(
       [this, &observer](const Impact<Real>& impact) { observer.on_impact(impact, *this); });
 }
-template <class Real>
-void Run<Real>::write_to(const std::string& folder) {
+template <class Real> void Run<Real>::write_to(const std::string& folder) {
   implementation_->write_to(folder, std::nullopt, {});
 }
-template <class Real>
-void Run<Real>::commit() {
+template <class Real> void Run<Real>::commit() {
   implementation_->commit([] { return std::string(); });
 }
-template <class Real>
-bool Run<Real>::advance_to(const Real& time) {
+template <class Real> bool Run<Real>::advance_to(const Real& time) {
   return implementation_->advance(time);
 }
-template <class Real>
-void Run<Real>::finish() {
-  implementation_->finish();
-}
-template <class Real>
-void Run<Real>::stop() {
-  implementation_->stop(model::EndReason::stopped);
-}
-template <class Real>
-void Run<Real>::interrupt() {
+template <class Real> void Run<Real>::finish() { implementation_->finish(); }
+template <class Real> void Run<Real>::stop() { implementation_->stop(model::EndReason::stopped); }
+template <class Real> void Run<Real>::interrupt() {
   implementation_->stop(model::EndReason::interrupted);
 }
-template <class Real>
-Real Run<Real>::time() const {
+template <class Real> Real Run<Real>::time() const {
   const auto scope = implementation_->use();
   return implementation_->now();
 }
-template <class Real>
-int Run<Real>::ball_count() const {
-  return implementation_->ball_count();
-}
-template <class Real>
-BallState<Real> Run<Real>::ball(int i) const {
+template <class Real> int Run<Real>::ball_count() const { return implementation_->ball_count(); }
+template <class Real> BallState<Real> Run<Real>::ball(int i) const {
   const auto scope = implementation_->use();
   return run::to_public<Real>(implementation_->state_of(i), std::identity());
 }
-template <class Real>
-Ball<Real> Run<Real>::properties(int i) const {
+template <class Real> Ball<Real> Run<Real>::properties(int i) const {
   const auto scope = implementation_->use();
   return implementation_->properties_of(i);
 }
-template <class Real>
-Summary<Real> Run<Real>::summary() const {
+template <class Real> Summary<Real> Run<Real>::summary() const {
   const auto scope = implementation_->use();
   const auto s = implementation_->result();
   Summary<Real> out;
@@ -578,11 +556,11 @@ Summary<Real> Run<Real>::summary() const {
 
 }  // namespace edmill
 
-#define EDMILL_RUN(Real)                                                                                \
-  namespace edmill {                                                                                    \
-  template std::unique_ptr<run::EventSource> run::make_source_in<Real>(const casefile::CaseSpec&, bool, \
-                                                                       const std::atomic<bool>*);       \
-  template std::unique_ptr<run::AnyRun> run::make_run_in<Real>(const casefile::CaseSpec&,               \
-                                                               const run::RunSetup&);                   \
-  template class Run<Real>;                                                                             \
+#define EDMILL_RUN(Real)                                                \
+  namespace edmill {                                                    \
+  template std::unique_ptr<run::EventSource> run::make_source_in<Real>( \
+      const casefile::CaseSpec&, bool, const std::atomic<bool>*);       \
+  template std::unique_ptr<run::AnyRun> run::make_run_in<Real>(         \
+      const casefile::CaseSpec&, const run::RunSetup&);                 \
+  template class Run<Real>;                                             \
   }

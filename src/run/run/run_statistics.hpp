@@ -17,28 +17,29 @@
 
 namespace edmill::run {
 
-template <class Real>
-class RunStatistics : public engine::Observer<Real> {
+template <class Real> class RunStatistics : public engine::Observer<Real> {
  public:
   struct Totals {
     std::uint64_t collisions = 0;
     std::uint64_t touched = 0;   ///< impacts at the least separation speed
     std::uint64_t in_stall = 0;  ///< frictionless impacts
     std::uint64_t fast = 0;      ///< above io::Intervals::fast
-    numerics::CompensatedSum<Real> milling_dose, touched_dose, stall_dose, supplied_energy, wall_work;
-    numerics::CompensatedSum<Real> speed_by_dose;  ///< approach speed times dose, without contacts at rest
+    numerics::CompensatedSum<Real> milling_dose, touched_dose, stall_dose, supplied_energy,
+        wall_work;
+    numerics::CompensatedSum<Real>
+        speed_by_dose;  ///< approach speed times dose, without contacts at rest
 
     void archive(Archive& a) {
-      a(collisions, touched, in_stall, fast, milling_dose, touched_dose, stall_dose, supplied_energy,
-        wall_work, speed_by_dose);
+      a(collisions, touched, in_stall, fast, milling_dose, touched_dose, stall_dose,
+          supplied_energy, wall_work, speed_by_dose);
     }
   };
 
   /// @param balls    of the case
   /// @param counted  the part of an impact's dose that works the powder
   explicit RunStatistics(const model::Partners& partners,
-                         const std::vector<model::BallProperties<Real>>& balls = {},
-                         const model::CountedDose<Real>& counted = {})
+      const std::vector<model::BallProperties<Real>>& balls = {},
+      const model::CountedDose<Real>& counted = {})
       : counts_(counted), totals_(partners.count()), balls_(balls.size()) {
     constexpr std::size_t most_alike = 64;
     while (doses_.size() < std::min(most_alike, balls.size()) && balls[doses_.size()] == balls[0])
@@ -104,7 +105,8 @@ class RunStatistics : public engine::Observer<Real> {
 
   /// Confidence intervals of the rates, from the batches that are complete at an instant. They
   /// include the difference that the incomplete last period of `duration` [s] makes.
-  io::Intervals intervals(const Instant<Real>& until, const Real& period, const Real& duration) const {
+  io::Intervals intervals(
+      const Instant<Real>& until, const Real& period, const Real& duration) const {
     auto batches = batches_;
     const auto all = totals_now();
     if (!(until < batches.next_period())) batches.pass(until, all);
@@ -116,7 +118,8 @@ class RunStatistics : public engine::Observer<Real> {
     const double whole = static_cast<double>(batches.elapsed()) * static_cast<double>(period);
     const auto next = [&] {
       auto rate = io::Intervals::of(batches.amounts(place), found.batch_length);
-      rate.half_width += std::abs(all[place] / static_cast<double>(duration) - batches.total(place) / whole);
+      rate.half_width +=
+          std::abs(all[place] / static_cast<double>(duration) - batches.total(place) / whole);
       ++place;
       return rate;
     };
@@ -135,19 +138,20 @@ class RunStatistics : public engine::Observer<Real> {
     else if (repeats(found.dose_rate, static_cast<double>(batches.periods())))
       found.several_states = "its dose is nearly the same in every period";
     else if (stay_apart(batches, place))
-      found.several_states = "its balls do not change places: balls that are alike have different dose rates";
+      found.several_states =
+          "its balls do not change places: balls that are alike have different dose rates";
     return found;
   }
-
  private:
-  /// True if the dose is nearly the same in every period. Doses of random impacts scatter from period to
-  /// period by more than `least_scatter` over the root of the number of balls.
+  /// True if the dose is nearly the same in every period. Doses of random impacts scatter from
+  /// period to period by more than `least_scatter` over the root of the number of balls.
   bool repeats(const io::Intervals::Rate& dose, double periods) const {
     constexpr double least_scatter = 0.05, least_share = 0.2;
     const auto e = numerics::estimate(dose.means);
-    const double n = static_cast<double>(dose.means.size()), scatter = *e.half_width * std::sqrt(n) / 2;
+    const double n = static_cast<double>(dose.means.size()),
+                 scatter = *e.half_width * std::sqrt(n) / 2;
     return *e.mean > 0 &&
-           (scatter * std::sqrt(periods * static_cast<double>(balls_)) < least_scatter * *e.mean ||
+        (scatter * std::sqrt(periods * static_cast<double>(balls_)) < least_scatter * *e.mean ||
             dose.half_width < least_share * *e.half_width);
   }
 
@@ -164,7 +168,8 @@ class RunStatistics : public engine::Observer<Real> {
       const auto amounts = batches.amounts(place + ball);
       auto& own = series.emplace_back(parts);
       for (std::size_t k = 0; k < parts * length; ++k) own[k / length] += amounts[k];
-      for (std::size_t k = 0; k < parts; ++k) of_all[k] += own[k] / static_cast<double>(doses_.size());
+      for (std::size_t k = 0; k < parts; ++k)
+        of_all[k] += own[k] / static_cast<double>(doses_.size());
     }
     for (auto& own : series)
       for (std::size_t k = 0; k < parts; ++k) own[k] -= of_all[k];
@@ -172,7 +177,8 @@ class RunStatistics : public engine::Observer<Real> {
   }
 
   void add_to_ball(int ball, double dose) {
-    if (static_cast<std::size_t>(ball) < doses_.size()) doses_[static_cast<std::size_t>(ball)] += dose;
+    if (static_cast<std::size_t>(ball) < doses_.size())
+      doses_[static_cast<std::size_t>(ball)] += dose;
   }
 
   /// The totals now, in the order of the intervals, then the dose of each ball.
@@ -186,8 +192,9 @@ class RunStatistics : public engine::Observer<Real> {
       dose += now.back();
       work += static_cast<double>(t.wall_work.value());
     }
-    now.insert(now.end(), {impacts, static_cast<double>(count(&Totals::fast)), dose, work,
-                           counts_.all() ? dose : static_cast<double>(counted_dose_.value())});
+    now.insert(now.end(),
+        {impacts, static_cast<double>(count(&Totals::fast)), dose, work,
+            counts_.all() ? dose : static_cast<double>(counted_dose_.value())});
     now.insert(now.end(), doses_.begin(), doses_.end());
     return now;
   }
@@ -198,12 +205,14 @@ class RunStatistics : public engine::Observer<Real> {
   numerics::Batches<Real> batches_;
   std::size_t balls_;
   numerics::WeightedQuantiles impact_energies_,
-      dissipated_energies_;    ///< by dose, without contacts at rest [J]
-  std::vector<double> doses_;  ///< by ball, for the first identical ones; half of a dose with another [J]
+      dissipated_energies_;  ///< by dose, without contacts at rest [J]
+  std::vector<double>
+      doses_;  ///< by ball, for the first identical ones; half of a dose with another [J]
 };
 
 /// Warnings about results that are not reliable, with the reasons.
 /// @param wanted_precision  of the dose rate, relative
-std::vector<io::Warning> warnings_of(const io::Facts& summary, const std::optional<double>& wanted_precision);
+std::vector<io::Warning> warnings_of(
+    const io::Facts& summary, const std::optional<double>& wanted_precision);
 
 }  // namespace edmill::run

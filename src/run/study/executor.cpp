@@ -78,7 +78,8 @@ using std::chrono::milliseconds;
 
 /// At most `most` jobs, evenly spaced in the order of their costs, from the first to the last.
 std::vector<Job> chosen(std::vector<Job> jobs, std::size_t most) {
-  std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.cost < b.cost; });
+  std::stable_sort(
+      jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.cost < b.cost; });
   if (jobs.size() <= most) return jobs;
   std::vector<Job> few;
   for (std::size_t k = 0; k < most; ++k) few.push_back(jobs[k * (jobs.size() - 1) / (most - 1)]);
@@ -91,9 +92,9 @@ class Workers {
  public:
   /// @param threads  0 for all cores
   Workers(int threads, RunFunction run)
-      : threads_(threads > 0 ? threads : tbb::info::default_concurrency()),
-        run_(std::move(run)),
-        control_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_) + 1),
+      : threads_(threads > 0 ? threads : tbb::info::default_concurrency()), run_(std::move(run)),
+        control_(
+            tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_) + 1),
         arena_(threads_, 0) {}
   ~Workers() {
     wait(milliseconds::max(), [this] { return running_ == 0; });
@@ -118,7 +119,6 @@ class Workers {
     for (RunRecord record; finished_.try_pop(record);) records.push_back(std::move(record));
     return records;
   }
-
  private:
   static void wait(milliseconds longest, const auto& is_over) {
     for (milliseconds waited{0}; !is_over() && waited < longest; ++waited)
@@ -143,8 +143,7 @@ class Workers {
 };
 
 Executor::Executor(Ranks& ranks, int threads, RunFunction run, std::atomic<bool>& interrupt)
-    : ranks_(ranks),
-      interrupt_(interrupt),
+    : ranks_(ranks), interrupt_(interrupt),
       workers_(std::make_unique<Workers>(threads, std::move(run))),
       free_slots_(static_cast<std::size_t>(ranks.size()), 0) {}
 
@@ -160,7 +159,8 @@ bool Executor::hand_out(Job& job) {
   if (workers_->has_idle()) {
     workers_->start(job);
   } else {
-    const auto slots = std::find_if(free_slots_.begin(), free_slots_.end(), [](int n) { return n > 0; });
+    const auto slots =
+        std::find_if(free_slots_.begin(), free_slots_.end(), [](int n) { return n > 0; });
     if (slots == free_slots_.end()) return false;
     --*slots;
     Archive message;
@@ -195,8 +195,10 @@ void Executor::take_messages(const RecordFunction& done) {
   }
 }
 
-void Executor::run(std::vector<Job> jobs, const RecordFunction& done, const std::function<void()>& tick) {
-  std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.cost > b.cost; });
+void Executor::run(
+    std::vector<Job> jobs, const RecordFunction& done, const std::function<void()>& tick) {
+  std::stable_sort(
+      jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.cost > b.cost; });
   std::size_t next = 0;
   while (running_ > 0 || (next < jobs.size() && !interrupt_)) {
     take_messages(done);

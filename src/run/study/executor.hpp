@@ -30,7 +30,6 @@ class Ranks {
   void send(int to, const std::string& text) const;
   /// A message that has arrived, and its source; does not wait for one.
   std::optional<std::pair<int, std::string>> receive() const;
-
  private:
   int rank_ = 0, size_ = 1;
 };
@@ -74,7 +73,6 @@ class Executor {
   bool interrupted() const { return interrupt_; }
   /// Number of threads of all ranks that have reported.
   int threads() const;
-
  private:
   bool hand_out(Job& job);
   void take_messages(const RecordFunction& done);
@@ -99,7 +97,6 @@ class Forecast {
   std::optional<double> seconds(const Job& job) const;
   /// Wall time of jobs on so many threads [s].
   std::optional<double> wall_time(const std::vector<Job>& jobs, int threads) const;
-
  private:
   static constexpr std::size_t trials = 12;
   static constexpr double trial_time = 0.25;

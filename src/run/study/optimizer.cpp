@@ -43,11 +43,10 @@ class Search {
     Optimum optimum{best(), {}, ""};
     if (optimum.best) optimum.contenders = contenders(*optimum.best);
     optimum.why = study_.interrupted() ? "interrupted"
-                  : out_of_budget_     ? "the budget of runs_max is used up"
+        : out_of_budget_               ? "the budget of runs_max is used up"
                                        : "the grid is as fine as requested";
     return optimum;
   }
-
  private:
   void begin() {
     study_.expect_at_most(spec_.runs_max);
@@ -114,7 +113,8 @@ class Search {
       Coordinates list;
       for (std::size_t i = 0; i < count; ++i) {
         const double index = static_cast<double>(i), last = static_cast<double>(count - 1);
-        list.push_back(v.values.empty() ? std::lerp(v.low, v.high, index / last) : index);  // exact ends
+        list.push_back(
+            v.values.empty() ? std::lerp(v.low, v.high, index / last) : index);  // exact ends
       }
       lists.push_back(list);
     }
@@ -131,7 +131,8 @@ class Search {
       if (spec_.variables[k].integer && steps_[k] <= 1) steps_[k] = 0;
       steps_[k] /= 2;
       if (spec_.variables[k].integer && steps_[k] > 0) steps_[k] = std::max(steps_[k], 1.0);
-      lists.push_back(steps_[k] > 0 ? Coordinates{x, x - steps_[k], x + steps_[k]} : Coordinates{x});
+      lists.push_back(
+          steps_[k] > 0 ? Coordinates{x, x - steps_[k], x + steps_[k]} : Coordinates{x});
     }
     return add_product(lists);
   }
@@ -157,7 +158,9 @@ class Search {
     }
   }
 
-  std::vector<double> values(std::size_t point) const { return study_.points()[point].values(quantity_); }
+  std::vector<double> values(std::size_t point) const {
+    return study_.points()[point].values(quantity_);
+  }
 
   /// The largest mean of points without a failure; the first of equals.
   std::optional<std::size_t> best() const {
@@ -201,8 +204,9 @@ std::string line_of(const OptimizeSpec& spec, const Study& study, std::size_t in
   std::string line = fmt::format("  point {}:", index + 1);
   for (const auto& [key, value] : point.settings) line += fmt::format(" {} = {},", key, value);
   const auto quantity = quantity_named(spec.objective()), energy = quantity_named("impact_energy");
-  return line + fmt::format(" {}, {} {} ({})\n", text_of(point.estimate(quantity), quantity), energy.title,
-                            text_of(point.estimate(energy), energy), counted(point.done(), "run"));
+  return line +
+      fmt::format(" {}, {} {} ({})\n", text_of(point.estimate(quantity), quantity), energy.title,
+          text_of(point.estimate(energy), energy), counted(point.done(), "run"));
 }
 
 /// A note if the best value of a variable is at the end of its range; otherwise empty.
@@ -213,8 +217,8 @@ std::string bound_of(const OptimizeVariable& v, const std::string& value) {
   for (const auto& [end, name] : {std::pair{v.low, "low"}, std::pair{v.high, "high"}})
     if (number && std::abs(number->to<double>() - end) <= slack)
       return fmt::format(
-          "  {} is at the end '{}' of its range: there may be more beyond it; widen the range\n", v.key,
-          name);
+          "  {} is at the end '{}' of its range: there may be more beyond it; widen the range\n",
+          v.key, name);
   return "";
 }
 
@@ -222,23 +226,28 @@ std::string bound_of(const OptimizeVariable& v, const std::string& value) {
 
 Optimum optimize(const OptimizeSpec& spec, Study& study) { return Search(spec, study).run(); }
 
-std::string forecast(const OptimizeSpec& spec, Study& study) { return Search(spec, study).forecast(); }
+std::string forecast(const OptimizeSpec& spec, Study& study) {
+  return Search(spec, study).forecast();
+}
 
 std::string describe(const OptimizeSpec& spec, const Study& study, const Optimum& optimum) {
   if (!optimum.best) return "no point has a value of " + spec.objective() + "\n";
   std::string text = fmt::format("largest {} of {} points, 95 % interval; the search ended: {}\n",
-                                 spec.objective(), study.points().size(), optimum.why);
+      spec.objective(), study.points().size(), optimum.why);
   text += line_of(spec, study, *optimum.best);
   const auto& settings = study.points()[*optimum.best].settings;
-  for (std::size_t k = 0; k < settings.size(); ++k) text += bound_of(spec.variables[k], settings[k].second);
-  text += optimum.contenders.empty() ? "every other point is smaller, at 5 % for all comparisons together\n"
-                                     : "indistinguishable from it, at 5 % for all comparisons together:\n";
+  for (std::size_t k = 0; k < settings.size(); ++k)
+    text += bound_of(spec.variables[k], settings[k].second);
+  text += optimum.contenders.empty()
+      ? "every other point is smaller, at 5 % for all comparisons together\n"
+      : "indistinguishable from it, at 5 % for all comparisons together:\n";
   for (const auto k : optimum.contenders) text += line_of(spec, study, k);
   const auto& points = study.points();
   const auto excluded =
       std::count_if(points.begin(), points.end(), [](const Point& p) { return p.failed() > 0; });
   if (excluded > 0)
-    text += "left out: " + counted(static_cast<std::uint64_t>(excluded), "point") + " with failed runs\n";
+    text += "left out: " + counted(static_cast<std::uint64_t>(excluded), "point") +
+        " with failed runs\n";
   return text;
 }
 

@@ -21,6 +21,7 @@ Optimum optimize(const casefile::OptimizeSpec& spec, Study& study);
 std::string forecast(const casefile::OptimizeSpec& spec, Study& study);
 
 /// The result as text.
-std::string describe(const casefile::OptimizeSpec& spec, const Study& study, const Optimum& optimum);
+std::string describe(
+    const casefile::OptimizeSpec& spec, const Study& study, const Optimum& optimum);
 
 }  // namespace edmill::study

@@ -22,8 +22,8 @@ struct RunRecord {
   /// True if repeating the run would give the same result.
   bool lasting() const {
     return done() || status == model::name(model::EndReason::inelastic_collapse) ||
-           status == model::name(model::EndReason::stalled) ||
-           status == model::name(model::EndReason::undecided);
+        status == model::name(model::EndReason::stalled) ||
+        status == model::name(model::EndReason::undecided);
   }
 };
 
@@ -31,7 +31,8 @@ struct RunRecord {
 RunRecord record_of(io::Facts summary);
 
 /// The record of a run that could not start.
-RunRecord failed_run(const std::string& digest, const std::string& status, const std::string& message);
+RunRecord failed_run(
+    const std::string& digest, const std::string& status, const std::string& message);
 
 /// One line of JSON, with version and commit of this program.
 std::string to_json(const RunRecord& record);

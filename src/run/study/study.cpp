@@ -68,7 +68,8 @@ std::vector<Column> point_columns(const std::vector<std::string>& keys) {
   return columns;
 }
 
-void put_point(Table& table, std::size_t index, const Point& point, const std::vector<std::string>& keys) {
+void put_point(
+    Table& table, std::size_t index, const Point& point, const std::vector<std::string>& keys) {
   table.put(index + 1, point.name);
   for (const auto& key : keys) table.put(value_of(point, key));
 }
@@ -107,7 +108,7 @@ std::string text_of(const numerics::OfSeeds& found, const Quantity& quantity) {
   std::string all;
   for (const auto& state : found.states)
     all += fmt::format("{}{} ({})", all.empty() ? "" : ", ", text(state.mean, state.half_width),
-                       counted(state.runs, "run"));
+        counted(state.runs, "run"));
   return all;
 }
 
@@ -120,7 +121,9 @@ std::vector<std::string> varied_keys(const std::vector<Point>& points) {
   std::vector<std::string> keys;
   for (const auto& setting : points | std::views::transform(&Point::settings) | std::views::join) {
     const auto& key = setting.first;
-    const auto differs = [&](const Point& p) { return value_of(p, key) != value_of(points[0], key); };
+    const auto differs = [&](const Point& p) {
+      return value_of(p, key) != value_of(points[0], key);
+    };
     if (std::ranges::find(keys, key) == keys.end() && std::ranges::any_of(points, differs))
       keys.push_back(key);
   }
@@ -146,15 +149,17 @@ std::string list_of(const std::vector<Point>& points) {
       const auto found = points[k].estimate(quantity);
       if (!found.mean) continue;
       out += fmt::format("{}{}{}", before, quantity.name == "impact_energy" ? "impact energy " : "",
-                         text_of(found, quantity));
+          text_of(found, quantity));
       before = ", ";
     }
     if (before == " ") out += " no result";
     const auto has_reason = [](const Run& r) {
       return r.record && !r.record->done() && !r.record->message.empty();
     };
-    if (const auto failed = points[k].failed(); failed > 0) out += ", " + counted(failed, "run") + " failed";
-    if (const auto run = std::ranges::find_if(points[k].runs, has_reason); run != points[k].runs.end())
+    if (const auto failed = points[k].failed(); failed > 0)
+      out += ", " + counted(failed, "run") + " failed";
+    if (const auto run = std::ranges::find_if(points[k].runs, has_reason);
+        run != points[k].runs.end())
       out += ": " + run->record->message.substr(0, run->record->message.find('\n'));
     out += '\n';
   }
@@ -171,8 +176,9 @@ std::string describe(const Point& point) {
   }
   const auto found = point.estimate(main_quantities().front());
   if (!found.states.empty())
-    out += fmt::format("The seeds settle in {} steady states: no single number describes them all.\n",
-                       found.states.size());
+    out +=
+        fmt::format("The seeds settle in {} steady states: no single number describes them all.\n",
+            found.states.size());
   return out;
 }
 
@@ -221,15 +227,10 @@ Run make_run(const casefile::StudySpec& spec, const Point& point, std::uint64_t 
   return run;
 }
 
-Study::Study(casefile::StudySpec spec, std::filesystem::path folder, std::string name, Executor& executor,
-             bool show, Progress progress)
-    : spec_(std::move(spec)),
-      folder_(std::move(folder)),
-      name_(std::move(name)),
-      executor_(executor),
-      shows_(show),
-      progress_(std::move(progress)),
-      line_(!show) {}
+Study::Study(casefile::StudySpec spec, std::filesystem::path folder, std::string name,
+    Executor& executor, bool show, Progress progress)
+    : spec_(std::move(spec)), folder_(std::move(folder)), name_(std::move(name)),
+      executor_(executor), shows_(show), progress_(std::move(progress)), line_(!show) {}
 
 std::size_t Study::add_point(Point point) {
   points_.push_back(std::move(point));
@@ -238,7 +239,8 @@ std::size_t Study::add_point(Point point) {
 
 void Study::add_runs(std::size_t point, std::uint64_t count) {
   auto& p = points_[point];
-  for (std::uint64_t k = 0; k < count; ++k) p.runs.push_back(make_run(spec_, p, spec_.seed + p.runs.size()));
+  for (std::uint64_t k = 0; k < count; ++k)
+    p.runs.push_back(make_run(spec_, p, spec_.seed + p.runs.size()));
 }
 
 void Study::require_a_good_case() const {
@@ -292,14 +294,16 @@ void Study::tick() {
   write_tables();
   // Large tables take time to write: at most a twentieth of the total.
   const auto after = std::chrono::steady_clock::now();
-  next_write_ = after + std::max<std::chrono::nanoseconds>(std::chrono::seconds(1), 20 * (after - now));
+  next_write_ =
+      after + std::max<std::chrono::nanoseconds>(std::chrono::seconds(1), 20 * (after - now));
   const auto c = counts();
   if (progress_) progress_(c.kept + c.ran, c.total);
   if (!shows_) return;
-  constexpr auto a_while = std::chrono::minutes(1);  // between lines where no terminal shows one that changes
+  constexpr auto a_while =
+      std::chrono::minutes(1);  // between lines where no terminal shows one that changes
   if (!line_ && after < std::max(began_, told_) + a_while) return;
   const auto text = fmt::format("{} of {} runs, {} failed{}", c.kept + c.ran, c.total, c.failed,
-                                time_left(std::chrono::duration<double>(after - began_).count()));
+      time_left(std::chrono::duration<double>(after - began_).count()));
   if (line_) return line_.show(text);
   io::tell("{}\n", text);
   told_ = after;
@@ -311,7 +315,8 @@ std::string Study::time_left(double spent) const {
     for (const auto& run : point.runs)
       if (!run.record) to_do.push_back(run.job);
   auto left = forecast_.wall_time(to_do, executor_.threads());
-  if (!left && ran_ > 0) left = spent * static_cast<double>(to_do.size()) / static_cast<double>(ran_);
+  if (!left && ran_ > 0)
+    left = spent * static_cast<double>(to_do.size()) / static_cast<double>(ran_);
   return left ? ", " + in_words(*left) + " left" : "";
 }
 
@@ -348,7 +353,7 @@ void Study::take_folder() {
 
 std::vector<std::filesystem::path> Study::table_places() const {
   return {folder_ / (name_ + ".csv"), folder_ / "runs.csv", folder_ / (name_ + ".h5"),
-          folder_ / (name_ + "_log.csv"), folder_ / (name_ + ".html")};
+      folder_ / (name_ + "_log.csv"), folder_ / (name_ + ".html")};
 }
 
 void Study::run() {
@@ -357,9 +362,10 @@ void Study::run() {
   if (shows_ && !jobs.empty() && ran_ == 0) {
     const auto text = forecast(jobs, [this](const RunRecord& r) { put(r); });
     constexpr double a_while = 60;  // [s]
-    if (line_ || forecast_.wall_time(jobs, executor_.threads()).value_or(0) > a_while) io::tell("{}\n", text);
+    if (line_ || forecast_.wall_time(jobs, executor_.threads()).value_or(0) > a_while)
+      io::tell("{}\n", text);
     std::erase_if(jobs,
-                  [this](const Job& job) { return waiting_.find(job.digest)->second->record.has_value(); });
+        [this](const Job& job) { return waiting_.find(job.digest)->second->record.has_value(); });
   }
   write_tables();
   if (began_ == std::chrono::steady_clock::time_point{}) began_ = std::chrono::steady_clock::now();
@@ -374,7 +380,7 @@ void Study::write_tables() const {
   const auto points = point_table(), runs = run_table();
   const auto places = table_places();
   const std::string tables[] = {points.csv(), runs.csv(),
-                                io::hdf5_compounds({{"points", points}, {"runs", runs}}), log_table().csv()};
+      io::hdf5_compounds({{"points", points}, {"runs", runs}}), log_table().csv()};
   for (std::size_t k = 0; k < std::size(tables); ++k) write_file(places[k], tables[k]);
 }
 
@@ -408,7 +414,8 @@ Table Study::point_table() const {
   const auto varied = keys();
   const auto shown = quantities();
   auto columns = point_columns(varied);
-  for (const auto* name : {"replicas", "done", "failed", "states"}) columns.push_back({name, Type::integer});
+  for (const auto* name : {"replicas", "done", "failed", "states"})
+    columns.push_back({name, Type::integer});
   for (const auto& quantity : shown) {
     columns.push_back({quantity.name, Type::number, quantity.si_unit});
     if (!quantity.interval.empty())
@@ -436,7 +443,8 @@ Table Study::run_table() const {
   auto columns = point_columns(varied);
   columns.push_back({"seed", Type::integer});
   for (const auto* name : {"status", "end_reason"}) columns.push_back({name, Type::text});
-  for (const auto& quantity : shown) columns.push_back({quantity.name, Type::number, quantity.si_unit});
+  for (const auto& quantity : shown)
+    columns.push_back({quantity.name, Type::number, quantity.si_unit});
   for (const auto* name : {"digest", "message"}) columns.push_back({name, Type::text});
   Table table(std::move(columns));
   for (std::size_t k = 0; k < points_.size(); ++k)

@@ -70,8 +70,8 @@ class Study {
 
   /// @param name  of the files: `name`.csv, `name`.h5, `name`_log.csv
   /// @param show  whether progress is wanted: a line on a terminal, elsewhere one every minute
-  Study(casefile::StudySpec spec, std::filesystem::path folder, std::string name, Executor& executor,
-        bool show, Progress progress = nullptr);
+  Study(casefile::StudySpec spec, std::filesystem::path folder, std::string name,
+      Executor& executor, bool show, Progress progress = nullptr);
 
   std::size_t add_point(Point point);
   /// The next seeds of a point. Nothing is read from disk or run before `run`.
@@ -100,7 +100,6 @@ class Study {
 
   io::Table<double> point_table() const;
   io::Table<double> run_table() const;
-
  private:
   /// Locks the folder at the first run of a study, so that no other process writes into it.
   void take_folder();

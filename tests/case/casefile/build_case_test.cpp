@@ -30,21 +30,27 @@ TEST(BuildCase, PlacedBallsKeepTheirGaps) {
 }
 
 TEST(BuildCase, SeedDecidesThePlaces) {
-  const auto one = build_case<double>(spec(testing::batch(20, "4 mm"), "end_time = \"1 s\"\nseed = 5"));
-  const auto same = build_case<double>(spec(testing::batch(20, "4 mm"), "end_time = \"1 s\"\nseed = 5"));
-  const auto other = build_case<double>(spec(testing::batch(20, "4 mm"), "end_time = \"1 s\"\nseed = 6"));
+  const auto one =
+      build_case<double>(spec(testing::batch(20, "4 mm"), "end_time = \"1 s\"\nseed = 5"));
+  const auto same =
+      build_case<double>(spec(testing::batch(20, "4 mm"), "end_time = \"1 s\"\nseed = 5"));
+  const auto other =
+      build_case<double>(spec(testing::batch(20, "4 mm"), "end_time = \"1 s\"\nseed = 6"));
   EXPECT_EQ(one.states[19].position, same.states[19].position);
   EXPECT_NE(one.states[19].position, other.states[19].position);
 }
 
 TEST(BuildCase, EveryScalarGetsTheSamePlaces) {
-  const auto s = spec(testing::batch(30, "4 mm", "diameter_spread = \"0.2 mm\"\nrandom_speed = \"2 m/s\"\n"));
+  const auto s =
+      spec(testing::batch(30, "4 mm", "diameter_spread = \"0.2 mm\"\nrandom_speed = \"2 m/s\"\n"));
   const auto narrow = build_case<double>(s);
   const auto wide = build_case<mpfr>(s);
   for (std::size_t k = 0; k < 30; ++k)
     for (int axis = 0; axis < 3; ++axis) {
-      EXPECT_NEAR(narrow.states[k].position[axis], static_cast<double>(wide.states[k].position[axis]), 1e-16);
-      EXPECT_NEAR(narrow.states[k].velocity[axis], static_cast<double>(wide.states[k].velocity[axis]), 1e-14);
+      EXPECT_NEAR(narrow.states[k].position[axis],
+          static_cast<double>(wide.states[k].position[axis]), 1e-16);
+      EXPECT_NEAR(narrow.states[k].velocity[axis],
+          static_cast<double>(wide.states[k].velocity[axis]), 1e-14);
     }
 }
 
@@ -57,7 +63,8 @@ TEST(BuildCase, MassesAreDensityTimesVolume) {
 }
 
 TEST(BuildCase, RandomSpeedsStayBelowTheLimitAndPointEverywhere) {
-  const auto built = build_case<double>(spec(testing::batch(200, "2 mm", "random_speed = \"2 m/s\"\n")));
+  const auto built =
+      build_case<double>(spec(testing::batch(200, "2 mm", "random_speed = \"2 m/s\"\n")));
   Vec3<double> mean(0, 0, 0);
   double fastest = 0;
   for (const auto& s : built.states) {
@@ -70,8 +77,8 @@ TEST(BuildCase, RandomSpeedsStayBelowTheLimitAndPointEverywhere) {
 }
 
 TEST(BuildCase, FinalStateContinuesTheRunExactly) {
-  // A run of 0.2 s, and one of 0.1 s continued from its final state: the same trajectory except for the
-  // rounding of advancing every ball at 0.1 s, so the first events after it agree closely.
+  // A run of 0.2 s, and one of 0.1 s continued from its final state: the same trajectory except for
+  // the rounding of advancing every ball at 0.1 s, so the first events after it agree closely.
   const auto s = spec(testing::batch(5, "9.52 mm"), "end_time = \"0.1 s\"");
   const auto built = build_case<mpfr>(s);
   engine::Simulation<mpfr> whole(built.the_case, built.states, built.start);
@@ -82,23 +89,22 @@ TEST(BuildCase, FinalStateContinuesTheRunExactly) {
   whole.run_until(whole.clock().at(mpfr("0.11")));
   rest.run_until(rest.clock().at(mpfr("0.11")));
   for (int k = 0; k < 5; ++k)
-    EXPECT_LT(norm<mpfr>(Vec3<mpfr>(whole.state_at(k, whole.now()).position -
-                                    rest.state_at(k, rest.now()).position)),
-              mpfr("1e-30"));
+    EXPECT_LT(norm<mpfr>(Vec3<mpfr>(
+                  whole.state_at(k, whole.now()).position - rest.state_at(k, rest.now()).position)),
+        mpfr("1e-30"));
 }
 
 template <class Real>
 Instant<Real> start_at(const std::string& time, const std::string& speed = "1054 rpm") {
-  const auto spec =
-      casefile::parse_case(testing::spex_text("initial_time = \"" + time + "\"\nend_time = \"1e13 s\"",
-                                              "restitution = 0.5", testing::batch(1, "4 mm")),
-                           "late.toml", {"mill.speed=" + speed});
+  const auto spec = casefile::parse_case(
+      testing::spex_text("initial_time = \"" + time + "\"\nend_time = \"1e13 s\"",
+          "restitution = 0.5", testing::batch(1, "4 mm")),
+      "late.toml", {"mill.speed=" + speed});
   return build_case<Real>(spec).start;
 }
 
 /// At 1054 rpm a period lasts 60/1054 s, and 1054 10^k leaves 40 when divided by 60.
-template <class Real>
-void expect_reduced_exactly() {
+template <class Real> void expect_reduced_exactly() {
   const Real exact = Real(40) / 1054;
   std::int64_t tenths = 1054000 / 60;
   for (const char* time : {"1000 s", "1e4 s", "1e5 s", "1e6 s", "1e9 s", "1e12 s"}) {
@@ -121,7 +127,8 @@ TEST(Instants, ALateInstantIsReducedExactly) {
 /// A speed in rad/s makes the period a multiple of pi: 1e6 s at 100 rad/s are 1e8 / (2 pi) periods.
 TEST(Instants, ALateInstantOfAnIrrationalPeriodIsReducedToTheLastDigit) {
   using Exact = mpfr_of<200>;
-  const Exact period = 2 * numerics::pi<Exact>() / 100, count = floor(Exact(Exact(1000000) / period));
+  const Exact period = 2 * numerics::pi<Exact>() / 100,
+              count = floor(Exact(Exact(1000000) / period));
   const Exact offset = 1000000 - count * period;
   EXPECT_EQ(start_at<double>("1e6 s", "100 rad/s").period, static_cast<std::int64_t>(count));
   EXPECT_EQ(start_at<double>("1e6 s", "100 rad/s").offset, static_cast<double>(offset));
@@ -137,16 +144,17 @@ TEST(Instants, ATimeOfWholePeriodsHasNoOffset) {
 /// A chain of a turn and a swing, each with a constant part [deg or rad].
 std::string turned(const std::string& angle, const std::string& phase) {
   return "[mill]\ntype = \"chain\"\n[[mill.joint]]\nrotate = \"y\"\nangle = \"" + angle +
-         "\"\nspeed = \"300 rpm\"\n[[mill.joint]]\nrotate = \"x\"\nangle = \"" + angle +
-         "\"\n[[mill.joint]]\ntranslate = \"x\"\nswing = [{amplitude = \"3 mm\", speed = \"700 rpm\", phase "
-         "= \"" +
-         phase +
-         "\"}]\n[vessel]\ntype = \"box\"\nsize = [\"40 mm\", \"40 mm\", \"40 mm\"]\n"
-         "[run]\nend_time = \"1 s\"\n[contact]\nrestitution = 0.5\nfriction = 0.4\n[[balls]]\ncount = 1\n"
-         "diameter = \"4 mm\"\n";
+      "\"\nspeed = \"300 rpm\"\n[[mill.joint]]\nrotate = \"x\"\nangle = \"" + angle +
+      "\"\n[[mill.joint]]\ntranslate = \"x\"\nswing = [{amplitude = \"3 mm\", speed = \"700 rpm\", "
+      "phase "
+      "= \"" +
+      phase +
+      "\"}]\n[vessel]\ntype = \"box\"\nsize = [\"40 mm\", \"40 mm\", \"40 mm\"]\n"
+      "[run]\nend_time = \"1 s\"\n[contact]\nrestitution = 0.5\nfriction = 0.4\n[[balls]]\ncount = "
+      "1\n"
+      "diameter = \"4 mm\"\n";
 }
-template <class Real>
-void expect_same_poses(const std::string& one, const std::string& other) {
+template <class Real> void expect_same_poses(const std::string& one, const std::string& other) {
   const auto pose = [](const std::string& text, const Instant<Real>& when) {
     const auto mill = build_mill<Real>(parse_case(text, "turned.toml"));
     const auto pose_then = mill.motion.pose(when);
@@ -165,7 +173,7 @@ void expect_same_poses(const std::string& one, const std::string& other) {
 /// 1e9 turns and more, of either sign.
 TEST(BuildCase, WholeTurnsOfConstantAnglesAndPhasesAreDroppedExactly) {
   const auto same = [](const std::string& angle, const std::string& phase, const std::string& less,
-                       const std::string& less_phase) {
+                        const std::string& less_phase) {
     expect_same_poses<double>(turned(angle, phase), turned(less, less_phase));
     expect_same_poses<float128>(turned(angle, phase), turned(less, less_phase));
     const mpfr::Digits digits(200);

@@ -221,8 +221,8 @@ TEST(CaseSpec, AContactPairOverridesOnlyItsOwnKeys) {
 
 TEST(CaseSpec, TwoPairsTogetherReplaceTheCommonKeys) {
   const CaseSpec c = read(replaced(least, "restitution = 0.53\nfriction = 0.4\n",
-                                   "[contact.ball_ball]\nrestitution = 0.9\nfriction = 0.1\n"
-                                   "[contact.ball_wall]\nrestitution = 0.8\nfriction = 0.2\n"));
+      "[contact.ball_ball]\nrestitution = 0.9\nfriction = 0.1\n"
+      "[contact.ball_wall]\nrestitution = 0.8\nfriction = 0.2\n"));
   EXPECT_EQ(restitution(c.ball_ball), ratio(9, 10));
   EXPECT_EQ(friction(c.ball_wall), ratio(1, 5));
 }
@@ -236,25 +236,28 @@ TEST(CaseSpec, GravityAsOneNumberPointsAlongMinusY) {
 
 TEST(CaseSpec, DecimalsOfTheFileStayExactInEveryLayout) {
   for (const auto* line : {"restitution = 0.53", "restitution=0.53", "restitution\t=\t0.53\t# 0.99",
-                           "restitution = +5_3.0e-2", "restitution = 0.53\r", "\"restitution\" = 0.53 ",
-                           "restitution = 0.53#µ", "restitution = \"0.53\"", "restitution = 53e-2"})
-    EXPECT_EQ(restitution(read(replaced(least, "restitution = 0.53", line)).ball_ball), ratio(53, 100))
+           "restitution = +5_3.0e-2", "restitution = 0.53\r", "\"restitution\" = 0.53 ",
+           "restitution = 0.53#µ", "restitution = \"0.53\"", "restitution = 53e-2"})
+    EXPECT_EQ(
+        restitution(read(replaced(least, "restitution = 0.53", line)).ball_ball), ratio(53, 100))
         << line;
-  const std::string inline_table = replaced(least, "[contact]\nrestitution = 0.53\nfriction = 0.4\n", "");
+  const std::string inline_table =
+      replaced(least, "[contact]\nrestitution = 0.53\nfriction = 0.4\n", "");
   EXPECT_EQ(
-      restitution(read("contact = { 'friction' = 0.4, \"restitution\" = 0.53}\n" + inline_table).ball_ball),
+      restitution(
+          read("contact = { 'friction' = 0.4, \"restitution\" = 0.53}\n" + inline_table).ball_ball),
       ratio(53, 100));
   EXPECT_EQ(restitution(read("\xEF\xBB\xBF"
                              "contact.restitution = 0.53\ncontact.friction = 0.4\n" +
-                             inline_table)
+                inline_table)
                             .ball_ball),
-            ratio(53, 100))
+      ratio(53, 100))
       << "after a byte order mark";
 }
 
 TEST(CaseSpec, NumbersOfAnArrayStayExactInEveryLayout) {
   for (const auto* line : {"velocity = [0.1,-0.2,0.3]", "velocity = [ 0.1 , -0.2 , 0.3 ]",
-                           "velocity = [\n  0.1, # one\n  -0.2,\n  0.3,\n]"}) {
+           "velocity = [\n  0.1, # one\n  -0.2,\n  0.3,\n]"}) {
     const CaseSpec c = read(least + line + "\n");
     EXPECT_EQ(rational(c.batches[0].velocity[0]), ratio(1, 10)) << line;
     EXPECT_EQ(rational(c.batches[0].velocity[1]), ratio(-2, 10)) << line;
@@ -263,9 +266,10 @@ TEST(CaseSpec, NumbersOfAnArrayStayExactInEveryLayout) {
 }
 
 TEST(CaseSpec, TheCommandLineOverridesTheFile) {
-  const CaseSpec c = read(full, {"run.end_time=0.75 s", "balls.0.count=5", "balls.01.diameter=\"2 mm\"",
-                                 "ball.0.density=7 g/cm3", "contact.restitution=0.1", "mill.speed=1000 rpm",
-                                 "output.0.file=other.csv", "contact.ball_wall.friction=0.3"});
+  const CaseSpec c = read(full,
+      {"run.end_time=0.75 s", "balls.0.count=5", "balls.01.diameter=\"2 mm\"",
+          "ball.0.density=7 g/cm3", "contact.restitution=0.1", "mill.speed=1000 rpm",
+          "output.0.file=other.csv", "contact.ball_wall.friction=0.3"});
   EXPECT_EQ(rational(*c.end_time), ratio(3, 4));
   EXPECT_EQ(c.batches[0].count, 5);
   EXPECT_EQ(rational(c.batches[1].diameter), ratio(2, 1000));
@@ -279,9 +283,10 @@ TEST(CaseSpec, TheCommandLineOverridesTheFile) {
 TEST(CaseSpec, NumbersOfTheCommandLineStayExact) {
   // The first line of the file must not be shown as the text of the setting.
   const std::string text = "#       [1, 2, 3, 4, 5, 6, 7, 8, 9]\n" + least;
-  const CaseSpec c = read(text, {"run.gravity=[0.1, -9.81, 1e-3]", "balls.00.reduced_inertia=0.35",
-                                 "contact.ball_ball={restitution=0.7, friction=0.3}",
-                                 "contact.ball_wall.restitution=0.6 # a comment"});
+  const CaseSpec c = read(text,
+      {"run.gravity=[0.1, -9.81, 1e-3]", "balls.00.reduced_inertia=0.35",
+          "contact.ball_ball={restitution=0.7, friction=0.3}",
+          "contact.ball_wall.restitution=0.6 # a comment"});
   EXPECT_EQ(rational(c.gravity[0]), ratio(1, 10));
   EXPECT_EQ(rational(c.gravity[1]), ratio(-981, 100));
   EXPECT_EQ(rational(c.gravity[2]), ratio(1, 1000));
@@ -292,12 +297,15 @@ TEST(CaseSpec, NumbersOfTheCommandLineStayExact) {
 }
 
 TEST(CaseSpec, TheLastOfTwoSettingsCounts) {
-  EXPECT_EQ(friction(read(least, {"contact.friction=0.1", "contact.friction=0.2"}).ball_ball), ratio(2, 10));
+  EXPECT_EQ(friction(read(least, {"contact.friction=0.1", "contact.friction=0.2"}).ball_ball),
+      ratio(2, 10));
   EXPECT_EQ(
-      friction(read(least, {"contact.friction=0.1", "contact={friction=0.25, restitution=0.5}"}).ball_ball),
+      friction(read(least, {"contact.friction=0.1", "contact={friction=0.25, restitution=0.5}"})
+                   .ball_ball),
       ratio(25, 100));
   EXPECT_EQ(
-      friction(read(least, {"contact={friction=0.25, restitution=0.5}", "contact.friction=0.1"}).ball_ball),
+      friction(read(least, {"contact={friction=0.25, restitution=0.5}", "contact.friction=0.1"})
+                   .ball_ball),
       ratio(1, 10));
 }
 
@@ -317,38 +325,17 @@ TEST(CaseSpec, TheDigestIgnoresHowAValueIsWritten) {
 }
 
 TEST(CaseSpec, TheDigestChangesWithEveryValue) {
-  const Overrides changes = {"run.seed=2",
-                             "run.precision=mpfr50",
-                             "run.initial_time=1 us",
-                             "run.start_time=1 us",
-                             "run.end_time=9.999999999999999999999 s",
-                             "run.max_collisions=10",
-                             "run.max_milling_dose=1 J",
-                             "run.max_ball_speed=10 m/s",
-                             "run.gravity=9.8 m/s2",
-                             "mill.type=still",
-                             "mill.arm=9 cm",
-                             "mill.theta_max=14 deg",
-                             "mill.gamma_max=14 deg",
-                             "mill.speed=1097 rpm",
-                             "vessel.diameter=39 mm",
-                             "vessel.height=58 mm",
-                             "contact.model=constant",
-                             "contact.restitution=0.5300000000000000000001",
-                             "contact.friction=0.41",
-                             "contact.min_tangential=0",
-                             "contact.least_separation=0 m/s",
-                             "contact.ball_wall.friction=0.5",
-                             "balls.0.diameter=4.75 mm",
-                             "balls.0.density=7 g/cm3",
-                             "balls.0.reduced_inertia=0.5",
-                             "balls.0.count=2",
-                             "balls.0.diameter_spread=0.1 mm",
-                             "balls.0.random_speed=1 m/s",
-                             "balls.0.velocity=[0, 0, 1]",
-                             "balls.0.gap_ball=2 mm",
-                             "balls.0.gap_wall=2 mm",
-                             "balls.0.max_relocations=7"};
+  const Overrides changes = {"run.seed=2", "run.precision=mpfr50", "run.initial_time=1 us",
+      "run.start_time=1 us", "run.end_time=9.999999999999999999999 s", "run.max_collisions=10",
+      "run.max_milling_dose=1 J", "run.max_ball_speed=10 m/s", "run.gravity=9.8 m/s2",
+      "mill.type=still", "mill.arm=9 cm", "mill.theta_max=14 deg", "mill.gamma_max=14 deg",
+      "mill.speed=1097 rpm", "vessel.diameter=39 mm", "vessel.height=58 mm",
+      "contact.model=constant", "contact.restitution=0.5300000000000000000001",
+      "contact.friction=0.41", "contact.min_tangential=0", "contact.least_separation=0 m/s",
+      "contact.ball_wall.friction=0.5", "balls.0.diameter=4.75 mm", "balls.0.density=7 g/cm3",
+      "balls.0.reduced_inertia=0.5", "balls.0.count=2", "balls.0.diameter_spread=0.1 mm",
+      "balls.0.random_speed=1 m/s", "balls.0.velocity=[0, 0, 1]", "balls.0.gap_ball=2 mm",
+      "balls.0.gap_wall=2 mm", "balls.0.max_relocations=7"};
   std::map<std::string, std::string> seen{{read(least).digest, "the case itself"}};
   for (const auto& change : changes) {
     Overrides overrides{change};
@@ -361,18 +348,18 @@ TEST(CaseSpec, TheDigestChangesWithEveryValue) {
 TEST(CaseSpec, EveryProblemIsReportedOnce) {
   try {
     read(replaced(replaced(full, "friction = 0.4", "friction = -1"), "position = [\"10 cm\"",
-                  "position = [\"10 kg\""),
-         {"run.seed=-1"});
+             "position = [\"10 kg\""),
+        {"run.seed=-1"});
     FAIL();
   } catch (const InputError& error) {
     ASSERT_EQ(error.problems().size(), 3u) << error.what();
     EXPECT_EQ(error.problems()[0],
-              "--set run.seed=-1: key 'run.seed': found \"-1\", expected an integer, 0 or more");
+        "--set run.seed=-1: key 'run.seed': found \"-1\", expected an integer, 0 or more");
     EXPECT_EQ(error.problems()[1],
-              "case.toml:31: key 'contact.friction': found \"-1\", expected a number from 0 to 1000000");
-    EXPECT_EQ(
-        error.problems()[2],
-        "case.toml:46: key 'ball.0.position.0': found \"10 kg\" (a mass), expected a length (m, dm, cm, "
+        "case.toml:31: key 'contact.friction': found \"-1\", expected a number from 0 to 1000000");
+    EXPECT_EQ(error.problems()[2],
+        "case.toml:46: key 'ball.0.position.0': found \"10 kg\" (a mass), expected a length (m, "
+        "dm, cm, "
         "mm, um, in, ft)");
   }
 }
@@ -380,12 +367,12 @@ TEST(CaseSpec, EveryProblemIsReportedOnce) {
 TEST(CaseSpec, GapsAreKeptBetweenBatchesOfOtherSizesAndGaps) {
   // Large balls without gaps first, then small ones with a wide gap.
   const std::string text = replaced(least, "[[balls]]\ndiameter = \"4.76 mm\"\n",
-                                    "[[balls]]\ncount = 3\ndiameter = \"10 mm\"\ngap_ball = \"0 mm\"\n"
-                                    "[[balls]]\ncount = 3\ndiameter = \"2 mm\"\ngap_ball = \"8 mm\"\n");
+      "[[balls]]\ncount = 3\ndiameter = \"10 mm\"\ngap_ball = \"0 mm\"\n"
+      "[[balls]]\ncount = 3\ndiameter = \"2 mm\"\ngap_ball = \"8 mm\"\n");
   int placed = 0;
   for (int seed = 1; seed <= 400; ++seed) {
-    const CaseSpec spec =
-        read(text, {"run.seed=" + std::to_string(seed), "vessel.diameter=80 mm", "vessel.height=80 mm"});
+    const CaseSpec spec = read(
+        text, {"run.seed=" + std::to_string(seed), "vessel.diameter=80 mm", "vessel.height=80 mm"});
     const auto built = casefile::build_case<double>(spec);
     for (std::size_t a = 0; a < 6; ++a)
       for (std::size_t b = std::max<std::size_t>(a + 1, 3); b < 6; ++b, ++placed) {

@@ -16,51 +16,55 @@
 namespace edmill::casefile {
 namespace {
 
-/// `name = nonsense` where a file of the key's kind has its section; a table suits no key but those of
-/// tables.
+/// `name = nonsense` where a file of the key's kind has its section; a table suits no key but those
+/// of tables.
 std::string of_joint(const Key& key, const std::string& nonsense) {
   return std::string(key.name == "distance" || key.name == "translate" ? "translate = \"x\"\n"
                                                                        : "rotate = \"x\"\n") +
-         (key.name == "rotate" || key.name == "translate" ? "" : nonsense);
+      (key.name == "rotate" || key.name == "translate" ? "" : nonsense);
 }
 std::string file_with(const Key& key) {
   const auto nonsense = "\"" + key.name + "\" = { nonsense = 1 }\n";
   const auto first = key.of.substr(0, key.of.find(','));
-  const std::string type =
-      first.empty() ? "" : (key.section == "contact" ? "model" : "type") + (" = \"" + first + "\"\n");
+  const std::string type = first.empty()
+      ? ""
+      : (key.section == "contact" ? "model" : "type") + (" = \"" + first + "\"\n");
   const auto& s = key.section;
-  if (s == "run" || s == "powder" || s == "audit" || s == "audit.columns" || s == "vessel.materials" ||
-      s == "sweep" || s == "optimize" || s == "sweep.grid")
+  if (s == "run" || s == "powder" || s == "audit" || s == "audit.columns" ||
+      s == "vessel.materials" || s == "sweep" || s == "optimize" || s == "sweep.grid")
     return "[" + s + "]\n" + nonsense;
   if (s == "mill" || s == "vessel" || s == "contact")
     return "[" + s + "]\n" + (key.name == "type" || key.name == "model" ? "" : type) + nonsense;
-  if (s == "mill.joint") return "[mill]\ntype = \"chain\"\n[[mill.joint]]\n" + of_joint(key, nonsense);
+  if (s == "mill.joint")
+    return "[mill]\ntype = \"chain\"\n[[mill.joint]]\n" + of_joint(key, nonsense);
   if (s == "mill.joint.swing")
-    return "[mill]\ntype = \"chain\"\n[[mill.joint]]\nrotate = \"x\"\n[[mill.joint.swing]]\n" + nonsense;
+    return "[mill]\ntype = \"chain\"\n[[mill.joint]]\nrotate = \"x\"\n[[mill.joint.swing]]\n" +
+        nonsense;
   if (s == "body" || s == "body.joint" || s == "body.joint.swing")
     return "[[body]]\nsize = [\"1 mm\", \"1 mm\", \"1 mm\"]\n" +
-           (s == "body" ? nonsense
-                        : "[[body.joint]]\n" +
-                              of_joint(key, s == "body.joint" ? nonsense : "[[" + s + "]]\n" + nonsense));
+        (s == "body" ? nonsense
+                     : "[[body.joint]]\n" +
+                    of_joint(key, s == "body.joint" ? nonsense : "[[" + s + "]]\n" + nonsense));
   if (s == "vessel.plane" || s == "vessel.vertex")
     return "[vessel]\ntype = \"polyhedron\"\n[[" + s + "]]\n" + nonsense;
   if (s == "vessel.piston" || s == "vessel.piston.swing")
     return "[vessel]\ndiameter = \"38 mm\"\nheight = \"57 mm\"\n[[vessel.piston]]\n" +
-           (s == "vessel.piston" ? "" : "[[" + s + "]]\n") + nonsense;
+        (s == "vessel.piston" ? "" : "[[" + s + "]]\n") + nonsense;
   if (s == "material" || s == "balls" || s == "ball" || s == "contact.pair" || s == "sweep.point" ||
       s == "optimize.variable")
     return "[[" + s + "]]\n" + nonsense;
   if (s == "sweep.point.set") return "[[sweep.point]]\n[sweep.point.set]\n" + nonsense;
   if (s == "output")
     return "[[output]]\n" +
-           (key.name == "type" ? ""
-            : first.empty()    ? "type = \"trends\"\n"
-                               : type) +
-           nonsense;
+        (key.name == "type"     ? ""
+                : first.empty() ? "type = \"trends\"\n"
+                                : type) +
+        nonsense;
   if (s == "output.only") return "[[output]]\ntype = \"trends\"\n[output.only]\n" + nonsense;
   if (s == "output.columns")
     return "[[output]]\ntype = \"" + (first.empty() ? "trends" : first) +
-           "\"\n[[output.columns]]\nvariable = \"collision\"\n" + (key.name == "variable" ? "" : nonsense);
+        "\"\n[[output.columns]]\nvariable = \"collision\"\n" +
+        (key.name == "variable" ? "" : nonsense);
   if (s == "output.contact_point")
     return "[[output]]\ntype = \"snapshot\"\n[output.contact_point]\n" + nonsense;
   ADD_FAILURE() << "a section " << s << " that this test does not know";
@@ -117,7 +121,8 @@ TEST(Keys, HaveMeaningsAndAreListedOnce) {
     for (const auto& key : section.keys) {
       EXPECT_EQ(key.section, section.name);
       EXPECT_FALSE(key.kind.empty()) << key.section << "." << key.name;
-      EXPECT_TRUE(seen.insert(key.section + "." + key.name + " of " + key.of).second) << key.name << " again";
+      EXPECT_TRUE(seen.insert(key.section + "." + key.name + " of " + key.of).second)
+          << key.name << " again";
     }
 }
 

@@ -1,4 +1,5 @@
-// Materials, pairs of them and the laws that a case can name: what is read, and that a run obeys it.
+// Materials, pairs of them and the laws that a case can name: what is read, and that a run obeys
+// it.
 #include <gtest/gtest.h>
 
 #include "base/errors.hpp"
@@ -93,10 +94,10 @@ TEST(Materials, GiveDensitiesAndLawsByPair) {
 }
 
 TEST(Materials, APairThatIsNotNamedFollowsTheCommonLaw) {
-  const auto built = casefile::build_case<double>(
-      parse_case(bodies + "[contact]\nrestitution = 0.5\nfriction = 0\n[contact.ball_wall]\nfriction = 0.6\n"
-                          "[[contact.pair]]\nmaterials = [\"steel\", \"alumina\"]\nrestitution = 0.25\n",
-                 "case.toml"));
+  const auto built = casefile::build_case<double>(parse_case(bodies +
+          "[contact]\nrestitution = 0.5\nfriction = 0\n[contact.ball_wall]\nfriction = 0.6\n"
+          "[[contact.pair]]\nmaterials = [\"steel\", \"alumina\"]\nrestitution = 0.25\n",
+      "case.toml"));
   const auto& mill = built.the_case.mill;
   const auto &steel = built.the_case.balls[0], &alumina = built.the_case.balls[6];
   EXPECT_EQ(mill.law_between(steel, alumina).restitution(1, {1, 1}), 0.25);
@@ -106,8 +107,7 @@ TEST(Materials, APairThatIsNotNamedFollowsTheCommonLaw) {
 }
 
 /// Sees that every impact between balls leaves at the restitution of its pair.
-template <class Real>
-struct PairWatch : engine::Observer<Real> {
+template <class Real> struct PairWatch : engine::Observer<Real> {
   std::size_t by_pair[3] = {};
   Real worst{0};
   void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>&) override {
@@ -121,8 +121,7 @@ struct PairWatch : engine::Observer<Real> {
   }
 };
 
-template <class Real>
-class MaterialsOf : public ::testing::Test {};
+template <class Real> class MaterialsOf : public ::testing::Test {};
 using Scalars = ::testing::Types<double, float128, mpfr>;
 TYPED_TEST_SUITE(MaterialsOf, Scalars);
 
@@ -141,7 +140,7 @@ TEST(Materials, NeedALawForEveryContactThatCanBe) {
   const auto without = pairs.substr(0, pairs.rfind("[[contact.pair]]"));
   const std::string error = refusal(bodies + without);
   EXPECT_NE(error.find("expected an entry [[contact.pair]] for \"alumina\" and \"rubber\""),
-            std::string::npos)
+      std::string::npos)
       << error;
 }
 
@@ -161,31 +160,35 @@ const std::string plain =
 
 TEST(Laws, TakeTheChargeRatioFromThePowder) {
   const auto spec = parse_case(
-      plain + "[powder]\nmass = \"1 g\"\n[contact]\nmodel = \"powder-load\"\nfriction = 0.4\n", "case.toml");
+      plain + "[powder]\nmass = \"1 g\"\n[contact]\nmodel = \"powder-load\"\nfriction = 0.4\n",
+      "case.toml");
   const auto built = casefile::build_case<double>(spec).the_case;
   double mass = 0;
   for (const auto& ball : built.balls) mass += ball.mass;
   const auto& law = std::get<model::PowderLoad<double>>(built.mill.ball_ball.law);
   EXPECT_NEAR(law.charge_ratio, mass / 0.001, 1e-12);
-  // The mean over uniform diameters d ± s, by Gauss's rule with two points, which is exact for a cube.
+  // The mean over uniform diameters d ± s, by Gauss's rule with two points, which is exact for a
+  // cube.
   const auto spread = casefile::build_case<double>(
-                          parse_case(plain + "diameter_spread = \"1 mm\"\n[powder]\nmass = \"1 "
-                                             "g\"\n[contact]\nmodel = \"powder-load\"\nfriction = 0.4\n",
-                                     "case.toml"))
+      parse_case(plain +
+              "diameter_spread = \"1 mm\"\n[powder]\nmass = \"1 "
+              "g\"\n[contact]\nmodel = \"powder-load\"\nfriction = 0.4\n",
+          "case.toml"))
                           .the_case;
   const double off = 1 / std::sqrt(3.0), big = (4.76 + off) / 4.76, small = (4.76 - off) / 4.76;
   EXPECT_NEAR(std::get<model::PowderLoad<double>>(spread.mill.ball_ball.law).charge_ratio,
-              mass / 0.001 * (big * big * big + small * small * small) / 2, 1e-12);
-  EXPECT_NE(refusal(plain + "[powder]\nmass = \"1 mg\"\n[contact]\nmodel = \"powder-load\"\nfriction = 0.4\n")
+      mass / 0.001 * (big * big * big + small * small * small) / 2, 1e-12);
+  EXPECT_NE(refusal(plain +
+                "[powder]\nmass = \"1 mg\"\n[contact]\nmodel = \"powder-load\"\nfriction = 0.4\n")
                 .find("from [[balls]] and [powder], expected a number from 2.5 to 10"),
-            std::string::npos);
+      std::string::npos);
 }
 
 TEST(Laws, KeepTheirPointsExact) {
   const auto spec = parse_case(plain +
-                                   "[contact]\nmodel = \"restitution-by-speed\"\nfriction = 0.4\n"
-                                   "restitution_by_speed = [[\"10 cm/s\", 0.9], [\"2 m/s\", 0.7]]\n",
-                               "case.toml");
+          "[contact]\nmodel = \"restitution-by-speed\"\nfriction = 0.4\n"
+          "restitution_by_speed = [[\"10 cm/s\", 0.9], [\"2 m/s\", 0.7]]\n",
+      "case.toml");
   const auto built = casefile::build_case<mpfr>(spec).the_case;
   const auto& law = std::get<model::RestitutionBySpeed<mpfr>>(built.mill.ball_wall.law);
   ASSERT_EQ(law.points.size(), 2u);

@@ -1,5 +1,5 @@
-// Quantities with units: exact values worked out by hand, udunits2 as an independent reference, exact wide
-// scalars.
+// Quantities with units: exact values worked out by hand, udunits2 as an independent reference,
+// exact wide scalars.
 #include "casefile/quantity.hpp"
 
 #include <gtest/gtest.h>
@@ -118,8 +118,8 @@ TEST(Quantity, RpmIsExactInTurns) {
 TEST(Quantity, UsualSpellingsAreOneUnit) {
   const std::vector<std::pair<Dimension, std::vector<std::string>>> families = {
       {D::density,
-       {"8 g/cm3", "8 g/cm^3", "8 g/cm³", "8 g/cm**3", "8 g / cm^3", "8g/cm3", "8.0 g/cc", " 8 g/cm3 ",
-        "8e0 g/cm3", "+8 g/cm3", "0.8E+1 g/cm3", "80e-1g/cm3"}},
+          {"8 g/cm3", "8 g/cm^3", "8 g/cm³", "8 g/cm**3", "8 g / cm^3", "8g/cm3", "8.0 g/cc",
+              " 8 g/cm3 ", "8e0 g/cm3", "+8 g/cm3", "0.8E+1 g/cm3", "80e-1g/cm3"}},
       {D::acceleration, {"9.8 m/s2", "9.8 m/s^2", "9.8 m/s²", "9.8 m/s/s", "9.8m / s 2"}},
       {D::angle, {"15 deg", "15 degree", "15 degrees", "15°", "15 °"}},
       {D::length, {"5 um", "5 µm", "5 μm", "5 micrometers", "5 micrometre"}},
@@ -129,8 +129,8 @@ TEST(Quantity, UsualSpellingsAreOneUnit) {
       {D::mass, {"2 lb", "2 lbs", "2 pounds", "2 pound"}},
       {D::time, {"2 h", "2 hr", "2 hours", "120 min", "120 minutes", "7200 s", "7200 seconds"}},
       {D::angular_speed,
-       {"60 rpm", "60 cpm", "60 r/min", "60 rev/min", "60 cycles/min", "60 1/min", "60 min^-1", "1 Hz",
-        "1 hertz"}},
+          {"60 rpm", "60 cpm", "60 r/min", "60 rev/min", "60 cycles/min", "60 1/min", "60 min^-1",
+              "1 Hz", "1 hertz"}},
   };
   for (const auto& [dimension, texts] : families)
     for (const auto& text : texts)
@@ -139,11 +139,12 @@ TEST(Quantity, UsualSpellingsAreOneUnit) {
 
 TEST(Quantity, EveryUnitOfAMessageIsUnderstood) {
   for (const auto d : {D::length, D::mass, D::time, D::angle, D::energy, D::speed, D::angular_speed,
-                       D::acceleration, D::density}) {
+           D::acceleration, D::density}) {
     const std::string text = describe(d);
     const auto open = text.find('(');
     std::string list = text.substr(open + 1, text.size() - open - 2) + ", ";
-    for (std::size_t at = 0, comma; (comma = list.find(", ", at)) != std::string::npos; at = comma + 2)
+    for (std::size_t at = 0, comma; (comma = list.find(", ", at)) != std::string::npos;
+         at = comma + 2)
       EXPECT_TRUE(parsed("1 " + list.substr(at, comma - at), d).positive());
   }
 }
@@ -165,10 +166,10 @@ TEST(Quantity, EveryUnitOfTheReferenceIsUnderstood) {
 
 TEST(Quantity, ACommaInANumberIsNamed) {
   for (const auto* text :
-       {"12,7 mm", "-0,5 m", ",5 mm", "+,5 mm", "1,000.5 mm", "1.000,5 mm", "3,0", "0,1mm"})
+      {"12,7 mm", "-0,5 m", ",5 mm", "+,5 mm", "1,000.5 mm", "1.000,5 mm", "3,0", "0,1mm"})
     EXPECT_EQ(problem(text, D::length),
-              "\"" + std::string(text) +
-                  "\" (a comma in a number: a decimal point is expected, and no thousands separators)");
+        "\"" + std::string(text) +
+            "\" (a comma in a number: a decimal point is expected, and no thousands separators)");
   for (const auto* text : {"5 mm,", ", 5 mm", "5, mm", "mm,5"})
     EXPECT_EQ(problem(text, D::length).find("comma"), std::string::npos) << text;
 }
@@ -179,13 +180,15 @@ TEST(Quantity, WhatIsNoQuantityIsNamed) {
   EXPECT_EQ(problem("4.76 kg", D::length), "\"4.76 kg\" (a mass)");
   EXPECT_EQ(problem("4.76 MM", D::length), "\"4.76 MM\" (unknown unit 'MM', did you mean 'mm'?)");
   EXPECT_EQ(problem("0.5 m", D::none), "\"0.5 m\" (a length)");
-  for (const auto* text : {"", " ", "mm", "nan mm", "inf m", "-inf m", "NaN", ". m", "+ m", "e5 m", "- 5 mm",
-                           "--5 mm", "1e99999999 m"})
-    EXPECT_EQ(problem(text, D::length), "\"" + std::string(text) + "\" (not a finite decimal number)");
+  for (const auto* text : {"", " ", "mm", "nan mm", "inf m", "-inf m", "NaN", ". m", "+ m", "e5 m",
+           "- 5 mm", "--5 mm", "1e99999999 m"})
+    EXPECT_EQ(
+        problem(text, D::length), "\"" + std::string(text) + "\" (not a finite decimal number)");
 }
 
 TEST(Quantity, SizesThatDoubleCannotCubeAreRejected) {
-  for (const auto* text : {"1e31 m", "-1e31 m", "1e-31 m", "1e400 m", "1e-400 m", "1.1e33 mm", "1e-28 mm"})
+  for (const auto* text :
+      {"1e31 m", "-1e31 m", "1e-31 m", "1e400 m", "1e-400 m", "1.1e33 mm", "1e-28 mm"})
     EXPECT_NE(problem(text, D::length).find("outside of 1e-30 to 1e30"), std::string::npos) << text;
   for (const auto* text : {"1e30 m", "1e-30 m", "1e33 mm", "0 m", "0e-300 m", "-0 m"})
     EXPECT_EQ(problem(text, D::length), "") << text;
@@ -193,8 +196,8 @@ TEST(Quantity, SizesThatDoubleCannotCubeAreRejected) {
 
 TEST(Quantity, PlainNumbersAreSiOnlyWhereAllowed) {
   EXPECT_EQ(problem("9.8", D::acceleration), "\"9.8\" (no unit)");
-  EXPECT_EQ(
-      rational(std::get<Quantity>(parse_quantity("9.8", D::acceleration, SizeLimit::physical, Plain::is_si))),
+  EXPECT_EQ(rational(std::get<Quantity>(
+                parse_quantity("9.8", D::acceleration, SizeLimit::physical, Plain::is_si))),
       ratio(98, 10));
   EXPECT_EQ(rational(parsed("0.4", D::none)), ratio(2, 5));
 }
@@ -204,7 +207,7 @@ TEST(Quantity, DecimalsAreExact) {
   EXPECT_EQ(rational(*parse_decimal("-.5e-2")), ratio(-1, 200));
   EXPECT_EQ(rational(*parse_decimal("007")), ratio(7));
   EXPECT_EQ(rational(*parse_decimal("0.1000000000000000000000000000000000000001")),
-            cpp_rational(cpp_int("1000000000000000000000000000000000000001"), pow(cpp_int(10), 40)));
+      cpp_rational(cpp_int("1000000000000000000000000000000000000001"), pow(cpp_int(10), 40)));
   for (const auto* text : {"", "nan", "inf", "0x10", "1 ", " 1", "1e", "1,5", "1.2.3", "1e5000"})
     EXPECT_FALSE(parse_decimal(text)) << text;
 }
@@ -252,7 +255,6 @@ class Udunits {
     ut_free(b);
     return result;
   }
-
  private:
   ut_system* system_ = nullptr;
 };
@@ -311,12 +313,12 @@ TEST(Quantity, UdunitsAgreesOnTurns) {
   const double turn = udunits.convert(360, "degree", "radian");
   for (const double value : {1.0, 17.5, 1054.0}) {
     const std::string number = std::to_string(value);
-    EXPECT_NEAR(
-        parsed(number + " Hz", D::angular_speed).to<double>() / (udunits.convert(value, "Hz", "s-1") * turn),
+    EXPECT_NEAR(parsed(number + " Hz", D::angular_speed).to<double>() /
+            (udunits.convert(value, "Hz", "s-1") * turn),
         1, 1e-15);
     EXPECT_NEAR(parsed(number + " rpm", D::angular_speed).to<double>() /
-                    (udunits.convert(value, "min-1", "s-1") * turn),
-                1, 1e-15);
+            (udunits.convert(value, "min-1", "s-1") * turn),
+        1, 1e-15);
     EXPECT_NEAR(parsed(number + " grad", D::angle).to<double>() / (value / 400 * turn), 1, 1e-15);
   }
 }
@@ -362,14 +364,10 @@ RC_GTEST_PROP(Quantity, RandomDecimalsAreExactInEveryUnit, ()) {
     int pi_power;
   };
   static const std::vector<Unit> units = {{"m", D::length, 1, 0},
-                                          {"mm", D::length, ratio(1, 1000), 0},
-                                          {"in", D::length, ratio(127, 5000), 0},
-                                          {"lb", D::mass, ratio(45359237, 100000000), 0},
-                                          {"h", D::time, 3600, 0},
-                                          {"deg", D::angle, ratio(1, 180), 1},
-                                          {"rpm", D::angular_speed, ratio(1, 30), 1},
-                                          {"g/cm^3", D::density, 1000, 0},
-                                          {"ft/s²", D::acceleration, ratio(381, 1250), 0}};
+      {"mm", D::length, ratio(1, 1000), 0}, {"in", D::length, ratio(127, 5000), 0},
+      {"lb", D::mass, ratio(45359237, 100000000), 0}, {"h", D::time, 3600, 0},
+      {"deg", D::angle, ratio(1, 180), 1}, {"rpm", D::angular_speed, ratio(1, 30), 1},
+      {"g/cm^3", D::density, 1000, 0}, {"ft/s²", D::acceleration, ratio(381, 1250), 0}};
   const Decimal d = draw_decimal();
   const Unit& unit = *rc::gen::elementOf(units);
   const std::string space = *rc::gen::element<std::string>("", " ", "  ");
@@ -382,15 +380,9 @@ RC_GTEST_PROP(Quantity, RandomDecimalsAreExactInEveryUnit, ()) {
 RC_GTEST_PROP(Quantity, SiDecimalsRoundCorrectlyToDouble, ()) {
   const Decimal d = draw_decimal();
   static const std::vector<std::pair<std::string, Dimension>> units = {{" m", D::length},
-                                                                       {" kg", D::mass},
-                                                                       {" s", D::time},
-                                                                       {" rad", D::angle},
-                                                                       {" J", D::energy},
-                                                                       {" m/s", D::speed},
-                                                                       {" rad/s", D::angular_speed},
-                                                                       {" m/s2", D::acceleration},
-                                                                       {" kg/m3", D::density},
-                                                                       {"", D::none}};
+      {" kg", D::mass}, {" s", D::time}, {" rad", D::angle}, {" J", D::energy}, {" m/s", D::speed},
+      {" rad/s", D::angular_speed}, {" m/s2", D::acceleration}, {" kg/m3", D::density},
+      {"", D::none}};
   const auto [unit, dimension] = *rc::gen::elementOf(units);
   const auto result = parse_quantity(d.text + unit, dimension);
   RC_ASSERT(std::holds_alternative<Quantity>(result));

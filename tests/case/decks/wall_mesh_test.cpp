@@ -1,4 +1,5 @@
-// The prism that stands for a round wall: what contacts are judged against is what decks have as triangles.
+// The prism that stands for a round wall: what contacts are judged against is what decks have as
+// triangles.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,14 +40,14 @@ friction = 0.3
 count = 1
 diameter = "8 mm"
 )",
-                                         "drum.toml");
+      "drum.toml");
   const auto built = casefile::build_case<double>(spec);
   const auto& mill = built.the_case.mill;
   constexpr double radius = 0.004;
   for (const int facets : {8, 24, 128}) {
     const auto meshes = decks::meshes_of(mill.vessel, facets);
-    const auto side =
-        std::find_if(meshes.begin(), meshes.end(), [](const auto& mesh) { return mesh.name == "side"; });
+    const auto side = std::find_if(
+        meshes.begin(), meshes.end(), [](const auto& mesh) { return mesh.name == "side"; });
     ASSERT_NE(side, meshes.end());
     const decks::MovingVessel vessel(mill, built.the_case.balls, facets);
     const auto pose = vessel.at(0.123);
@@ -71,8 +72,8 @@ diameter = "8 mm"
         const Place n = mill.motion.direction_to_inertial(pose.front(), nearest);
         ASSERT_NEAR(std::abs(dot<double>(vessel.normal(pose, 0, wall, place), n)), 1, 1e-12);
         ASSERT_LT(dot<double>(vessel.normal(pose, 0, wall, place),
-                              Place(place - mill.motion.to_inertial(pose.front(), Place(0, inside[1], 0)))),
-                  0);
+                      Place(place - mill.motion.to_inertial(pose.front(), Place(0, inside[1], 0)))),
+            0);
       }
       ASSERT_EQ(near, 1);
     }

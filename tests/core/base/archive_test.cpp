@@ -11,8 +11,7 @@
 namespace edmill {
 namespace {
 
-template <class T>
-T again(T value) {
+template <class T> T again(T value) {
   Archive saved;
   saved(value);
   Archive loading(saved.bytes());
@@ -22,8 +21,7 @@ T again(T value) {
   return loaded;
 }
 
-template <class Real>
-class ArchiveOf : public ::testing::Test {};
+template <class Real> class ArchiveOf : public ::testing::Test {};
 using Scalars = ::testing::Types<double, float128, mpfr>;
 TYPED_TEST_SUITE(ArchiveOf, Scalars);
 
@@ -32,7 +30,7 @@ TYPED_TEST(ArchiveOf, KeepsEveryBitOfAScalar) {
   using std::isinf, std::isnan, std::signbit;
   // The last digit of each is rounded.
   for (const Real& value : {Real(Real(1) / 3), Real(-Real(2) / 7), from_text<Real>("1.1e-200"),
-                            Real(from_text<Real>("1e300") / 3), Real(0), Real(1 + epsilon<Real>())})
+           Real(from_text<Real>("1e300") / 3), Real(0), Real(1 + epsilon<Real>())})
     EXPECT_TRUE(again(value) == value) << value;
   EXPECT_TRUE(signbit(again(Real(-Real(0)))));
   EXPECT_TRUE(isinf(again(Real(std::numeric_limits<Real>::infinity()))));
@@ -40,7 +38,8 @@ TYPED_TEST(ArchiveOf, KeepsEveryBitOfAScalar) {
 }
 
 TEST(Archive, KeepsContainers) {
-  const std::vector<std::pair<int, std::string>> list{{1, "a"}, {2, ""}, {3, std::string("\0x", 2)}};
+  const std::vector<std::pair<int, std::string>> list{
+      {1, "a"}, {2, ""}, {3, std::string("\0x", 2)}};
   EXPECT_EQ(again(list), list);
   EXPECT_EQ(again(std::optional<double>(2.5)), std::optional<double>(2.5));
   EXPECT_EQ(again(std::optional<double>()), std::nullopt);

@@ -61,7 +61,8 @@ TEST(ChosenDigits, HoldWithinTheirScope) {
   const mpfr copy = third;
   EXPECT_EQ(copy, third);  // with all its bits
   EXPECT_LT(abs(copy * 3 - 1), mpfr(1e-40));
-  EXPECT_LT(mpfr_get_prec((copy * 3).data()), mpfr_get_prec(copy.data()));  // a result has the thread's
+  EXPECT_LT(
+      mpfr_get_prec((copy * 3).data()), mpfr_get_prec(copy.data()));  // a result has the thread's
 }
 
 TEST(ChosenDigits, ComparesNoNumberWithNothing) {
@@ -90,7 +91,7 @@ TEST(ChosenDigits, AreTakenFromNames) {
   EXPECT_EQ(chosen_digits_of("mpfr:3000"), 3000u);
   EXPECT_EQ(chosen_digits_of("mpfr50"), 50u);
   for (const char* name :
-       {"mpfr", "mpfr:", "mpfr:19", "mpfr:1000001", "mpfr:5e3", "mpfr:-30", "mpfr51", ":30"})
+      {"mpfr", "mpfr:", "mpfr:19", "mpfr:1000001", "mpfr:5e3", "mpfr:-30", "mpfr51", ":30"})
     EXPECT_EQ(chosen_digits_of(name), 0u) << name;
 }
 

@@ -12,21 +12,21 @@ namespace edmill {
 namespace {
 
 /// Distance in units of the last place of `found`.
-template <class Real>
-double ulps(const Real& found, const mpfr_of<100>& exact) {
-  const mpfr_of<100> unit = ldexp(abs(exact), -std::numeric_limits<Real>::digits);  // half to a whole unit
+template <class Real> double ulps(const Real& found, const mpfr_of<100>& exact) {
+  const mpfr_of<100> unit =
+      ldexp(abs(exact), -std::numeric_limits<Real>::digits);  // half to a whole unit
   return std::abs(static_cast<double>((mpfr_of<100>(found) - exact) / unit));
 }
 
-template <class Real>
-void angles_are_right(std::uint64_t seed) {
+template <class Real> void angles_are_right(std::uint64_t seed) {
   casefile::Random random(seed);
   double worst = 0;
   for (int k = 0; k < 20000; ++k) {
     const double scale = std::pow(10, 20 * random.symmetric<double>());
     const Real across = scale * random.uniform<Real>(), along = random.symmetric<Real>();
-    worst = std::max(worst, ulps<Real>(numerics::angle_between<Real>(across, along),
-                                       atan2(mpfr_of<100>(across), mpfr_of<100>(along))));
+    worst = std::max(worst,
+        ulps<Real>(numerics::angle_between<Real>(across, along),
+            atan2(mpfr_of<100>(across), mpfr_of<100>(along))));
   }
   EXPECT_LT(worst, 4) << "seed " << seed;
   EXPECT_EQ(numerics::angle_between<Real>(0, 1), 0);
@@ -39,8 +39,7 @@ TEST(Elementary, AnglesAreWithinFourUnitsOfTheLastPlace) {
   angles_are_right<float128>(2);
 }
 
-template <class Real>
-void logarithms_are_right(std::uint64_t seed) {
+template <class Real> void logarithms_are_right(std::uint64_t seed) {
   casefile::Random random(seed);
   double worst = 0;
   for (int k = 0; k < 20000; ++k) {
@@ -57,8 +56,8 @@ TEST(Elementary, LogarithmsAreWithinFourUnitsOfTheLastPlace) {
   logarithms_are_right<float128>(4);
 }
 
-/// Of numbers of all sizes, among them neighbours of squares, whose roots are nearly halfway between two
-/// numbers.
+/// Of numbers of all sizes, among them neighbours of squares, whose roots are nearly halfway
+/// between two numbers.
 TEST(Elementary, RootsInFloat128AreTheNearestNumbers) {
   casefile::Random random(5);
   using Exact = mpfr_of<80>;
@@ -80,7 +79,8 @@ TEST(Elementary, RootsInFloat128AreTheNearestNumbers) {
   }
   EXPECT_EQ(sqrt(float128(0)), 0);
   EXPECT_TRUE(isnan(sqrt(float128(-1))));
-  EXPECT_EQ(sqrt(std::numeric_limits<float128>::infinity()), std::numeric_limits<float128>::infinity());
+  EXPECT_EQ(
+      sqrt(std::numeric_limits<float128>::infinity()), std::numeric_limits<float128>::infinity());
 }
 
 }  // namespace

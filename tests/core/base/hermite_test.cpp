@@ -60,7 +60,8 @@ TEST(Hermite, MonotonyIsProvenOnlyWhereMonotone) {
     const bool rises = proven_increasing(f.at(0), f.at(r), f.bounds());
     falling += falls;
     rising += rises;
-    for (int n = 0; n <= 100 && (falls || rises); ++n) ASSERT_TRUE((f.slope(r * n / 100) < 0) == falls);
+    for (int n = 0; n <= 100 && (falls || rises); ++n)
+      ASSERT_TRUE((f.slope(r * n / 100) < 0) == falls);
   }
   EXPECT_GT(falling, 2000);
   EXPECT_GT(rising, 2000);
@@ -73,7 +74,8 @@ TEST(Hermite, DepartureIsProvenOnlyWithoutReturn) {
     Wave f = draw(random);
     f.c0 = 0;
     const double r = 0.02 + 0.6 * random.uniform<double>();
-    if (!can_depart(f.at(0), f.bounds()) || !proven_departure(f.at(0), f.at(r), f.bounds())) continue;
+    if (!can_depart(f.at(0), f.bounds()) || !proven_departure(f.at(0), f.at(r), f.bounds()))
+      continue;
     ++proven;
     for (int n = 1; n <= 400; ++n) ASSERT_GT(f.value(r * n / 400), 0);
   }
@@ -88,7 +90,8 @@ TEST(Hermite, RootHintsAreNearTheRoot) {
   double low = 0.1, high = 1;
   while (high - low > 1e-15) (f.value((low + high) / 2) > 0 ? low : high) = (low + high) / 2;
   EXPECT_NEAR(0.1 + 0.9 * last_root_hint(left, right), low, 0.02);
-  // The inverse function must be smooth between the points: a short bracket, error of order h^4 = 1e-4.
+  // The inverse function must be smooth between the points: a short bracket, error of order h^4 =
+  // 1e-4.
   EXPECT_NEAR(inverse_cubic_hint(f.at(low - 0.04), f.at(low + 0.06)), low, 1e-4);
 }
 

@@ -30,7 +30,8 @@ TEST(LargeVector, KeepsItsValuesAcrossTheSizeOfAPage) {
 }
 
 TEST(LargeVector, BeginsWithAPageWhenItFillsOne) {
-  const LargeVector<double> whole(large_page / sizeof(double)), more(large_page / sizeof(double) + 1);
+  const LargeVector<double> whole(large_page / sizeof(double)),
+      more(large_page / sizeof(double) + 1);
   EXPECT_EQ(place_in(large_page, whole.data()), 0u);
   EXPECT_EQ(place_in(large_page, more.data()), 0u);
 }

@@ -43,7 +43,8 @@ TEST(SeriesEstimate, HoldsTheMeanOfSeriesThatDependOnTheirPast) {
   RecordProperty("seed", seed);
   for (const double factor : {-0.5, -0.2, 0.0, 0.3})
     for (const std::size_t count : {10u, 20u, 50u, 100u}) {
-      const double share = coverage(0, [&](auto& random) { return correlated(count, factor, random); });
+      const double share =
+          coverage(0, [&](auto& random) { return correlated(count, factor, random); });
       EXPECT_GT(share, 0.925) << factor << " " << count;
       EXPECT_LT(share, factor < -0.3 && count < 50 ? 0.985 : 0.97)
           << factor << " " << count;  // few transforms
@@ -86,7 +87,8 @@ TEST(Drifts, IsSaidOfSlowChangesAndSeldomOfOthers) {
   for (int k = 0; k < 1000; ++k) {
     auto values = correlated(60, 0.2, random);
     falsely += drifts(values);
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] += 4 * std::exp(-static_cast<double>(i) / 20);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] += 4 * std::exp(-static_cast<double>(i) / 20);
     seen += drifts(values);
   }
   EXPECT_LT(falsely, 30);

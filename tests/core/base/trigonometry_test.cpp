@@ -19,7 +19,7 @@ TEST(Trigonometry, DoubleIsWithinTwoUlpOfOneForAnglesOfAMill) {
     const auto found = sin_cos<double>(x);
     const auto exact = sin_cos<Exact>(Exact(x));
     worst = std::max({worst, std::abs(static_cast<double>(Exact(found.sin) - exact.sin)),
-                      std::abs(static_cast<double>(Exact(found.cos) - exact.cos))});
+        std::abs(static_cast<double>(Exact(found.cos) - exact.cos))});
   }
   EXPECT_LT(worst, 2 * 1.1102230246251565e-16);
 }
@@ -32,7 +32,7 @@ TEST(Trigonometry, TurnsInDoubleAreWithinFourUlpOfOne) {
     const auto found = sin_cos_turns<double>(turns);
     const auto exact = sin_cos<Exact>(2 * pi<Exact>() * Exact(turns));
     worst = std::max({worst, std::abs(static_cast<double>(Exact(found.sin) - exact.sin)),
-                      std::abs(static_cast<double>(Exact(found.cos) - exact.cos))});
+        std::abs(static_cast<double>(Exact(found.cos) - exact.cos))});
   }
   EXPECT_LT(worst, 4 * 1.1102230246251565e-16);
 }
@@ -46,16 +46,15 @@ TEST(Trigonometry, TurnsAreExactAtQuarters) {
   }
 }
 
-template <class Real>
-void expect_two_ulp_of_one() {
+template <class Real> void expect_two_ulp_of_one() {
   casefile::Random random(10);
   Exact worst = 0;
   for (int k = 0; k < 20000; ++k) {
     const Real x = (k % 2 ? 0.8 : 20) * random.symmetric<Real>();
     const auto found = sin_cos<Real>(x);
     const auto exact = sin_cos<Exact>(Exact(x));
-    worst =
-        std::max({worst, Exact(abs(Exact(found.sin) - exact.sin)), Exact(abs(Exact(found.cos) - exact.cos))});
+    worst = std::max({worst, Exact(abs(Exact(found.sin) - exact.sin)),
+        Exact(abs(Exact(found.cos) - exact.cos))});
   }
   EXPECT_LT(worst, 2 * Exact(std::numeric_limits<Real>::epsilon()));
   EXPECT_EQ(pi<Real>(), static_cast<Real>(pi<Exact>()));

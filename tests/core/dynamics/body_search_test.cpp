@@ -1,5 +1,6 @@
-// First contacts with bodies inside the vessel, compared with a second solver: the true distance from the
-// body, excluded by the largest speed at which it can change, bisected down to its sign change or solved.
+// First contacts with bodies inside the vessel, compared with a second solver: the true distance
+// from the body, excluded by the largest speed at which it can change, bisected down to its sign
+// change or solved.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -54,23 +55,27 @@ height = "2 mm"
 rounding = "1 mm")"},
 };
 
-/// A sphere so large that no ball reaches it, and a body in random motion: turning, swinging, shifted.
+/// A sphere so large that no ball reaches it, and a body in random motion: turning, swinging,
+/// shifted.
 model::Mill<double> random_mill(Draw& draw, const BodyText& body) {
   const auto axis = [&] {
-    return fmt::format("[{:.3f}, {:.3f}, {:.3f}]", draw.symmetric(), draw.symmetric(), draw.symmetric() + 2);
+    return fmt::format(
+        "[{:.3f}, {:.3f}, {:.3f}]", draw.symmetric(), draw.symmetric(), draw.symmetric() + 2);
   };
   std::string joints;
   if (draw.chance(0.8))
-    joints += fmt::format("{{ rotate = {}, speed = \"{:.2f} rpm\" }}, ", axis(), 900 * draw.symmetric());
-  joints += fmt::format("{{ translate = [\"{:.2f} mm\", \"{:.2f} mm\", \"1 mm\"] }}", 20 * draw.symmetric(),
-                        20 * draw.symmetric());
+    joints +=
+        fmt::format("{{ rotate = {}, speed = \"{:.2f} rpm\" }}, ", axis(), 900 * draw.symmetric());
+  joints += fmt::format("{{ translate = [\"{:.2f} mm\", \"{:.2f} mm\", \"1 mm\"] }}",
+      20 * draw.symmetric(), 20 * draw.symmetric());
   if (draw.chance(0.5))
     joints += fmt::format(
-        ", {{ translate = {}, swing = [{{ amplitude = \"{:.2f} mm\", speed = \"{:.1f} rpm\" }}] }}", axis(),
-        draw.uniform(0.5, 6), draw.uniform(300, 2000));
+        ", {{ translate = {}, swing = [{{ amplitude = \"{:.2f} mm\", speed = \"{:.1f} rpm\" }}] }}",
+        axis(), draw.uniform(0.5, 6), draw.uniform(300, 2000));
   if (draw.chance(0.6))
     joints += fmt::format(
-        ", {{ rotate = {}, angle = \"{:.1f} deg\", swing = [{{ amplitude = \"{:.1f} deg\", speed = \"{:.1f} "
+        ", {{ rotate = {}, angle = \"{:.1f} deg\", swing = [{{ amplitude = \"{:.1f} deg\", speed = "
+        "\"{:.1f} "
         "rpm\" }}] }}",
         axis(), 180 * draw.symmetric(), draw.uniform(1, 30), draw.uniform(300, 1500));
   const auto text = fmt::format(
@@ -99,28 +104,26 @@ position = ["400 mm", "0 mm", "0 mm"]
 }
 
 /// The second solver: nothing of it is in the search.
-template <class Real>
-class Oracle {
+template <class Real> class Oracle {
  public:
   Oracle(const model::Mill<Real>& mill, const WallQuery<Real>& query)
-      : body_(mill.bodies[0]),
-        clock_(mill.motion.period()),
-        gravity_(mill.gravity),
-        query_(query),
+      : body_(mill.bodies[0]), clock_(mill.motion.period()), gravity_(mill.gravity), query_(query),
         age_(clock_.elapsed(query.flight.start, query.begin)) {
-    const Real fastest = norm<Real>(query.flight.velocity) + norm<Real>(gravity_) * (age_ + query.length);
+    const Real fastest =
+        norm<Real>(query.flight.velocity) + norm<Real>(gravity_) * (age_ + query.length);
     steepest_ = (fastest + body_.motion.wall_speed(body_.shape.size())) * (1 + Real(1) / 1024);
   }
 
   Real gap(const Real& t) const {
     const Real dt = age_ + t;
-    const Vec3<Real> at = query_.flight.position + query_.flight.velocity * dt + gravity_ * (dt * dt / 2);
+    const Vec3<Real> at =
+        query_.flight.position + query_.flight.velocity * dt + gravity_ * (dt * dt / 2);
     const Vec3<Real> p =
         body_.motion.position_in_vessel(body_.motion.pose(clock_.after(query_.begin, t)), at);
     return distance(p) - body_.shape.rounding() - query_.radius;
   }
-  /// The first time from `from` on at which the ball touches, to within `finest` [s]; `closest` is the least
-  /// gap that could not be excluded.
+  /// The first time from `from` on at which the ball touches, to within `finest` [s]; `closest` is
+  /// the least gap that could not be excluded.
   std::optional<Real> first(Real from, const Real& to, const Real& finest, Real& closest) const {
     std::vector<std::pair<Real, Real>> ends{{to, gap(to)}};
     Real before = gap(from);
@@ -132,7 +135,8 @@ class Oracle {
         ends.emplace_back(middle, gap(middle));
         continue;
       }
-      if (!clear) closest = std::min<Real>(closest, std::min<Real>(magnitude(before), magnitude(behind)));
+      if (!clear)
+        closest = std::min<Real>(closest, std::min<Real>(magnitude(before), magnitude(behind)));
       if (!clear && before > 0 && !(behind > 0)) return end;
       from = end;
       before = behind;
@@ -155,12 +159,13 @@ class Oracle {
     while (value[k] > 0) ++k;
     std::uintmax_t most = 200;
     const auto fine = [&](const Real& low, const Real& high) { return high - low <= finest; };
-    return boost::math::tools::toms748_solve([&](const Real& x) { return gap(x); }, t[k - 1], t[k],
-                                             value[k - 1], value[k], fine, most)
+    return boost::math::tools::toms748_solve(
+        [&](const Real& x) { return gap(x); }, t[k - 1], t[k], value[k - 1], value[k], fine, most)
         .second;
   }
 
-  /// The parts of a window that double cannot exclude, in order, up to where the ball is surely in the body.
+  /// The parts of a window that double cannot exclude, in order, up to where the ball is surely in
+  /// the body.
   std::vector<std::pair<Real, Real>> near(const Real& from, const Real& to) const {
     constexpr double rounding = 1e-11;  // of a gap, at most [m]
     const Real finest = 4 * rounding / steepest_;
@@ -169,7 +174,8 @@ class Oracle {
     std::vector<std::pair<Real, Real>> ends{{to, gap(to)}};
     while (!ends.empty()) {
       const auto [end, behind] = ends.back();
-      const bool clear = before > 0 && behind > 0 && before + behind > steepest_ * (end - begin) + rounding;
+      const bool clear =
+          before > 0 && behind > 0 && before + behind > steepest_ * (end - begin) + rounding;
       if (!clear && end - begin > finest) {
         const Real middle = begin + (end - begin) / 2;
         ends.emplace_back(middle, gap(middle));
@@ -186,7 +192,6 @@ class Oracle {
     }
     return found;
   }
-
  private:
   Real distance(const Vec3<Real>& p) const {
     using std::sqrt;
@@ -213,8 +218,10 @@ class Oracle {
 
 enum class Start { aimed, passing, on_it, edge };
 
-/// A ball near the body: aimed at it, passing by, leaving its surface, or near where two regions meet.
-WallQuery<double> random_query(Draw& draw, const model::Mill<double>& mill, double length, Start kind) {
+/// A ball near the body: aimed at it, passing by, leaving its surface, or near where two regions
+/// meet.
+WallQuery<double> random_query(
+    Draw& draw, const model::Mill<double>& mill, double length, Start kind) {
   const auto& body = mill.bodies[0];
   const DriveClock<double> clock(mill.motion.period());
   WallQuery<double> query;
@@ -228,16 +235,19 @@ WallQuery<double> random_query(Draw& draw, const model::Mill<double>& mill, doub
   };
   // A point of the core, outward from it, and a distance.
   const auto& half = body.shape.half();
-  Vec3<double> core(half[0] * draw.symmetric(), half[1] * draw.symmetric(), half[2] * draw.symmetric());
+  Vec3<double> core(
+      half[0] * draw.symmetric(), half[1] * draw.symmetric(), half[2] * draw.symmetric());
   if (kind == Start::edge)
     for (int k = 0; k < 3; ++k)
-      if (draw.chance(0.6)) core[k] = (draw.chance(0.5) ? 1 : -1) * half[k] * (1 + 1e-9 * draw.symmetric());
+      if (draw.chance(0.6))
+        core[k] = (draw.chance(0.5) ? 1 : -1) * half[k] * (1 + 1e-9 * draw.symmetric());
   const auto room = body.shape.inset(query.radius);
   const Vec3<double> out = direction();
   Vec3<double> place = core + out * (half.norm() * 2 + 0.01);
   const double contact = -room.overlap(0, place);
   const double speed = draw.log_uniform(0.01, 6);
-  const double away = kind == Start::on_it ? 0 : std::min(speed * length * draw.log_uniform(1e-4, 1), 0.003);
+  const double away =
+      kind == Start::on_it ? 0 : std::min(speed * length * draw.log_uniform(1e-4, 1), 0.003);
   // Along the line to the nearest point, to the distance wanted.
   place += room.normal(0, place) * (away - contact);
   query.flight.position = body.motion.to_inertial(pose, place);
@@ -269,7 +279,8 @@ std::optional<WallAnswer<Real>> ask(DecisionLadder<Real>& ladder, const WallQuer
   const auto& clock = ladder.pairs().clock();
   auto rest = query;
   Real proven(0);
-  for (int windows = 0; windows < 1000 && proven < query.length * (1 - Real(1) / 1000000); ++windows) {
+  for (int windows = 0; windows < 1000 && proven < query.length * (1 - Real(1) / 1000000);
+       ++windows) {
     rest.begin = clock.after(query.begin, proven);
     rest.length = query.length - proven;
     const auto answer = ladder.wall(rest);
@@ -292,7 +303,8 @@ void compare(const BodyText& text, std::uint64_t seed, long count, Count& sum) {
       ladder.emplace(model::mill_cast<Real>(*mill), Real(0.01), Real(20));
     }
     const auto kind = static_cast<Start>(k % 4);
-    const double length = draw.log_uniform(1e-3, 1) * static_cast<double>(ladder->walls().longest_window());
+    const double length =
+        draw.log_uniform(1e-3, 1) * static_cast<double>(ladder->walls().longest_window());
     const auto query = random_query(draw, *mill, length, kind);
     const auto asked = widened<Real>(query);
     const auto answer = ask(*ladder, asked);
@@ -301,13 +313,15 @@ void compare(const BodyText& text, std::uint64_t seed, long count, Count& sum) {
     if (kind == Start::on_it) {  // from where it has left, which it may not do within the window
       from = Wide(1e-12);
       while (from < Wide(length) && !(oracle.gap(from) > Wide(1e-9))) from = 2 * from;
-      const auto begin = DriveClock<Wide>(wide_mill.motion.period()).after(widened<Wide>(query).begin, from);
+      const auto begin =
+          DriveClock<Wide>(wide_mill.motion.period()).after(widened<Wide>(query).begin, from);
       if (!(from < Wide(length)) || (answer && instant_cast<Wide>(answer->time) < begin)) continue;
     }
     const Wide finest =
         std::max(Wide(epsilon<Real>()) / 64, 1000 * epsilon<Wide>()) * wide_mill.motion.period();
     std::optional<Wide> expected;
-    for (const auto& [begin, end] : Oracle<double>(*mill, query).near(static_cast<double>(from), length)) {
+    for (const auto& [begin, end] :
+        Oracle<double>(*mill, query).near(static_cast<double>(from), length)) {
       const Wide first = std::max(Wide(begin), from);
       expected = oracle.only(first, Wide(end), finest);
       if (!expected) expected = oracle.first(first, Wide(end), finest, closest);
@@ -319,7 +333,7 @@ void compare(const BodyText& text, std::uint64_t seed, long count, Count& sum) {
     bool right = answer.has_value() == expected.has_value();
     if (right && answer) {
       const Wide off = clock.elapsed(clock.after(instant_cast<Wide>(query.begin), *expected),
-                                     instant_cast<Wide>(answer->time));
+          instant_cast<Wide>(answer->time));
       const Wide tolerance =
           Wide(answer->time_error) + 64 * Wide(epsilon<Real>()) * clock.period() + 2 * finest;
       right = magnitude(off) <= tolerance;
@@ -329,34 +343,41 @@ void compare(const BodyText& text, std::uint64_t seed, long count, Count& sum) {
       continue;
     }
     if (!right && ++sum.wrong <= 3)
-      std::cout << text.name << ", state " << k << " of seed " << seed << ", kind " << static_cast<int>(kind)
-                << ": found " << (answer ? to_text(Real(answer->time.offset)) : "none") << ", expected "
-                << (expected ? to_text(Wide(instant_cast<Wide>(query.begin).offset + *expected)) : "none")
+      std::cout << text.name << ", state " << k << " of seed " << seed << ", kind "
+                << static_cast<int>(kind) << ": found "
+                << (answer ? to_text(Real(answer->time.offset)) : "none") << ", expected "
+                << (expected ? to_text(Wide(instant_cast<Wide>(query.begin).offset + *expected))
+                             : "none")
                 << ", closest " << static_cast<double>(closest) << "\n";
   }
 }
 
 class BodySearches : public ::testing::TestWithParam<BodyText> {
  protected:
-  template <class Real, class Wide>
-  void expect_agreement(std::uint64_t seed, long count) {
+  template <class Real, class Wide> void expect_agreement(std::uint64_t seed, long count) {
     std::cout << "seed " << seed << ", " << count << " states\n";
     Count sum;
     compare<Real, Wide>(GetParam(), seed, count, sum);
-    std::cout << GetParam().name << ": " << sum.states << " states, " << sum.contacts << " contacts, "
-              << sum.doubtful << " graze within rounding\n";
+    std::cout << GetParam().name << ": " << sum.states << " states, " << sum.contacts
+              << " contacts, " << sum.doubtful << " graze within rounding\n";
     EXPECT_EQ(sum.wrong, 0);
     EXPECT_GT(sum.contacts, sum.states / 5);
     EXPECT_LT(sum.doubtful, sum.states / 100 + 2);
   }
 };
 INSTANTIATE_TEST_SUITE_P(All, BodySearches, ::testing::ValuesIn(bodies),
-                         [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& info) { return std::string(info.param.name); });
 
 TEST_P(BodySearches, AgreeWithASecondSolver) { expect_agreement<double, float128>(20261130, 300); }
-TEST_P(BodySearches, AgreeWithASecondSolverInFloat128) { expect_agreement<float128, mpfr50>(20261131, 60); }
-TEST_P(BodySearches, AgreeWithASecondSolverIn50Digits) { expect_agreement<mpfr50, mpfr50>(20261132, 20); }
-TEST_P(BodySearches, LongAgreeWithASecondSolver) { expect_agreement<double, float128>(20261133, 100000); }
+TEST_P(BodySearches, AgreeWithASecondSolverInFloat128) {
+  expect_agreement<float128, mpfr50>(20261131, 60);
+}
+TEST_P(BodySearches, AgreeWithASecondSolverIn50Digits) {
+  expect_agreement<mpfr50, mpfr50>(20261132, 20);
+}
+TEST_P(BodySearches, LongAgreeWithASecondSolver) {
+  expect_agreement<double, float128>(20261133, 100000);
+}
 TEST_P(BodySearches, LongAgreeWithASecondSolverInFloat128) {
   expect_agreement<float128, mpfr50>(20261134, 100000);
 }
@@ -367,19 +388,20 @@ TEST_P(BodySearches, LongAgreeWithASecondSolverIn50Digits) {
 template <class Real>
 using BodyFunctions = GapFunctions<model::ChainMotion<Real>, model::RoundedBody<Real>>;
 template <class Real>
-MovingVessel<model::ChainMotion<Real>, model::RoundedBody<Real>> moving_body(const model::Mill<Real>& mill) {
+MovingVessel<model::ChainMotion<Real>, model::RoundedBody<Real>> moving_body(
+    const model::Mill<Real>& mill) {
   return {mill.bodies[0].motion, mill.bodies[0].shape, mill.gravity};
 }
 
 /// A ball near the body and the functions of its region, in double and in 50 digits.
 struct NearBody {
   NearBody(Draw& draw, const model::Mill<double>& mill, Start kind)
-      : body(moving_body(mill)),
-        wide_body(moving_body(model::mill_cast<mpfr50>(mill))),
-        query(random_query(draw, mill, draw.log_uniform(1e-3, 1) * mill.bodies[0].motion.longest_window(),
-                           kind)),
+      : body(moving_body(mill)), wide_body(moving_body(model::mill_cast<mpfr50>(mill))),
+        query(random_query(
+            draw, mill, draw.log_uniform(1e-3, 1) * mill.bodies[0].motion.longest_window(), kind)),
         narrow(body, query.flight, query.radius, query.begin.period),
-        exact(wide_body, flight_cast<mpfr50>(query.flight), mpfr50(query.radius), query.begin.period) {
+        exact(wide_body, flight_cast<mpfr50>(query.flight), mpfr50(query.radius),
+            query.begin.period) {
     const auto begin = query.begin.offset;
     place = narrow.seen(begin, narrow.pose(begin)).state.position;
     narrow.enter(place);
@@ -430,10 +452,12 @@ TEST_P(BodySearches, DerivativesStayBelowTheirBounds) {
   for (int k = 0; k < 300; ++k) {
     const NearBody near(draw, random_mill(draw, GetParam()), static_cast<Start>(k % 4));
     const auto& room = near.narrow.room();
-    // Bounds are for a window in which the ball can reach the body, and in which the functions are smooth.
+    // Bounds are for a window in which the ball can reach the body, and in which the functions are
+    // smooth.
     const double fastest = near.speed + near.body.wall_speed;
     double length = near.query.length;
-    if (const auto way = room.smooth_way(near.place); way && *way < fastest * length) length = *way / fastest;
+    if (const auto way = room.smooth_way(near.place); way && *way < fastest * length)
+      length = *way / fastest;
     if (room.clearance(near.place) > fastest * length) continue;
     ++judged;
     const auto bound = derivative_bounds(near.body, near.speed, length);
@@ -449,25 +473,27 @@ TEST_P(BodySearches, DerivativesStayBelowTheirBounds) {
         if (!active[f]) continue;
         const auto at = [&](int n) { return g[static_cast<std::size_t>(n + 2)].gap[f]; };
         const mpfr50 derivatives[] = {(at(1) - 2 * at(0) + at(-1)) / h2,
-                                      (at(2) - 2 * at(1) + 2 * at(-1) - at(-2)) / (2 * h2 * h),
-                                      (at(2) - 4 * at(1) + 6 * at(0) - 4 * at(-1) + at(-2)) / (h2 * h2)};
+            (at(2) - 2 * at(1) + 2 * at(-1) - at(-2)) / (2 * h2 * h),
+            (at(2) - 4 * at(1) + 6 * at(0) - 4 * at(-1) + at(-2)) / (h2 * h2)};
         for (std::size_t n = 0; n < 3; ++n) {
           const double most = bound[static_cast<std::size_t>(room.kind_of(static_cast<int>(f)))][n];
           const double found = static_cast<double>(abs(derivatives[n]));
           EXPECT_LE(found, most * (1 + 1e-5) + 1e-9)
-              << GetParam().name << ", state " << k << ", derivative " << n + 2 << " of function " << f;
+              << GetParam().name << ", state " << k << ", derivative " << n + 2 << " of function "
+              << f;
           if (most > 0) worst = std::max(worst, found / most);
         }
       }
     }
   }
-  std::cout << GetParam().name << ": " << judged << " states, largest derivative over its bound " << worst
-            << "\n";
+  std::cout << GetParam().name << ": " << judged << " states, largest derivative over its bound "
+            << worst << "\n";
   EXPECT_GT(judged, 100);
   EXPECT_GT(worst, 0.02);
 }
 
-/// Rotors of several bodies, whose constant joints are before or after what turns, and bodies of their own.
+/// Rotors of several bodies, whose constant joints are before or after what turns, and bodies of
+/// their own.
 constexpr const char* rotors[] = {
     R"([{ translate = [0, "5 mm", 0] }, { rotate = "y", speed = "600 rpm" }, { translate = ["9 mm", "1 mm", 0] }])",
     R"([{ rotate = "y", speed = "600 rpm" }, { translate = [0, 0, "7 mm"] }, { rotate = "x", angle = "30 deg" }])",
@@ -480,32 +506,34 @@ constexpr const char* rotors[] = {
 TEST(BodyGroups, ClearTimesAreThoseOfTheBodiesThemselves) {
   Draw draw(20261143);
   for (const char* mill_text : {"type = \"spex8000\"\nspeed = \"900 rpm\"",
-                                "type = \"chain\"\njoint = [{ rotate = \"y\", angle = \"45 deg\" }]"}) {
+           "type = \"chain\"\njoint = [{ rotate = \"y\", angle = \"45 deg\" }]"}) {
     std::string text = fmt::format(
         "[run]\nend_time = \"1 s\"\n[mill]\n{}\n[vessel]\ndiameter = \"80 mm\"\n"
         "height = \"80 mm\"\n",
         mill_text);
     for (const char* joints : rotors)
       for (const char* on : {"vessel", "ground"})
-        if (on == std::string("vessel") || std::string(mill_text).find("chain") != std::string::npos)
+        if (on == std::string("vessel") ||
+            std::string(mill_text).find("chain") != std::string::npos)
           text += fmt::format(
               "[[body]]\nsize = [\"8 mm\", \"4 mm\", \"3 mm\"]\nrounding = \"1 mm\"\non = \"{}\"\n"
               "joint = {}\nrepeat = {}\n",
               on, joints, std::string(joints).find("rotate") != std::string::npos ? 3 : 1);
-    text += "[contact]\nrestitution = 0.5\nfriction = 0.3\n[[balls]]\ncount = 1\ndiameter = \"4 mm\"\n";
+    text +=
+        "[contact]\nrestitution = 0.5\nfriction = 0.3\n[[balls]]\ncount = 1\ndiameter = \"4 mm\"\n";
     const auto mill = casefile::build_mill<double>(casefile::parse_case(text, "rotors"));
     const BodyGroups groups(mill.bodies);
     const DriveClock<double> clock(mill.motion.period());
     for (int k = 0; k < 2000; ++k) {
       const auto when = clock.at(draw.uniform(0, 1));
-      const Vec3<double> place = mill.motion.to_inertial(
-          mill.motion.pose(when), Vec3<double>(draw.symmetric(), draw.symmetric(), draw.symmetric()) * 0.04);
+      const Vec3<double> place = mill.motion.to_inertial(mill.motion.pose(when),
+          Vec3<double>(draw.symmetric(), draw.symmetric(), draw.symmetric()) * 0.04);
       const double radius = draw.uniform(0.001, 0.005), speed = draw.uniform(0.01, 10);
       const auto times = groups.clear_times(when, place, radius, speed);
       for (std::size_t b = 0; b < mill.bodies.size(); ++b) {
         const auto& body = mill.bodies[b];
-        const double clearance =
-            body.shape.inset(radius).clearance(body.motion.position_in_vessel(body.motion.pose(when), place));
+        const double clearance = body.shape.inset(radius).clearance(
+            body.motion.position_in_vessel(body.motion.pose(when), place));
         const double way = times[b] * (speed + body.motion.wall_speed(body.shape.size()));
         ASSERT_LE(way, clearance + 1e-15) << body.name.label;
         ASSERT_GE(way, clearance - 1e-6 * (1 + clearance)) << body.name.label;

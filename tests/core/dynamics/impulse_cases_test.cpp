@@ -1,4 +1,5 @@
-// Single impacts by hand: the errors of the printed equations, and the least separation speed at its limits.
+// Single impacts by hand: the errors of the printed equations, and the least separation speed at
+// its limits.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,14 +22,16 @@ TEST(ImpulseErrata, PrintedSignOfTheTangentialTermBreaksTheRestitutionLaw) {
   EXPECT_LT(v[0], 3);       // friction slows the sliding contact
   EXPECT_GT(printed_v, 3);  // the printed sign speeds it up
   // With the spin of (2.35) the contact's slip is e_t g_t only for the corrected sign.
-  const auto slip = [&](double vx) { return vx - (w[1] * 0.005 * normal[2] - w[2] * 0.005 * normal[1]); };
+  const auto slip = [&](double vx) {
+    return vx - (w[1] * 0.005 * normal[2] - w[2] * 0.005 * normal[1]);
+  };
   EXPECT_NEAR(slip(v[0]), e_t * gt, 1e-14);
   EXPECT_GT(std::abs(slip(printed_v) - e_t * gt), 0.1);
 }
 
 TEST(ImpulseErrata, PrintedCompliancePutsTheSlidingImpulseOffForBallsOfUnequalInertia) {
-  // (2.24) is printed with 1 + 1/J, right for balls of one reduced inertia; in general 1 + M/(m_i J_i) +
-  // M/(m_j J_j).
+  // (2.24) is printed with 1 + 1/J, right for balls of one reduced inertia; in general 1 + M/(m_i
+  // J_i) + M/(m_j J_j).
   const model::BallProperties<double> i{0.004, 2e-3, 0.4}, j{0.005, 4.2e-3, 0.66};
   Vec3<double> vi(0, -1, 4), wi(0, 0, 0), vj(0, 0, 0), wj(0, 0, 0);
   const model::ContactLaw<double> law{model::WaltonBraun<double>{.normal = 0.5, .friction = 0.1}};
@@ -46,8 +49,8 @@ struct FloorHit {
   Vec3<double> v, w{0, 0, 0};
 
   FloorHit(double approach, double least_separation) : v(slip, -approach, 0) {
-    const model::ContactLaw<double> law{model::WaltonBraun<double>{.normal = 0.5, .friction = 0.25},
-                                        least_separation};
+    const model::ContactLaw<double> law{
+        model::WaltonBraun<double>{.normal = 0.5, .friction = 0.25}, least_separation};
     outcome = collide_with_wall<double>({0, 1, 0}, {1, mass, 0.4}, {0, 0, 0}, v, w, law);
   }
 };
@@ -62,10 +65,11 @@ TEST(LeastSeparation, SlowApproachesAndPartingByRoundingLeaveAtTheLeastSpeed) {
     // Friction by the actual normal impulse, m (g_n' - g_n).
     EXPECT_EQ(hit.outcome.normal_impulse, FloorHit::mass * (approach + least)) << approach;
     // 1 - e_t is 4e-7 here and known to an epsilon.
-    EXPECT_NEAR(hit.outcome.tangential_impulse / hit.outcome.normal_impulse, 0.25, 1e-8) << approach;
+    EXPECT_NEAR(hit.outcome.tangential_impulse / hit.outcome.normal_impulse, 0.25, 1e-8)
+        << approach;
     EXPECT_EQ(hit.outcome.normal_dose, 0) << approach;
     EXPECT_EQ(hit.outcome.supplied_energy,
-              FloorHit::mass / 2 * (least * least - approach * approach))  // exact: powers of two
+        FloorHit::mass / 2 * (least * least - approach * approach))  // exact: powers of two
         << approach;
   }
 }

@@ -1,6 +1,6 @@
-// Properties of the impact laws: (2.23'), (2.24'), (2.25), (2.28'), (2.30'), (2.31), (2.34'), (2.36'),
-// (A.82). Each holds to rounding for random bodies; run in double and, to show that it is the formula and not
-// the tolerance, in 50 digits.
+// Properties of the impact laws: (2.23'), (2.24'), (2.25), (2.28'), (2.30'), (2.31), (2.34'),
+// (2.36'), (A.82). Each holds to rounding for random bodies; run in double and, to show that it is
+// the formula and not the tolerance, in 50 digits.
 #include "dynamics/impulse.hpp"
 
 #include <gtest/gtest.h>
@@ -19,61 +19,49 @@ using testing::draw_ball;
 using testing::draw_direction;
 using testing::draw_vector;
 
-template <class Real>
-Real tolerance() {
-  return 4096 * epsilon<Real>();
-}
-template <class Real>
-Real size(const Real& x) {
-  return x < 0 ? Real(-x) : x;
-}
+template <class Real> Real tolerance() { return 4096 * epsilon<Real>(); }
+template <class Real> Real size(const Real& x) { return x < 0 ? Real(-x) : x; }
 
 /// 0, below most approach speeds, or above all of them, which are below 17.4 m/s.
-template <class Real>
-Real draw_least_separation() {
+template <class Real> Real draw_least_separation() {
   switch (*rc::gen::inRange(0, 4)) {
-    case 0:
-      return Real(0);
-    case 1:
-      return draw<Real>(Real(20), Real(40));
-    default:
-      return draw<Real>(Real(0), Real(2));
+    case 0: return Real(0);
+    case 1: return draw<Real>(Real(20), Real(40));
+    default: return draw<Real>(Real(0), Real(2));
   }
 }
 
-template <class Real>
-model::ContactLaw<Real> draw_law() {
+template <class Real> model::ContactLaw<Real> draw_law() {
   model::ContactLaw<Real> law;
-  const model::CoulombSlip<Real> slip{draw<Real>(Real(0), Real(2)), draw<Real>(Real(-1), Real(1) / 2)};
+  const model::CoulombSlip<Real> slip{
+      draw<Real>(Real(0), Real(2)), draw<Real>(Real(-1), Real(1) / 2)};
   switch (*rc::gen::inRange(0, 8)) {
     case 0:
-      law.law = model::ConstantRestitution<Real>{draw<Real>(Real(0), Real(1)), draw<Real>(Real(-1), Real(1))};
+      law.law = model::ConstantRestitution<Real>{
+          draw<Real>(Real(0), Real(1)), draw<Real>(Real(-1), Real(1))};
       break;
     case 1:
       law.law = model::RestitutionBySpeed<Real>{slip,
-                                                {{Real(1) / 10, draw<Real>(Real(0), Real(1))},
-                                                 {Real(1), draw<Real>(Real(0), Real(1))},
-                                                 {Real(5), draw<Real>(Real(0), Real(1))}}};
+          {{Real(1) / 10, draw<Real>(Real(0), Real(1))}, {Real(1), draw<Real>(Real(0), Real(1))},
+              {Real(5), draw<Real>(Real(0), Real(1))}}};
       break;
     case 2:
-      law.law = model::Viscoelastic<Real>{slip, draw<Real>(Real(1000000), Real(1000000000)),
-                                          draw<Real>(Real(0), Real(1) / 10000)};
+      law.law = model::Viscoelastic<Real>{
+          slip, draw<Real>(Real(1000000), Real(1000000000)), draw<Real>(Real(0), Real(1) / 10000)};
       break;
     case 3:
       law.law = model::ElasticPlastic<Real>{slip, draw<Real>(Real(1000000000), Real(100000000000)),
-                                            draw<Real>(Real(1000000), Real(1000000000))};
+          draw<Real>(Real(1000000), Real(1000000000))};
       break;
-    case 4:
-      law.law = model::PowderLoad<Real>{slip, draw<Real>(Real(5) / 2, Real(10))};
-      break;
+    case 4: law.law = model::PowderLoad<Real>{slip, draw<Real>(Real(5) / 2, Real(10))}; break;
     case 5:
       law.law = model::RestitutionBySlip<Real>{draw<Real>(Real(0), Real(1)),
-                                               {{Real(0), draw<Real>(Real(-1), Real(1))},
-                                                {Real(1), draw<Real>(Real(-1), Real(1))},
-                                                {Real(3), draw<Real>(Real(-1), Real(1))}}};
+          {{Real(0), draw<Real>(Real(-1), Real(1))}, {Real(1), draw<Real>(Real(-1), Real(1))},
+              {Real(3), draw<Real>(Real(-1), Real(1))}}};
       break;
     default:
-      law.law = model::WaltonBraun<Real>{draw<Real>(Real(0), Real(1)), slip.friction, slip.min_tangential};
+      law.law = model::WaltonBraun<Real>{
+          draw<Real>(Real(0), Real(1)), slip.friction, slip.min_tangential};
   }
   law.least_separation = draw_least_separation<Real>();
   return law;
@@ -94,8 +82,7 @@ std::optional<model::CoulombSlip<Real>> coulomb_of(const model::ContactLaw<Real>
 }
 
 /// Two balls about to collide.
-template <class Real>
-struct Pair {
+template <class Real> struct Pair {
   Vec3<Real> normal = draw_direction<Real>();
   model::BallProperties<Real> i = draw_ball<Real>(), j = draw_ball<Real>();
   Vec3<Real> vi = draw_vector<Real>(Real(5)), wi = draw_vector<Real>(Real(1000));
@@ -118,20 +105,20 @@ struct Pair {
   Real compliance() const {
     return 1 + mass() / (i.mass * i.reduced_inertia) + mass() / (j.mass * j.reduced_inertia);
   }
-  Vec3<Real> contact_velocity(const Vec3<Real>& a, const Vec3<Real>& wa, const Vec3<Real>& b,
-                              const Vec3<Real>& wb) const {
+  Vec3<Real> contact_velocity(
+      const Vec3<Real>& a, const Vec3<Real>& wa, const Vec3<Real>& b, const Vec3<Real>& wb) const {
     const Vec3<Real> rolling = wa * i.radius + wb * j.radius;
     return a - b - cross<Real>(rolling, normal);
   }
-  static Real energy(const model::BallProperties<Real>& b, const Vec3<Real>& v, const Vec3<Real>& w) {
+  static Real energy(
+      const model::BallProperties<Real>& b, const Vec3<Real>& v, const Vec3<Real>& w) {
     return b.mass / 2 * squared_norm<Real>(v) +
-           b.reduced_inertia * b.mass * b.radius * b.radius / 2 * squared_norm<Real>(w);
+        b.reduced_inertia * b.mass * b.radius * b.radius / 2 * squared_norm<Real>(w);
   }
 };
 
 /// A ball about to hit a moving wall.
-template <class Real>
-struct WallHit {
+template <class Real> struct WallHit {
   Vec3<Real> normal = draw_direction<Real>();
   model::BallProperties<Real> ball = draw_ball<Real>();
   Vec3<Real> v = draw_vector<Real>(Real(5)), w = draw_vector<Real>(Real(1000));
@@ -152,8 +139,7 @@ struct WallHit {
   }
 };
 
-template <class Real>
-class Impulse : public ::testing::Test {};
+template <class Real> class Impulse : public ::testing::Test {};
 using Scalars = ::testing::Types<double, mpfr>;
 TYPED_TEST_SUITE(Impulse, Scalars);
 
@@ -170,12 +156,13 @@ TYPED_TEST(Impulse, EachBallKeepsItsAngularMomentumAboutTheContactPoint) {
   using Real = TypeParam;
   EXPECT_TRUE(rc::check([] {
     const Pair<Real> p;
-    const auto change = [&](const model::BallProperties<Real>& b, const Real& sign, const Vec3<Real>& dv,
-                            const Vec3<Real>& dw) {
+    const auto change = [&](const model::BallProperties<Real>& b, const Real& sign,
+                            const Vec3<Real>& dv, const Vec3<Real>& dw) {
       const Vec3<Real> arm = p.normal * (sign * b.radius);  // from the contact point to the centre
       const Vec3<Real> orbital = cross<Real>(arm, Vec3<Real>(dv * b.mass));
-      return norm<Real>(Vec3<Real>(orbital + dw * (b.reduced_inertia * b.mass * b.radius * b.radius))) /
-             (b.mass * b.radius);
+      return norm<Real>(
+                 Vec3<Real>(orbital + dw * (b.reduced_inertia * b.mass * b.radius * b.radius))) /
+          (b.mass * b.radius);
     };
     RC_ASSERT(change(p.i, Real(1), p.vi2 - p.vi, p.wi2 - p.wi) <= tolerance<Real>() * 100);
     RC_ASSERT(change(p.j, Real(-1), p.vj2 - p.vj, p.wj2 - p.wj) <= tolerance<Real>() * 100);
@@ -185,7 +172,7 @@ TYPED_TEST(Impulse, EachBallKeepsItsAngularMomentumAboutTheContactPoint) {
     const Vec3<Real> spin =
         (h.w2 - h.w) * (h.ball.reduced_inertia * h.ball.mass * h.ball.radius * h.ball.radius);
     RC_ASSERT(norm<Real>(Vec3<Real>(orbital + spin)) <=
-              tolerance<Real>() * 100 * h.ball.mass * h.ball.radius);
+        tolerance<Real>() * 100 * h.ball.mass * h.ball.radius);
   }));
 }
 
@@ -201,16 +188,17 @@ TYPED_TEST(Impulse, BodiesLeaveAtTheLargerOfRestitutionAndLeastSeparation) {
       RC_ASSERT(size<Real>(gn2 - o.separation_speed) <= tolerance<Real>() * 100);
       // As stated in (2.23'), to the last bit.
       const Real rebound = law.restitution(o.approach_speed, bodies) * o.approach_speed;
-      RC_ASSERT(o.separation_speed == (rebound < law.least_separation ? law.least_separation : rebound));
+      RC_ASSERT(
+          o.separation_speed == (rebound < law.least_separation ? law.least_separation : rebound));
       RC_ASSERT(o.least_separation == (rebound < law.least_separation));
       ++(o.least_separation ? touched : by_restitution);
     };
     const Pair<Real> p;
-    follows(p.contact_velocity(p.vi, p.wi, p.vj, p.wj), p.contact_velocity(p.vi2, p.wi2, p.vj2, p.wj2),
-            p.normal, p.outcome, p.law, p.bodies());
+    follows(p.contact_velocity(p.vi, p.wi, p.vj, p.wj),
+        p.contact_velocity(p.vi2, p.wi2, p.vj2, p.wj2), p.normal, p.outcome, p.law, p.bodies());
     const WallHit<Real> h;
-    follows(h.contact_velocity(h.v, h.w), h.contact_velocity(h.v2, h.w2), h.normal, h.outcome, h.law,
-            {h.ball.mass, h.ball.radius});
+    follows(h.contact_velocity(h.v, h.w), h.contact_velocity(h.v2, h.w2), h.normal, h.outcome,
+        h.law, {h.ball.mass, h.ball.radius});
   }));
   EXPECT_GT(touched, 300);
   EXPECT_GT(by_restitution, 300);
@@ -220,11 +208,12 @@ TYPED_TEST(Impulse, SlipIsLeftByTheLaw) {
   using Real = TypeParam;
   EXPECT_TRUE(rc::check([] {
     const auto follows = [](const Vec3<Real>& before, const Vec3<Real>& after, const Vec3<Real>& n,
-                            const Real& compliance, const ImpactOutcome<Real>& o,
-                            const model::ContactLaw<Real>& law) {
+                             const Real& compliance, const ImpactOutcome<Real>& o,
+                             const model::ContactLaw<Real>& law) {
       const Real gn = dot<Real>(before, n), gn2 = dot<Real>(after, n);
       const Vec3<Real> gt = before - n * gn, gt2 = after - n * gn2;
-      RC_ASSERT(norm<Real>(Vec3<Real>(gt2 - gt * o.restitution_tangential)) <= tolerance<Real>() * 100);
+      RC_ASSERT(
+          norm<Real>(Vec3<Real>(gt2 - gt * o.restitution_tangential)) <= tolerance<Real>() * 100);
       const Real slip = norm<Real>(gt);
       RC_PRE(slip > Real(1) / 1000);
       Real e_t;
@@ -236,20 +225,20 @@ TYPED_TEST(Impulse, SlipIsLeftByTheLaw) {
         RC_PRE(change > Real(1) / 1000);
         const Real ratio = sliding / change;  // points at 0, 1 and 3
         const auto& p = by_slip->points;
-        e_t = ratio < 1   ? Real(p[0][1] + (p[1][1] - p[0][1]) * ratio)
-              : ratio < 3 ? Real(p[1][1] + (p[2][1] - p[1][1]) * (ratio - 1) / 2)
-                          : Real(1 - (1 - p[2][1]) * 3 / ratio);
+        e_t = ratio < 1 ? Real(p[0][1] + (p[1][1] - p[0][1]) * ratio)
+            : ratio < 3 ? Real(p[1][1] + (p[2][1] - p[1][1]) * (ratio - 1) / 2)
+                        : Real(1 - (1 - p[2][1]) * 3 / ratio);
       } else {
         e_t = std::get<model::ConstantRestitution<Real>>(law.law).tangential;
       }
       RC_ASSERT(size<Real>(o.restitution_tangential - e_t) <= tolerance<Real>() * 1000 / slip);
     };
     const Pair<Real> p;
-    follows(p.contact_velocity(p.vi, p.wi, p.vj, p.wj), p.contact_velocity(p.vi2, p.wi2, p.vj2, p.wj2),
-            p.normal, p.compliance(), p.outcome, p.law);
+    follows(p.contact_velocity(p.vi, p.wi, p.vj, p.wj),
+        p.contact_velocity(p.vi2, p.wi2, p.vj2, p.wj2), p.normal, p.compliance(), p.outcome, p.law);
     const WallHit<Real> h;
-    follows(h.contact_velocity(h.v, h.w), h.contact_velocity(h.v2, h.w2), h.normal, h.compliance(), h.outcome,
-            h.law);
+    follows(h.contact_velocity(h.v, h.w), h.contact_velocity(h.v2, h.w2), h.normal, h.compliance(),
+        h.outcome, h.law);
   }));
 }
 
@@ -259,15 +248,17 @@ TYPED_TEST(Impulse, WallWorkMinusDosePlusSuppliedEnergyIsTheChangeOfKineticEnerg
   EXPECT_TRUE(rc::check([&] {
     const Pair<Real> p;
     const Real before = Pair<Real>::energy(p.i, p.vi, p.wi) + Pair<Real>::energy(p.j, p.vj, p.wj);
-    const Real after = Pair<Real>::energy(p.i, p.vi2, p.wi2) + Pair<Real>::energy(p.j, p.vj2, p.wj2);
+    const Real after =
+        Pair<Real>::energy(p.i, p.vi2, p.wi2) + Pair<Real>::energy(p.j, p.vj2, p.wj2);
     RC_ASSERT(size<Real>(after - before + p.outcome.milling_dose - p.outcome.supplied_energy) <=
-              tolerance<Real>() * (before + after));
+        tolerance<Real>() * (before + after));
     RC_ASSERT(p.outcome.wall_work == 0);
     const WallHit<Real> h;
     const auto& o = h.outcome;
-    const Real start = Pair<Real>::energy(h.ball, h.v, h.w), end = Pair<Real>::energy(h.ball, h.v2, h.w2);
+    const Real start = Pair<Real>::energy(h.ball, h.v, h.w),
+               end = Pair<Real>::energy(h.ball, h.v2, h.w2);
     RC_ASSERT(size<Real>(end - start - (o.wall_work - o.milling_dose + o.supplied_energy)) <=
-              tolerance<Real>() * (start + end + size<Real>(o.wall_work)));
+        tolerance<Real>() * (start + end + size<Real>(o.wall_work)));
     supplied += (p.outcome.supplied_energy > 0) + (o.supplied_energy > 0);
   }));
   EXPECT_GT(supplied, 200);
@@ -280,7 +271,7 @@ TYPED_TEST(Impulse, TheNormalPartIsEitherGivenUpOrSupplied) {
       const Real a = o.approach_speed, s = o.separation_speed;
       const Real lost = mass / 2 * (a * a - s * s);
       RC_ASSERT(size<Real>(o.normal_dose - o.supplied_energy - lost) <=
-                tolerance<Real>() * mass * (a * a + s * s));
+          tolerance<Real>() * mass * (a * a + s * s));
       RC_ASSERT(o.normal_dose >= 0);
       RC_ASSERT(o.milling_dose >= o.normal_dose);
       RC_ASSERT(o.supplied_energy >= 0);
@@ -295,23 +286,25 @@ TYPED_TEST(Impulse, TheNormalPartIsEitherGivenUpOrSupplied) {
   }));
 }
 
-TYPED_TEST(Impulse, SlidingImpulseIsFrictionTimesNormalImpulseAndStickingStopsAtTheLeastRestitution) {
+TYPED_TEST(
+    Impulse, SlidingImpulseIsFrictionTimesNormalImpulseAndStickingStopsAtTheLeastRestitution) {
   using Real = TypeParam;
   int sliding = 0, limited = 0, touched_sliding = 0, touched_limited = 0;
   EXPECT_TRUE(rc::check([&] {
     const auto holds = [&](const ImpactOutcome<Real>& o, const model::ContactLaw<Real>& law,
                            const Real& mass) {
       RC_ASSERT(size<Real>(o.normal_impulse - mass * (o.approach_speed + o.separation_speed)) <=
-                tolerance<Real>() * o.normal_impulse);
+          tolerance<Real>() * o.normal_impulse);
       const auto coulomb = coulomb_of(law);
       if (!coulomb) return;
       RC_ASSERT(o.restitution_tangential >= coulomb->min_tangential);
       RC_ASSERT(o.restitution_tangential <= 1);
-      RC_ASSERT(o.tangential_impulse <= coulomb->friction * o.normal_impulse * (1 + tolerance<Real>()));
+      RC_ASSERT(
+          o.tangential_impulse <= coulomb->friction * o.normal_impulse * (1 + tolerance<Real>()));
       if (o.restitution_tangential > coulomb->min_tangential) {
         ++(o.least_separation ? touched_sliding : sliding);
         RC_ASSERT(size<Real>(o.tangential_impulse - coulomb->friction * o.normal_impulse) <=
-                  tolerance<Real>() * (o.normal_impulse + o.tangential_impulse) * 1000);
+            tolerance<Real>() * (o.normal_impulse + o.tangential_impulse) * 1000);
       } else {
         ++(o.least_separation ? touched_limited : limited);
       }
@@ -334,13 +327,15 @@ TYPED_TEST(Impulse, AMovingFrameSeesTheSameImpact) {
     const auto o = collide_balls<Real>(p.normal, p.i, p.j, vi, wi, vj, wj, p.law);
     RC_ASSERT(norm<Real>(Vec3<Real>(vi - boost - p.vi2)) <= tolerance<Real>() * 1000);
     RC_ASSERT(norm<Real>(Vec3<Real>(wi - p.wi2)) * p.i.radius <= tolerance<Real>() * 1000);
-    RC_ASSERT(size<Real>(o.milling_dose - p.outcome.milling_dose) <= tolerance<Real>() * p.i.mass * 10000);
+    RC_ASSERT(size<Real>(o.milling_dose - p.outcome.milling_dose) <=
+        tolerance<Real>() * p.i.mass * 10000);
     const WallHit<Real> h;
     Vec3<Real> v = h.v + boost, w = h.w;
-    const auto hit = collide_with_wall<Real>(h.normal, h.ball, Vec3<Real>(h.wall + boost), v, w, h.law);
+    const auto hit =
+        collide_with_wall<Real>(h.normal, h.ball, Vec3<Real>(h.wall + boost), v, w, h.law);
     RC_ASSERT(norm<Real>(Vec3<Real>(v - boost - h.v2)) <= tolerance<Real>() * 1000);
     RC_ASSERT(size<Real>(hit.milling_dose - h.outcome.milling_dose) <=
-              tolerance<Real>() * h.ball.mass * 10000);
+        tolerance<Real>() * h.ball.mass * 10000);
   }));
 }
 
@@ -359,7 +354,8 @@ TYPED_TEST(Impulse, ATurnedFrameSeesTheSameImpact) {
     const auto o = collide_balls<Real>(turned(p.normal), p.i, p.j, vi, wi, vj, wj, p.law);
     RC_ASSERT(norm<Real>(Vec3<Real>(vi - turned(p.vi2))) <= tolerance<Real>() * 1000);
     RC_ASSERT(norm<Real>(Vec3<Real>(wj - turned(p.wj2))) * p.j.radius <= tolerance<Real>() * 1000);
-    RC_ASSERT(size<Real>(o.milling_dose - p.outcome.milling_dose) <= tolerance<Real>() * p.i.mass * 10000);
+    RC_ASSERT(size<Real>(o.milling_dose - p.outcome.milling_dose) <=
+        tolerance<Real>() * p.i.mass * 10000);
   }));
 }
 

@@ -1,5 +1,5 @@
-// Two balls in flight: the time of their contact and the bound on its error, against 200 digits, from
-// millimetres down to radii near the rounding of a position.
+// Two balls in flight: the time of their contact and the bound on its error, against 200 digits,
+// from millimetres down to radii near the rounding of a position.
 #include "dynamics/pair_search.hpp"
 
 #include <gtest/gtest.h>
@@ -15,22 +15,23 @@ namespace {
 
 /// First contact by (3.1) in 200 digits from `now` on, which may be in the past by rounding [s].
 std::optional<mpfr_of<200>> exact_delay(const Flight<double>& i, const Flight<double>& j,
-                                        const Instant<double>& now, double radius_sum,
-                                        const model::Mill<double>& mill) {
+    const Instant<double>& now, double radius_sum, const model::Mill<double>& mill) {
   const auto wide = [](const Vec3<double>& v) { return vector_cast<mpfr_of<200>>(v); };
   const auto age = [&](const Flight<double>& f) {
     return mpfr_of<200>(now.period - f.start.period) * mpfr_of<200>(mill.motion.period()) +
-           (mpfr_of<200>(now.offset) - mpfr_of<200>(f.start.offset));
+        (mpfr_of<200>(now.offset) - mpfr_of<200>(f.start.offset));
   };
   const Vec3<mpfr_of<200>> g = wide(mill.gravity);
   const auto at = [&](const Flight<double>& f) {
-    return Vec3<mpfr_of<200>>(wide(f.position) + wide(f.velocity) * age(f) + g * (age(f) * age(f) / 2));
+    return Vec3<mpfr_of<200>>(
+        wide(f.position) + wide(f.velocity) * age(f) + g * (age(f) * age(f) / 2));
   };
   const auto speed = [&](const Flight<double>& f) {
     return Vec3<mpfr_of<200>>(wide(f.velocity) + g * age(f));
   };
   const Vec3<mpfr_of<200>> r = at(i) - at(j), v = speed(i) - speed(j);
-  const mpfr_of<200> b = r.dot(v), c = r.dot(r) - mpfr_of<200>(radius_sum) * mpfr_of<200>(radius_sum),
+  const mpfr_of<200> b = r.dot(v),
+                     c = r.dot(r) - mpfr_of<200>(radius_sum) * mpfr_of<200>(radius_sum),
                      v2 = v.dot(v);
   const mpfr_of<200> discriminant = b * b - v2 * c;
   if (discriminant < 0 || b >= 0) return std::nullopt;
@@ -43,7 +44,7 @@ TEST(PairSearch, TheErrorOfATimeStaysBelowItsBound) {
   casefile::Random random(20110101);
   const auto somewhere = [&](double size) {
     return Vec3<double>(size * random.symmetric<double>(), size * random.symmetric<double>(),
-                        size * random.symmetric<double>());
+        size * random.symmetric<double>());
   };
   for (const double radius : {2e-3, 1e-5, 5e-8}) {
     const PairSearch<double> search(mill, 2 * radius, reach, top_speed);
@@ -68,11 +69,11 @@ TEST(PairSearch, TheErrorOfATimeStaysBelowItsBound) {
       const auto exact = exact_delay(i, j, now, 2 * radius, mill);
       ASSERT_TRUE(exact.has_value());
       ++contacts;
-      worst =
-          std::max(worst, static_cast<double>(abs(mpfr_of<200>(answer.delay) - *exact)) / answer.time_error);
+      worst = std::max(
+          worst, static_cast<double>(abs(mpfr_of<200>(answer.delay) - *exact)) / answer.time_error);
     }
-    std::cout << "radius " << radius << " m: " << contacts << " contacts, largest error over its bound "
-              << worst << "\n";
+    std::cout << "radius " << radius << " m: " << contacts
+              << " contacts, largest error over its bound " << worst << "\n";
     EXPECT_GT(contacts, 1000);
     EXPECT_LT(worst, 1);
     EXPECT_GT(worst, 1e-4);  // a bound far above the errors would escalate what double can decide

@@ -1,5 +1,5 @@
-// The certified ball-wall search against an independent solver on adversarial states, and the wide search
-// that begins in double against the full one.
+// The certified ball-wall search against an independent solver on adversarial states, and the wide
+// search that begins in double against the full one.
 #include <gtest/gtest.h>
 
 #include <iomanip>
@@ -27,14 +27,14 @@ TEST(WallSearch, AgreesWithAnIndependentSolverOnAdversarialStates) {
     compare(make(draw, kind, turning), tallies[name(kind) + (turning ? ", drive turns" : "")]);
   }
   print(tallies);
-  std::cout << "search " << compare.search_seconds << " s, oracle " << compare.oracle_seconds << " s\n";
+  std::cout << "search " << compare.search_seconds << " s, oracle " << compare.oracle_seconds
+            << " s\n";
   long bad = 0;
   for (const auto& [name, tally] : tallies) bad += tally.bad();
   EXPECT_EQ(bad, 0);
 }
 
-template <class Real>
-class WideWallOracle : public ::testing::Test {};
+template <class Real> class WideWallOracle : public ::testing::Test {};
 using WideScalars = ::testing::Types<float128, mpfr>;
 TYPED_TEST_SUITE(WideWallOracle, WideScalars);
 
@@ -61,10 +61,11 @@ TYPED_TEST(WideWallOracle, AgreesWithAnIndependentSolver) {
 }
 
 /// States with digits below those of double, in a mill with such digits.
-template <class Real>
-WallQuery<Real> with_more_digits(Draw& draw, const WallQuery<double>& q) {
+template <class Real> WallQuery<Real> with_more_digits(Draw& draw, const WallQuery<double>& q) {
   auto wide = widened<Real>(q);
-  const auto more = [&](const Real& x) { return Real(x * (1 + Real(draw.symmetric()) * Real(0x1p-53))); };
+  const auto more = [&](const Real& x) {
+    return Real(x * (1 + Real(draw.symmetric()) * Real(0x1p-53)));
+  };
   for (int k = 0; k < 3; ++k) {
     wide.flight.position[k] = more(wide.flight.position[k]);
     wide.flight.velocity[k] = more(wide.flight.velocity[k]);
@@ -99,8 +100,8 @@ TYPED_TEST(WideWallOracle, InDoubleFirstDecidesAsTheFullSearch) {
     if (first.verdict == Verdict::none) {
       auto shorter = query;
       if (first.searched < query.length) shorter.length = first.searched;
-      const auto full =
-          over_window([&](const WallQuery<Real>& q) { return walls.search(q); }, shorter, clock.period());
+      const auto full = over_window(
+          [&](const WallQuery<Real>& q) { return walls.search(q); }, shorter, clock.period());
       EXPECT_EQ(full.verdict, Verdict::none) << name(kind) << " " << k;
       continue;
     }
@@ -108,11 +109,12 @@ TYPED_TEST(WideWallOracle, InDoubleFirstDecidesAsTheFullSearch) {
     // The window of the search in double is longer by some roundings.
     auto longer = query;
     longer.length += Real(8 * epsilon<double>()) * (query.begin.offset + query.length);
-    const auto full =
-        over_window([&](const WallQuery<Real>& q) { return walls.search(q); }, longer, clock.period());
+    const auto full = over_window(
+        [&](const WallQuery<Real>& q) { return walls.search(q); }, longer, clock.period());
     ASSERT_EQ(full.verdict, Verdict::contact) << name(kind) << " " << k;
     EXPECT_EQ(full.wall, first.wall) << name(kind) << " " << k;
-    // The bound on the rounding is several times what it usually is: a quarter of it, and some ulps.
+    // The bound on the rounding is several times what it usually is: a quarter of it, and some
+    // ulps.
     const Real apart = abs(clock.elapsed(first.time, full.time));
     const Real allowed =
         (first.time_error > full.time_error ? first.time_error : full.time_error) / 4 + 8 * ulp;
@@ -125,10 +127,11 @@ TYPED_TEST(WideWallOracle, InDoubleFirstDecidesAsTheFullSearch) {
     EXPECT_LE(abs(found.cos_gamma - pose.cos_gamma), 16 * epsilon<Real>());
   }
   for (const auto& [name, count] : counts)
-    std::cout << std::left << std::setw(42) << name << std::right << std::setw(9) << count[0] << " states, "
-              << std::setw(9) << count[1] << " decided in double, " << std::setw(9) << count[2]
-              << " contacts\n";
-  std::cout << "largest difference of times over what is allowed: " << static_cast<double>(worst) << "\n";
+    std::cout << std::left << std::setw(42) << name << std::right << std::setw(9) << count[0]
+              << " states, " << std::setw(9) << count[1] << " decided in double, " << std::setw(9)
+              << count[2] << " contacts\n";
+  std::cout << "largest difference of times over what is allowed: " << static_cast<double>(worst)
+            << "\n";
 }
 
 TEST(WallSearch, AgreesWithAnIndependentSolverInOtherMills) {
@@ -141,8 +144,8 @@ TEST(WallSearch, AgreesWithAnIndependentSolverInOtherMills) {
     auto mill = testing::spex_mill<double>();
     const bool still = m % 4 == 0, weightless = m % 3 == 0;
     // Braces keep the order of the draws.
-    mill.motion = model::SpexMotion<double>{
-        draw.chance(0.2) ? 0.0 : draw.uniform(0.02, 0.2), still ? 0.0 : draw.uniform(0.01, 0.8),
+    mill.motion = model::SpexMotion<double>{draw.chance(0.2) ? 0.0 : draw.uniform(0.02, 0.2),
+        still ? 0.0 : draw.uniform(0.01, 0.8),
         still || draw.chance(0.2) ? 0.0 : draw.uniform(0.01, 0.6), draw.log_uniform(0.02, 0.5)};
     mill.vessel = model::CylinderVessel<double>{draw.uniform(0.01, 0.05), draw.uniform(0.01, 0.05)};
     mill.gravity = {draw.uniform(-10, 10), draw.uniform(-10, 10), draw.uniform(-10, 10)};
@@ -152,9 +155,10 @@ TEST(WallSearch, AgreesWithAnIndependentSolverInOtherMills) {
     for (long k = 0; k < each; ++k) {
       Kind kind = all_kinds[k % std::size(all_kinds)];
       // Without acceleration no path from inside turns back at a wall.
-      if (still && weightless && (kind == Kind::grazing || kind == Kind::dipping)) kind = Kind::anywhere;
+      if (still && weightless && (kind == Kind::grazing || kind == Kind::dipping))
+        kind = Kind::anywhere;
       compare(make(draw, kind, draw.chance(0.25)),
-              tallies[std::string(still ? "still" : "driven") + (weightless ? ", weightless" : "")]);
+          tallies[std::string(still ? "still" : "driven") + (weightless ? ", weightless" : "")]);
     }
   }
   print(tallies);

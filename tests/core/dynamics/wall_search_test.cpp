@@ -1,4 +1,5 @@
-// The certified ball-wall search: plain situations with a closed form, and which scalar decides which case.
+// The certified ball-wall search: plain situations with a closed form, and which scalar decides
+// which case.
 #include "dynamics/wall_search.hpp"
 
 #include <gtest/gtest.h>
@@ -13,11 +14,13 @@
 namespace edmill::dynamics {
 namespace {
 
-// A still vessel whose numbers are exact in every scalar. Its y axis points along -X, x along Y, z along Z.
+// A still vessel whose numbers are exact in every scalar. Its y axis points along -X, x along Y, z
+// along Z.
 constexpr double ball_radius = 1.0 / 256;
 
 template <class Real>
-model::Mill<Real> still_mill(const Vec3<double>& gravity, double across = 1.0 / 32, double along = 1.0 / 64) {
+model::Mill<Real> still_mill(
+    const Vec3<double>& gravity, double across = 1.0 / 32, double along = 1.0 / 64) {
   model::Mill<Real> mill{};
   mill.motion = model::SpexMotion<Real>(Real(0), Real(0), Real(0), Real(1));
   mill.vessel = model::CylinderVessel<Real>{Real(across + ball_radius), Real(along + ball_radius)};
@@ -26,7 +29,8 @@ model::Mill<Real> still_mill(const Vec3<double>& gravity, double across = 1.0 / 
 }
 
 /// A query from the start of the flight on.
-WallQuery<double> query_of(const Vec3<double>& position, const Vec3<double>& velocity, double length) {
+WallQuery<double> query_of(
+    const Vec3<double>& position, const Vec3<double>& velocity, double length) {
   return {{position, velocity, {0, 0.0}}, ball_radius, {0, 0.0}, length};
 }
 
@@ -35,8 +39,8 @@ WallAnswer<double> ask(const Vec3<double>& gravity, const WallQuery<double>& que
   return over_window([&](const WallQuery<double>& q) { return ladder.wall(q); }, query, 1.0);
 }
 
-/// Thrown towards cap 0 against gravity, so that the highest point at 1/16 s misses it by `distance`,
-/// exactly.
+/// Thrown towards cap 0 against gravity, so that the highest point at 1/16 s misses it by
+/// `distance`, exactly.
 const Vec3<double> grazing_gravity{-8, 0, 0};
 WallQuery<double> grazing_query(double distance) {
   auto query = query_of({-distance, 0, 0}, {0.5, 0, 0}, 1.0 / 16);
@@ -45,8 +49,7 @@ WallQuery<double> grazing_query(double distance) {
 }
 
 /// The same throw towards the round wall, whose gap no polynomial of second degree describes.
-template <class Real>
-model::Mill<Real> round_grazing_mill() {
+template <class Real> model::Mill<Real> round_grazing_mill() {
   return still_mill<Real>({0, 0, -8}, 1.0 / 64, 1.0 / 32);
 }
 WallQuery<double> round_grazing_query(double distance) {
@@ -55,8 +58,7 @@ WallQuery<double> round_grazing_query(double distance) {
   return query;
 }
 
-template <class Real>
-class WideWallSearch : public ::testing::Test {};
+template <class Real> class WideWallSearch : public ::testing::Test {};
 using WideScalars = ::testing::Types<float128, mpfr>;
 TYPED_TEST_SUITE(WideWallSearch, WideScalars);
 
@@ -69,7 +71,8 @@ TYPED_TEST(WideWallSearch, GrazingAndTouchingStatesAreLeftToTheWideSearch) {
     EXPECT_EQ(graze(query).verdict, graze.search(query).verdict);
   }
   EXPECT_EQ(graze.search_by_double(widened<Real>(grazing_query(0x1p-30))).verdict, Verdict::none);
-  EXPECT_EQ(graze.search_by_double(widened<Real>(grazing_query(-0x1p-30))).verdict, Verdict::contact);
+  EXPECT_EQ(
+      graze.search_by_double(widened<Real>(grazing_query(-0x1p-30))).verdict, Verdict::contact);
 
   // On a cap and approaching, overlapped or not, and two walls at one time.
   const auto still = testing::general_search(still_mill<Real>({0, 0, 0}));
@@ -85,8 +88,7 @@ TYPED_TEST(WideWallSearch, GrazingAndTouchingStatesAreLeftToTheWideSearch) {
   EXPECT_EQ(still.search_by_double(corner).verdict, Verdict::undecided);
 }
 
-template <class Real>
-Verdict grazing_verdict(double distance) {
+template <class Real> Verdict grazing_verdict(double distance) {
   const auto search = testing::general_search(round_grazing_mill<Real>());
   const auto decide = [&](const WallQuery<Real>& query) { return search(query); };
   return over_window(decide, widened<Real>(round_grazing_query(distance)), Real(1)).verdict;
@@ -108,12 +110,16 @@ TEST(WallSearch, WhatIsOutOfReachIsNotHit) {
     const double across = testing::cylinder(mill).radius - q.radius,
                  along = testing::cylinder(mill).half_height - q.radius;
     Vec3<double> place, velocity;
-    do place = {draw.uniform(-across, across), draw.uniform(-along, along), draw.uniform(-across, across)};
+    do
+      place = {draw.uniform(-across, across), draw.uniform(-along, along),
+          draw.uniform(-across, across)};
     while (place[0] * place[0] + place[2] * place[2] > across * across);
-    for (int axis = 0; axis < 3; ++axis) velocity[axis] = draw.chance(0.3) ? 0 : draw.uniform(-3.4, 3.4);
+    for (int axis = 0; axis < 3; ++axis)
+      velocity[axis] = draw.chance(0.3) ? 0 : draw.uniform(-3.4, 3.4);
     const auto pose = mill.motion.pose({0, q.begin.offset});
     q.flight = {mill.motion.to_inertial(pose, place), velocity, q.begin};
-    const testing::GeneralFunctions<double> functions(walls.mill(), q.flight, q.radius, q.begin.period);
+    const testing::GeneralFunctions<double> functions(
+        walls.mill(), q.flight, q.radius, q.begin.period);
     const auto excluded = [&](double length) {
       const double fastest = norm<double>(velocity) + walls.mill().gravity_size * length;
       const auto reach = walls.within_reach(functions, place, fastest, length);
@@ -169,8 +175,8 @@ TEST(WallSearch, APathThatGrazesAFlatWallIsDecidedInDoubleByExactArithmetic) {
     const auto hit = ladder.wall(grazing_query(-distance));
     ASSERT_EQ(hit.verdict, Verdict::contact);
     EXPECT_EQ(hit.wall, 0);
-    // sqrt(2 d / g) before the highest point; by bounds, so nearly level, the gap is zero within rounding for
-    // some 1e-14 s.
+    // sqrt(2 d / g) before the highest point; by bounds, so nearly level, the gap is zero within
+    // rounding for some 1e-14 s.
     EXPECT_NEAR(hit.time.offset, 1.0 / 16 - std::sqrt(distance) / 2, 1e-13);
     EXPECT_LE(hit.time.offset, 1.0 / 16);
   }
@@ -179,7 +185,8 @@ TEST(WallSearch, APathThatGrazesAFlatWallIsDecidedInDoubleByExactArithmetic) {
 
 TEST(WallSearch, TheLadderClimbsAsFarAsTheCaseNeedsAndCountsIt) {
   DecisionLadder<double> ladder(round_grazing_mill<double>(), 2 * ball_radius, 10.0);
-  const auto expect_counts = [&](std::uint64_t to_float128, std::uint64_t to_mpfr50, std::uint64_t by_rule) {
+  const auto expect_counts = [&](std::uint64_t to_float128, std::uint64_t to_mpfr50,
+                                 std::uint64_t by_rule) {
     const auto rows = ladder.escalations();
     ASSERT_EQ(rows.size(), 3u);
     EXPECT_EQ(rows[0].scalar, "float128");
@@ -225,7 +232,7 @@ TEST(WallSearch, GrazingWithinRoundingInTheMovingMillNeedsFloat128) {
     if (over_window(narrow, query, mill.motion.period()).verdict != Verdict::undecided) continue;
     ++undecided;
     EXPECT_NE(over_window(wide, widened<float128>(query), float128(mill.motion.period())).verdict,
-              Verdict::undecided);
+        Verdict::undecided);
   }
   EXPECT_GT(undecided, count * 9 / 10);
 }
@@ -251,16 +258,17 @@ TEST(WallSearch, ABallThatFliesStraightHitsTheCylinderAfterDistanceOverSpeed) {
 
 TEST(WallSearch, ABallThatEndsItsWindowBeforeTheWallHasNoContact) {
   EXPECT_EQ(ask({0, 0, 0}, query_of({1.0 / 128, 0, 0}, {0.5, 0, 0}, 0.015)).verdict, Verdict::none);
-  EXPECT_EQ(ask({0, 0, 0}, query_of({1.0 / 128, 0, 0}, {0.5, 0, 0}, 0.016)).verdict, Verdict::contact);
+  EXPECT_EQ(
+      ask({0, 0, 0}, query_of({1.0 / 128, 0, 0}, {0.5, 0, 0}, 0.016)).verdict, Verdict::contact);
 }
 
 TEST(WallSearch, AWallThatWasJustLeftIsNotHitAgainAtOnce) {
   for (const double speed : {1e-12, 1e-6, 1e-3, 0.2})
     for (const double overlap : {0.0, 1e-18, -1e-18}) {
       EXPECT_EQ(ask({0, 0, 0}, query_of({1.0 / 64 + overlap, 0, 0}, {-speed, 0, 0}, 0.125)).verdict,
-                Verdict::none);
+          Verdict::none);
       EXPECT_EQ(ask({0, 0, 0}, query_of({0, 0, 1.0 / 32 + overlap}, {0, 0, -speed}, 0.125)).verdict,
-                Verdict::none);
+          Verdict::none);
     }
 }
 
@@ -328,8 +336,9 @@ TEST(WallSearch, AContactExactlyAtTheEndOfTheWindowIsLeftToTheNext) {
   EXPECT_EQ(first.verdict, Verdict::none);
   EXPECT_GT(first.searched, 0.05);
   EXPECT_LT(first.searched, 0.125);
-  EXPECT_EQ(testing::general_search(still_mill<float128>({0, 0, 0}))(widened<float128>(query)).verdict,
-            Verdict::none);
+  EXPECT_EQ(
+      testing::general_search(still_mill<float128>({0, 0, 0}))(widened<float128>(query)).verdict,
+      Verdict::none);
   auto later = query;
   later.begin.offset = 0.0625;
   const auto found = ask({0, 0, 0}, later);
@@ -352,10 +361,12 @@ TYPED_TEST(WideWallSearch, ARootIsClosedToTheLastDigitOfTheScalar) {
     if (answer.verdict != Verdict::contact || answer.time.period != query.begin.period) continue;
     ++contacts;
     const auto constants = testing::moving(mill);
-    const testing::GeneralFunctions<Real> gaps(constants, query.flight, query.radius, query.begin.period);
+    const testing::GeneralFunctions<Real> gaps(
+        constants, query.flight, query.radius, query.begin.period);
     const Real unit = epsilon<Real>() * mill.motion.period();
     EXPECT_GE(gaps(Real(answer.time.offset - 16 * answer.time_error)).gap[answer.wall], 0);
-    EXPECT_LT(gaps(Real(answer.time.offset + 2 * unit + 16 * answer.time_error)).gap[answer.wall], 0);
+    EXPECT_LT(
+        gaps(Real(answer.time.offset + 2 * unit + 16 * answer.time_error)).gap[answer.wall], 0);
   }
   EXPECT_GT(contacts, 60);
 }

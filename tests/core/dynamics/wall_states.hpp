@@ -12,15 +12,13 @@
 
 namespace edmill::dynamics {
 
-template <class To>
-model::Mill<To> widened(const model::Mill<double>& m) {
+template <class To> model::Mill<To> widened(const model::Mill<double>& m) {
   auto wide = model::mill_cast<To>(m);
   wide.ball_ball = wide.ball_wall = {};
   return wide;
 }
 
-template <class To>
-WallQuery<To> widened(const WallQuery<double>& q) {
+template <class To> WallQuery<To> widened(const WallQuery<double>& q) {
   return {flight_cast<To>(q.flight), To(q.radius), instant_cast<To>(q.begin), To(q.length)};
 }
 
@@ -35,38 +33,37 @@ class Draw {
   double sign() { return chance(0.5) ? 1 : -1; }
   bool chance(double p) { return uniform() < p; }
   int below(int n) { return static_cast<int>(uniform() * n); }
-
  private:
   std::mt19937_64 bits_;
 };
 
-enum class Kind { leaving, touching, near, grazing, dipping, seam, corner_hit, in_corner, axis, anywhere };
-constexpr Kind all_kinds[] = {Kind::leaving, Kind::touching, Kind::near,       Kind::grazing,
-                              Kind::dipping, Kind::seam,     Kind::corner_hit, Kind::in_corner,
-                              Kind::axis,    Kind::anywhere};
+enum class Kind {
+  leaving,
+  touching,
+  near,
+  grazing,
+  dipping,
+  seam,
+  corner_hit,
+  in_corner,
+  axis,
+  anywhere
+};
+constexpr Kind all_kinds[] = {Kind::leaving, Kind::touching, Kind::near, Kind::grazing,
+    Kind::dipping, Kind::seam, Kind::corner_hit, Kind::in_corner, Kind::axis, Kind::anywhere};
 
 inline std::string name(Kind kind) {
   switch (kind) {
-    case Kind::leaving:
-      return "on a wall, leaving";
-    case Kind::touching:
-      return "on a wall, approaching or overlapped";
-    case Kind::near:
-      return "near a wall";
-    case Kind::grazing:
-      return "grazing";
-    case Kind::dipping:
-      return "through a wall and back in a long window";
-    case Kind::seam:
-      return "near the seam";
-    case Kind::corner_hit:
-      return "cap and cylinder at one time";
-    case Kind::in_corner:
-      return "on two walls at the begin";
-    case Kind::axis:
-      return "near the axis";
-    case Kind::anywhere:
-      return "anywhere";
+    case Kind::leaving: return "on a wall, leaving";
+    case Kind::touching: return "on a wall, approaching or overlapped";
+    case Kind::near: return "near a wall";
+    case Kind::grazing: return "grazing";
+    case Kind::dipping: return "through a wall and back in a long window";
+    case Kind::seam: return "near the seam";
+    case Kind::corner_hit: return "cap and cylinder at one time";
+    case Kind::in_corner: return "on two walls at the begin";
+    case Kind::axis: return "near the axis";
+    case Kind::anywhere: return "anywhere";
   }
   return "";
 }
@@ -89,8 +86,8 @@ class StateMaker {
   WallQuery<double> operator()(Draw& draw, Kind kind, bool turning) const {
     for (;;) {
       const auto query = attempt(draw, kind, turning);
-      const testing::GeneralFunctions<float128> gaps(constants_, flight_cast<float128>(query.flight),
-                                                     float128(query.radius), query.begin.period);
+      const testing::GeneralFunctions<float128> gaps(constants_,
+          flight_cast<float128>(query.flight), float128(query.radius), query.begin.period);
       const auto sample = gaps(float128(query.begin.offset));
       // A state of the solver is inside the vessel up to rounding.
       bool inside = true;
@@ -98,7 +95,7 @@ class StateMaker {
       const auto active = gaps.room().active(gaps.seen(begin, gaps.pose(begin)).state.position);
       for (int wall = 0; wall < mill_.vessel.wall_count(); ++wall) {
         inside &= !active[wall] ||
-                  sample.gap[wall] > -3e-15 * testing::gap_per_metre(mill_, wall, float128(query.radius));
+            sample.gap[wall] > -3e-15 * testing::gap_per_metre(mill_, wall, float128(query.radius));
         // Rates that are exactly zero are for tests with another oracle: engine/corners_test.cpp.
         const bool level = abs(sample.rate[wall]) < 1e-30 && abs(sample.gap[wall]) < 1e-12;
         inside &= kind != Kind::in_corner || !level;
@@ -106,13 +103,13 @@ class StateMaker {
       if (inside) return query;
     }
   }
-
  private:
   WallQuery<double> attempt(Draw& draw, Kind kind, bool turning) const {
     const double period = static_cast<double>(mill_.motion.period());
     WallQuery<double> q{};
     q.radius = draw.uniform(0.00118, 0.00635);
-    q.length = draw.chance(0.5) ? draw.uniform(0.0, longest_) : draw.log_uniform(1e-6, 1) * longest_;
+    q.length =
+        draw.chance(0.5) ? draw.uniform(0.0, longest_) : draw.log_uniform(1e-6, 1) * longest_;
     if (kind == Kind::dipping || draw.chance(0.1)) q.length = longest_;
     if (!(q.length > 0)) q.length = longest_;
     double offset = draw.uniform(0, period);
@@ -136,7 +133,8 @@ class StateMaker {
     const double how = draw.uniform();
     if (how > 0.7) {
       q.flight.start.period -= draw.chance(0.1) ? 2 : 1;
-      q.flight.start.offset = draw.chance(0.3) ? std::nextafter(period, 0.0) : draw.uniform(0, period);
+      q.flight.start.offset =
+          draw.chance(0.3) ? std::nextafter(period, 0.0) : draw.uniform(0, period);
     } else if (how > 0.4) {
       q.flight.start.offset = draw.chance(0.5) ? draw.uniform(0, q.begin.offset)
                                                : q.begin.offset * (1 - draw.log_uniform(1e-12, 1));
@@ -165,34 +163,35 @@ class StateMaker {
     const auto pose = mill_.motion.pose({q.begin.period, when});
     const Vec3<float128> at = mill_.motion.to_inertial(pose, placed.position);
     Vec3<float128> velocity = mill_.motion.wall_velocity(pose, at);
-    const auto &x = mill_.motion.axis_x(pose), &y = mill_.motion.axis_y(pose), &z = mill_.motion.axis_z(pose);
+    const auto &x = mill_.motion.axis_x(pose), &y = mill_.motion.axis_y(pose),
+               &z = mill_.motion.axis_z(pose);
     for (int k = 0; k < 3; ++k)
-      velocity[k] += x[k] * placed.velocity[0] + y[k] * placed.velocity[1] + z[k] * placed.velocity[2];
-    const float128 flown = float128(q.begin.period - q.flight.start.period) * mill_.motion.period() +
-                           (when - float128(q.flight.start.offset));
+      velocity[k] +=
+          x[k] * placed.velocity[0] + y[k] * placed.velocity[1] + z[k] * placed.velocity[2];
+    const float128 flown =
+        float128(q.begin.period - q.flight.start.period) * mill_.motion.period() +
+        (when - float128(q.flight.start.offset));
     for (int k = 0; k < 3; ++k) {
       const float128& g = mill_.gravity[k];
-      q.flight.position[k] = static_cast<double>(at[k] - velocity[k] * flown + g * flown * flown / 2);
+      q.flight.position[k] =
+          static_cast<double>(at[k] - velocity[k] * flown + g * flown * flown / 2);
       q.flight.velocity[k] = static_cast<double>(velocity[k] - g * flown);
     }
   }
 
-  /// Gives `set(wall, gap, approach speed)` what the kind asks for; `corner()` names two walls that meet.
+  /// Gives `set(wall, gap, approach speed)` what the kind asks for; `corner()` names two walls that
+  /// meet.
   template <class Set, class Corner>
   void put(Draw& draw, Kind kind, double top, int wall, Set&& set, Corner&& corner) const {
     switch (kind) {
-      case Kind::leaving:
-        set(wall, 0, -draw.log_uniform(1e-12, 10));
-        break;
+      case Kind::leaving: set(wall, 0, -draw.log_uniform(1e-12, 10)); break;
       case Kind::touching:
         if (draw.chance(0.5))
           set(wall, 0, draw.log_uniform(1e-12, 10));
         else
           set(wall, -draw.log_uniform(1e-18, 2e-15), draw.sign() * draw.log_uniform(1e-12, 10));
         break;
-      case Kind::near:
-        set(wall, draw.log_uniform(1e-12, 1e-3), top * draw.symmetric());
-        break;
+      case Kind::near: set(wall, draw.log_uniform(1e-12, 1e-3), top * draw.symmetric()); break;
       case Kind::grazing: {
         // A third of them within or near the rounding of the state itself.
         const double drawn =
@@ -200,9 +199,7 @@ class StateMaker {
         set(wall, draw.sign() * (grazing_distance > 0 ? grazing_distance : drawn), 0);
         break;
       }
-      case Kind::dipping:
-        set(wall, -draw.log_uniform(1e-9, 1e-4), 0);
-        break;
+      case Kind::dipping: set(wall, -draw.log_uniform(1e-9, 1e-4), 0); break;
       case Kind::seam: {
         const auto [first, second] = corner();
         set(first, draw.log_uniform(1e-12, 1e-4), top * draw.symmetric());
@@ -221,9 +218,9 @@ class StateMaker {
           double gap, approach;
         };
         const auto touch = [&] {
-          return Touch{
-              draw.chance(0.5) ? 0 : -draw.log_uniform(1e-18, 2e-15),
-              draw.sign() * (draw.chance(0.2) ? draw.log_uniform(1e-25, 1e-12) : draw.log_uniform(1e-12, 5))};
+          return Touch{draw.chance(0.5) ? 0 : -draw.log_uniform(1e-18, 2e-15),
+              draw.sign() *
+                  (draw.chance(0.2) ? draw.log_uniform(1e-25, 1e-12) : draw.log_uniform(1e-12, 5))};
         };
         const Touch one = touch(), other = touch();
         for (int step = 0; step < 30; ++step) {  // walls need not be perpendicular
@@ -233,15 +230,16 @@ class StateMaker {
         break;
       }
       case Kind::axis:
-      case Kind::anywhere:
-        break;
+      case Kind::anywhere: break;
     }
   }
 
   Placement place(Draw& draw, Kind kind, double radius) const {
-    if (!mill_.vessel.get_if<model::CylinderVessel<float128>>()) return place_in_any(draw, kind, radius);
-    const float128 across = testing::cylinder(mill_).radius - float128(radius);      // of the axis
-    const float128 along = testing::cylinder(mill_).half_height - float128(radius);  // of the middle plane
+    if (!mill_.vessel.get_if<model::CylinderVessel<float128>>())
+      return place_in_any(draw, kind, radius);
+    const float128 across = testing::cylinder(mill_).radius - float128(radius);  // of the axis
+    const float128 along =
+        testing::cylinder(mill_).half_height - float128(radius);  // of the middle plane
     const int wall = draw.below(3);
     float128 cap_gap = along * draw.uniform(), side_gap = across * (1 - std::sqrt(draw.uniform()));
     const double cap_side = wall == 2 ? draw.sign() : (wall == 0 ? -1 : 1);
@@ -262,7 +260,8 @@ class StateMaker {
     const float128 cosine = cos(angle), sine = sin(angle);
     const float128 distance = across - side_gap, around = top * draw.symmetric();
     return {{distance * cosine, cap_side * (along - cap_gap), distance * sine},
-            {out_across * cosine - around * sine, cap_side * out_along, out_across * sine + around * cosine}};
+        {out_across * cosine - around * sine, cap_side * out_along,
+            out_across * sine + around * cosine}};
   }
 
   /// Places a ball by what every vessel says of itself.

@@ -1,5 +1,5 @@
-// What holds for runs in every motion and every vessel: no ball leaves it, the energy closes, a checkpoint
-// goes on with the same bits, and wider scalars agree.
+// What holds for runs in every motion and every vessel: no ball leaves it, the energy closes, a
+// checkpoint goes on with the same bits, and wider scalars agree.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,8 +15,8 @@
 namespace edmill::engine {
 namespace {
 
-/// After every impact, the deepest overlap of the impact's balls with any wall, in float128, and of all balls
-/// every thousandth time.
+/// After every impact, the deepest overlap of the impact's balls with any wall, in float128, and of
+/// all balls every thousandth time.
 class WallCheck : public Observer<double> {
  public:
   explicit WallCheck(const model::Mill<double>& mill) : mill_(model::mill_cast<float128>(mill)) {}
@@ -30,7 +30,6 @@ class WallCheck : public Observer<double> {
 
   float128 deepest{0};
   std::uint64_t events = 0;
-
  private:
   void look_at(const Simulation<double>& simulation, const Instant<double>& time, int ball) {
     const auto now = dynamics::instant_cast<float128>(time);
@@ -61,11 +60,12 @@ double longest() { return std::max(4.0, 1e-4 * static_cast<double>(wanted_collis
 class AnyRun : public ::testing::TestWithParam<testing::MillText> {
  protected:
   template <class Real>
-  casefile::InitialCase<Real> built(double start = 0, const std::string& restitution = "0.53") const {
+  casefile::InitialCase<Real> built(
+      double start = 0, const std::string& restitution = "0.53") const {
     const auto spec = testing::spec_of(GetParam(),
-                                       "initial_time = \"" + std::to_string(start) + " s\"\nend_time = \"" +
-                                           std::to_string(start + longest() + 1) + " s\"",
-                                       "[[balls]]\ncount = 28\ndiameter = \"4.76 mm\"\n", restitution);
+        "initial_time = \"" + std::to_string(start) + " s\"\nend_time = \"" +
+            std::to_string(start + longest() + 1) + " s\"",
+        "[[balls]]\ncount = 28\ndiameter = \"4.76 mm\"\n", restitution);
     auto mill = testing::mill_of(GetParam(), spec);
     return casefile::build_case_in<Real>(model::mill_cast<Real>(mill), spec);
   }
@@ -73,10 +73,11 @@ class AnyRun : public ::testing::TestWithParam<testing::MillText> {
   bool still() const { return !(testing::mill_of(GetParam()).motion.wall_speed(0) > 0); }
 };
 INSTANTIATE_TEST_SUITE_P(All, AnyRun, ::testing::ValuesIn(testing::all_mills),
-                         [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& info) { return std::string(info.param.name); });
 
 TEST_P(AnyRun, NoBallLeavesAndTheEnergyCloses) {
-  for (const double start : {0.0, testing::slides(testing::mill_of(GetParam())) ? 10.0 : 123456.0}) {
+  for (const double start :
+      {0.0, testing::slides(testing::mill_of(GetParam())) ? 10.0 : 123456.0}) {
     const auto the_case = built<double>(start, still() ? "1" : "0.53");
     Simulation<double> simulation(the_case.the_case, the_case.states, the_case.start);
     WallCheck check(the_case.the_case.mill);
@@ -86,16 +87,19 @@ TEST_P(AnyRun, NoBallLeavesAndTheEnergyCloses) {
     const auto before = simulation.energy_at(simulation.now());
     const double begin = simulation.seconds();
     for (double step = 0;
-         statistics.collisions() < static_cast<std::uint64_t>(wanted_collisions()) && step < longest();
+         statistics.collisions() < static_cast<std::uint64_t>(wanted_collisions()) &&
+         step < longest();
          step += 0.1)
       ASSERT_EQ(simulation.run_until(simulation.clock().at(begin + step)), EndReason::end_time);
     const auto after = simulation.energy_at(simulation.now());
     const double change = (after.kinetic + after.potential) - (before.kinetic + before.potential);
     const double left =
         statistics.wall_work() - statistics.milling_dose() + statistics.supplied_energy() - change;
-    const double closure = std::abs(left) / (statistics.milling_dose() + before.kinetic + after.kinetic);
-    std::cout << statistics.collisions() << " collisions from " << start << " s: deepest overlap with a wall "
-              << static_cast<double>(check.deepest) << " m, closure " << closure << "\n";
+    const double closure =
+        std::abs(left) / (statistics.milling_dose() + before.kinetic + after.kinetic);
+    std::cout << statistics.collisions() << " collisions from " << start
+              << " s: deepest overlap with a wall " << static_cast<double>(check.deepest)
+              << " m, closure " << closure << "\n";
     EXPECT_GT(statistics.collisions(), 1000u);
     EXPECT_LT(check.deepest, 1e-14);
     EXPECT_LT(closure, 1e-10);
@@ -143,14 +147,14 @@ TEST_P(AnyRun, ACheckpointGoesOnWithTheSameBits) {
   }
 }
 
-/// Galilei: in a vessel that moves at constant speed balls that have that speed more make the same impacts.
+/// Galilei: in a vessel that moves at constant speed balls that have that speed more make the same
+/// impacts.
 TEST(SlidingBox, SeesTheImpactsOfABoxAtRest) {
   const auto impacts = [](const std::string& mill, const Vec3<float128>& speed) {
     const testing::MillText text{"box", mill.c_str(),
-                                 "type = \"box\"\nsize = [\"33 mm\", \"57 mm\", \"36 mm\"]",
-                                 "gravity = \"9.8 m/s2\""};
-    const auto spec = testing::spec_of(
-        text, "end_time = \"1 s\"", "[[balls]]\ncount = 5\ndiameter = \"8 mm\"\nrandom_speed = \"2 m/s\"\n");
+        "type = \"box\"\nsize = [\"33 mm\", \"57 mm\", \"36 mm\"]", "gravity = \"9.8 m/s2\""};
+    const auto spec = testing::spec_of(text, "end_time = \"1 s\"",
+        "[[balls]]\ncount = 5\ndiameter = \"8 mm\"\nrandom_speed = \"2 m/s\"\n");
     auto built = casefile::build_case_in<float128>(casefile::build_mill<float128>(spec), spec);
     for (auto& state : built.states) state.velocity += speed;
     Simulation<float128> simulation(built.the_case, built.states, built.start);
@@ -162,10 +166,12 @@ TEST(SlidingBox, SeesTheImpactsOfABoxAtRest) {
       list.emplace_back(impact.ball, impact.partner, simulation.clock().seconds(impact.time));
     return list;
   };
-  const auto at_rest = impacts("type = \"chain\"\n[[mill.joint]]\ntranslate = \"x\"\ndistance = \"1 cm\"",
-                               Vec3<float128>::Zero());
-  const auto sliding = impacts(
-      "type = \"chain\"\n[[mill.joint]]\ntranslate = [2, -1, 2]\nspeed = \"-1.5 m/s\"", {-1, 0.5, -1});
+  const auto at_rest =
+      impacts("type = \"chain\"\n[[mill.joint]]\ntranslate = \"x\"\ndistance = \"1 cm\"",
+          Vec3<float128>::Zero());
+  const auto sliding =
+      impacts("type = \"chain\"\n[[mill.joint]]\ntranslate = [2, -1, 2]\nspeed = \"-1.5 m/s\"",
+          {-1, 0.5, -1});
   ASSERT_GT(at_rest.size(), 20u);
   for (std::size_t k = 0; k < 20; ++k) {
     const auto& [ball, partner, time] = at_rest[k];

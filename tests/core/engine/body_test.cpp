@@ -1,5 +1,5 @@
-// Runs with bodies inside the vessel: closed forms, a vessel made of plates, and the balance of work and
-// momentum.
+// Runs with bodies inside the vessel: closed forms, a vessel made of plates, and the balance of
+// work and momentum.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace {
 
 /// A vessel at rest whose axes are those of the laboratory, and what is in it.
 std::string text_of(const std::string& vessel, const std::string& rest, const std::string& contact,
-                    const std::string& gravity = "0 m/s2", const std::string& end = "10 s") {
+    const std::string& gravity = "0 m/s2", const std::string& end = "10 s") {
   return fmt::format(
       R"([run]
 end_time = "{}"
@@ -44,9 +44,9 @@ std::vector<engine::Impact<Real>> impacts_of(const std::string& text, std::size_
   if (recorder.impacts.size() > count) recorder.impacts.resize(count);
   return recorder.impacts;
 }
-template <class Real>
-Real seconds(const std::string& text, const Instant<Real>& time) {
-  return DriveClock<Real>(casefile::build_mill<Real>(casefile::parse_case(text, "case.toml")).motion.period())
+template <class Real> Real seconds(const std::string& text, const Instant<Real>& time) {
+  return DriveClock<Real>(
+      casefile::build_mill<Real>(casefile::parse_case(text, "case.toml")).motion.period())
       .seconds(time);
 }
 
@@ -59,7 +59,7 @@ joint = [{ translate = ["50 mm", "20 mm", "-10 mm"] }]
 diameter = "10 mm"
 position = ["-200 mm", "30 mm", "0 mm"]
 velocity = ["3 m/s", "-0.1 m/s", "-0.12 m/s"])",
-                            elastic);
+      elastic);
   // |d + v t| = 20 mm
   const float128 d[] = {float128(-25) / 100, float128(1) / 100, float128(1) / 100},
                  v[] = {3, float128(-1) / 10, float128(-12) / 100};
@@ -86,7 +86,7 @@ joint = [{ rotate = "y", speed = "90 rpm" }]
 [[ball]]
 diameter = "10 mm"
 position = ["0 mm", "0 mm", "-80 mm"])",
-                            elastic);
+      elastic);
   // The bar turns from x towards -z: its side is 8 mm from the ball when sin(angle left) = 8 / 80.
   const float128 pi = numerics::pi<float128>();
   const float128 t = (pi / 2 - asin(float128(1) / 10)) / (3 * pi);
@@ -97,8 +97,10 @@ position = ["0 mm", "0 mm", "-80 mm"])",
   const float128 speed = 2 * 3 * pi * float128(8) / 100 * sqrt(1 - float128(1) / 100);
   EXPECT_LT(abs(norm<float128>(found[0].outcome.wall_work * Vec3<float128>::UnitX()) -
                 speed * speed / 2 *
-                    casefile::build_case<float128>(casefile::parse_case(text, "c")).the_case.balls[0].mass),
-            float128(1e-28));
+                    casefile::build_case<float128>(casefile::parse_case(text, "c"))
+                        .the_case.balls[0]
+                        .mass),
+      float128(1e-28));
 }
 
 TEST(Bodies, ABallBetweenPlatesThatApproachGainsTwiceTheirSpeedInEachImpact) {
@@ -116,7 +118,7 @@ joint = [{ translate = ["100 mm", "0 mm", "0 mm"] }, { translate = "x", speed = 
 diameter = "20 mm"
 position = ["0 mm", "0 mm", "0 mm"]
 velocity = ["1 m/s", "0 m/s", "0 m/s"])",
-                            elastic, "0 m/s2", "0.3 s");
+      elastic, "0 m/s2", "0.3 s");
   const auto found = impacts_of<double>(text, 5);
   ASSERT_EQ(found.size(), 5u);
   double speed = 1, place = 0, time = 0;
@@ -138,7 +140,8 @@ TEST(Bodies, PlatesInAPlaceOfWallsGiveTheSameEvents) {
   std::string balls;
   for (int k = 0; k < 4; ++k)
     balls += fmt::format(
-        "[[ball]]\ndiameter = \"8 mm\"\nposition = [\"{} mm\", \"{} mm\", \"{} mm\"]\nvelocity = [\"{} "
+        "[[ball]]\ndiameter = \"8 mm\"\nposition = [\"{} mm\", \"{} mm\", \"{} mm\"]\nvelocity = "
+        "[\"{} "
         "m/s\", "
         "\"{} m/s\", \"{} m/s\"]\n",
         -12 + 8 * k, -6 + 5 * k, 9 - 7 * k, 0.7 - 0.3 * k, 0.4 + 0.2 * k, -0.6 + 0.5 * k);
@@ -147,14 +150,14 @@ TEST(Bodies, PlatesInAPlaceOfWallsGiveTheSameEvents) {
       text_of("type = \"box\"\nsize = [\"40 mm\", \"30 mm\", \"50 mm\"]", balls, contact, gravity);
   std::string plates;
   const char* sizes[] = {"\"0 mm\", \"90 mm\", \"90 mm\"", "\"90 mm\", \"0 mm\", \"90 mm\"",
-                         "\"90 mm\", \"90 mm\", \"0 mm\""};
+      "\"90 mm\", \"90 mm\", \"0 mm\""};
   const int half[] = {20, 15, 25};
   for (int k = 0; k < 6; ++k) {
     int at[3] = {0, 0, 0};
     at[k / 2] = k % 2 ? half[k / 2] : -half[k / 2];
-    plates +=
-        fmt::format("[[body]]\nsize = [{}]\njoint = [{{ translate = [\"{} mm\", \"{} mm\", \"{} mm\"] }}]\n",
-                    sizes[k / 2], at[0], at[1], at[2]);
+    plates += fmt::format(
+        "[[body]]\nsize = [{}]\njoint = [{{ translate = [\"{} mm\", \"{} mm\", \"{} mm\"] }}]\n",
+        sizes[k / 2], at[0], at[1], at[2]);
   }
   const auto one = impacts_of<float128>(walls, 400),
              other = impacts_of<float128>(text_of(large, plates + balls, contact, gravity), 400);
@@ -172,7 +175,8 @@ TEST(Bodies, PlatesInAPlaceOfWallsGiveTheSameEvents) {
 /// Sums what impacts with bodies do.
 class Balance : public engine::Observer<double> {
  public:
-  void on_impact(const engine::Impact<double>& impact, engine::Simulation<double>& simulation) override {
+  void on_impact(
+      const engine::Impact<double>& impact, engine::Simulation<double>& simulation) override {
     const auto& mill = simulation.mill();
     if (!impact.with_wall || !mill.body_of(impact.partner)) return;
     const auto& flight = simulation.flight(impact.ball);
@@ -188,7 +192,8 @@ class Balance : public engine::Observer<double> {
 };
 
 TEST(Bodies, TheWorkOfAStirrerIsItsTorqueTimesItsSpeed) {
-  std::string text = text_of("type = \"cylinder\"\ndiameter = \"80 mm\"\nheight = \"60 mm\"", R"([[body]]
+  std::string text =
+      text_of("type = \"cylinder\"\ndiameter = \"80 mm\"\nheight = \"60 mm\"", R"([[body]]
 size = ["60 mm", "8 mm", "8 mm"]
 rounding = "2 mm"
 on = "ground"
@@ -197,7 +202,7 @@ repeat = 2
 [[balls]]
 count = 30
 diameter = "8 mm")",
-                             "restitution = 0.6\nfriction = 0.3", "9.81 m/s2");
+          "restitution = 0.6\nfriction = 0.3", "9.81 m/s2");
   const auto built = casefile::build_case<double>(casefile::parse_case(text, "case.toml"));
   engine::Simulation<double> simulation(built.the_case, built.states, built.start);
   Balance balance;

@@ -9,32 +9,34 @@
 namespace edmill::engine {
 namespace {
 
-template <class Real>
-struct Followed {
+template <class Real> struct Followed {
   explicit Followed(const casefile::CaseSpec& spec)
-      : built(casefile::build_case<Real>(spec)), simulation(built.the_case, built.states, built.start) {
+      : built(casefile::build_case<Real>(spec)),
+        simulation(built.the_case, built.states, built.start) {
     simulation.attach(recorder);
   }
-  void go_to(int milliseconds) { simulation.run_until(simulation.clock().at(Real(milliseconds) / 1000)); }
+  void go_to(int milliseconds) {
+    simulation.run_until(simulation.clock().at(Real(milliseconds) / 1000));
+  }
 
   casefile::InitialCase<Real> built;
   Simulation<Real> simulation;
   testing::EventRecorder<Real> recorder;
 };
 
-template <class Real>
-bool same(const Vec3<Real>& a, const Vec3<Real>& b) {
+template <class Real> bool same(const Vec3<Real>& a, const Vec3<Real>& b) {
   return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-template <class Real>
-bool same(const Impact<Real>& a, const Impact<Real>& b) {
+template <class Real> bool same(const Impact<Real>& a, const Impact<Real>& b) {
   return a.index == b.index && a.time == b.time && a.ball == b.ball && a.with_wall == b.with_wall &&
-         a.partner == b.partner && a.outcome.least_separation == b.outcome.least_separation &&
-         a.overlap == b.overlap && same(a.normal, b.normal) &&
-         same(a.velocity_before[0], b.velocity_before[0]) && same(a.spin_before[0], b.spin_before[0]) &&
-         a.flight_time[0] == b.flight_time[0] && a.outcome.milling_dose == b.outcome.milling_dose &&
-         a.outcome.supplied_energy == b.outcome.supplied_energy && a.outcome.wall_work == b.outcome.wall_work;
+      a.partner == b.partner && a.outcome.least_separation == b.outcome.least_separation &&
+      a.overlap == b.overlap && same(a.normal, b.normal) &&
+      same(a.velocity_before[0], b.velocity_before[0]) &&
+      same(a.spin_before[0], b.spin_before[0]) && a.flight_time[0] == b.flight_time[0] &&
+      a.outcome.milling_dose == b.outcome.milling_dose &&
+      a.outcome.supplied_energy == b.outcome.supplied_energy &&
+      a.outcome.wall_work == b.outcome.wall_work;
 }
 
 template <class Real>
@@ -67,7 +69,9 @@ void expect_same_course(const casefile::CaseSpec& spec, int first, int last, std
   for (int i = 0; i < one.simulation.ball_count(); ++i) {
     const auto x = one.simulation.state_at(i, one.simulation.now()),
                y = other.simulation.state_at(i, other.simulation.now());
-    ASSERT_TRUE(same(x.position, y.position) && same(x.velocity, y.velocity) && same(x.spin, y.spin)) << i;
+    ASSERT_TRUE(
+        same(x.position, y.position) && same(x.velocity, y.velocity) && same(x.spin, y.spin))
+        << i;
   }
   const auto &c = one.simulation.counts(), &d = other.simulation.counts();
   EXPECT_EQ(c.impacts, d.impacts);
@@ -80,20 +84,19 @@ void expect_same_course(const casefile::CaseSpec& spec, int first, int last, std
   ASSERT_EQ(e.size(), f.size());
   for (std::size_t k = 0; k < e.size(); ++k)
     EXPECT_TRUE(e[k].scalar == f[k].scalar && e[k].wall == f[k].wall && e[k].pair == f[k].pair &&
-                e[k].order == f[k].order);
+        e[k].order == f[k].order);
 }
 
 casefile::CaseSpec many_balls(int count) {
-  return casefile::parse_case(
-      testing::spex_text("end_time = \"1 s\"", "restitution = 0.6",
-                         testing::batch(count, "2 mm",
-                                        "diameter_spread = \"0.5 mm\"\ngap_ball = \"0.1 mm\"\n"
-                                        "gap_wall = \"0.1 mm\"\nrandom_speed = \"1 m/s\"\n")),
+  return casefile::parse_case(testing::spex_text("end_time = \"1 s\"", "restitution = 0.6",
+                                  testing::batch(count, "2 mm",
+                                      "diameter_spread = \"0.5 mm\"\ngap_ball = \"0.1 mm\"\n"
+                                      "gap_wall = \"0.1 mm\"\nrandom_speed = \"1 m/s\"\n")),
       "many.toml");
 }
 
-/// Rows of a crystal, all alike: many contacts at the same time, whose order is that of the cells and the
-/// queue.
+/// Rows of a crystal, all alike: many contacts at the same time, whose order is that of the cells
+/// and the queue.
 casefile::CaseSpec crystal() {
   std::string balls;
   for (int x = -3; x <= 3; ++x)
@@ -101,11 +104,12 @@ casefile::CaseSpec crystal() {
       for (int z = -1; z <= 1; ++z) {
         const auto component = [](int k, int base) { return std::to_string(base + 4 * k) + " mm"; };
         balls += "[[ball]]\ndiameter = \"3 mm\"\nposition = [\"" + component(x, 0) + "\", \"" +
-                 component(y, 100) + "\", \"" + component(z, 0) + "\"]\nvelocity = [\"" +
-                 std::to_string(x % 2) + " m/s\", \"0 m/s\", \"0 m/s\"]\n";
+            component(y, 100) + "\", \"" + component(z, 0) + "\"]\nvelocity = [\"" +
+            std::to_string(x % 2) + " m/s\", \"0 m/s\", \"0 m/s\"]\n";
       }
   return casefile::parse_case(
-      "[run]\nend_time = \"1 s\"\n[mill]\ntype = \"still\"\narm = \"10 cm\"\n[vessel]\ndiameter = \"60 mm\"\n"
+      "[run]\nend_time = \"1 s\"\n[mill]\ntype = \"still\"\narm = \"10 cm\"\n[vessel]\ndiameter = "
+      "\"60 mm\"\n"
       "height = \"60 mm\"\n[contact]\nrestitution = 1\nfriction = 0\n" +
           balls,
       "crystal.toml");
@@ -133,13 +137,15 @@ TEST(Checkpoint, KeepsTheOrderOfEventsAtTheSameTime) {
   Followed<double> probe(crystal());
   probe.go_to(20);
   std::set<std::pair<std::int64_t, double>> times;
-  for (const auto& impact : probe.recorder.impacts) times.emplace(impact.time.period, impact.time.offset);
+  for (const auto& impact : probe.recorder.impacts)
+    times.emplace(impact.time.period, impact.time.offset);
   ASSERT_LT(times.size(), probe.recorder.impacts.size());  // there are such events
   expect_same_course<double>(crystal(), 10, 40, 100);
 }
 
 /// Saving renumbers the impacts, among other things.
-void expect_saving_changes_nothing(const casefile::CaseSpec& spec, int milliseconds, std::size_t at_least) {
+void expect_saving_changes_nothing(
+    const casefile::CaseSpec& spec, int milliseconds, std::size_t at_least) {
   Followed<double> one(spec), other(spec);
   one.go_to(milliseconds);
   for (int now = 1; now <= milliseconds; ++now) {
@@ -150,7 +156,9 @@ void expect_saving_changes_nothing(const casefile::CaseSpec& spec, int milliseco
   EXPECT_GE(one.recorder.impacts.size(), at_least);
   expect_same_impacts(one, other);
 }
-TEST(Checkpoint, SavingChangesNothing) { expect_saving_changes_nothing(testing::demo_spec(), 500, 5000); }
+TEST(Checkpoint, SavingChangesNothing) {
+  expect_saving_changes_nothing(testing::demo_spec(), 500, 5000);
+}
 TEST(Checkpoint, SavingChangesNothingWithCells) {
   expect_saving_changes_nothing(many_balls(500), 200, 10000);
 }
@@ -173,7 +181,9 @@ TEST(Checkpoint, APauseChangesNothing) {
 
 TEST(Checkpoint, AnInterruptIsSeenBeforeTheNextEvent) {
   struct Interrupts : Observer<double> {
-    void on_impact(const Impact<double>& impact, Simulation<double>&) override { asked = impact.index == 50; }
+    void on_impact(const Impact<double>& impact, Simulation<double>&) override {
+      asked = impact.index == 50;
+    }
     std::atomic<bool> asked = false;
   } interrupts;
   Followed<double> whole(testing::demo_spec()), cut(testing::demo_spec());
@@ -183,7 +193,8 @@ TEST(Checkpoint, AnInterruptIsSeenBeforeTheNextEvent) {
   EXPECT_EQ(cut.simulation.run_until(end, &interrupts.asked), EndReason::interrupted);
   ASSERT_FALSE(cut.recorder.impacts.empty());
   EXPECT_EQ(cut.recorder.impacts.back().index, 50);
-  EXPECT_TRUE(cut.simulation.now() == cut.recorder.impacts.back().time);  // nor a later event of another kind
+  EXPECT_TRUE(cut.simulation.now() ==
+      cut.recorder.impacts.back().time);  // nor a later event of another kind
 
   interrupts.asked = false;
   EXPECT_EQ(cut.simulation.run_until(end, &interrupts.asked), EndReason::end_time);
@@ -193,7 +204,8 @@ TEST(Checkpoint, AnInterruptIsSeenBeforeTheNextEvent) {
 TEST(Checkpoint, AnInterruptDuringTheFirstPredictionsEndsThem) {
   const std::atomic<bool> interrupt = true;
   const auto built = casefile::build_case<double>(testing::demo_spec());
-  EXPECT_THROW(Simulation<double>(built.the_case, built.states, built.start, &interrupt), InterruptedError);
+  EXPECT_THROW(
+      Simulation<double>(built.the_case, built.states, built.start, &interrupt), InterruptedError);
 }
 
 }  // namespace

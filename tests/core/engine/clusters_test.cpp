@@ -1,6 +1,6 @@
-// Clusters of touching bodies with random velocities. Where some motion parts all of them, which linear
-// programming decides, their impacts come to an end within the bound of theory.md, section 6; where none
-// does, the run ends with `stalled`.
+// Clusters of touching bodies with random velocities. Where some motion parts all of them, which
+// linear programming decides, their impacts come to an end within the bound of theory.md, section
+// 6; where none does, the run ends with `stalled`.
 #include <glpk.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace edmill::engine {
 namespace {
 
 constexpr double least_separation = 0.01, room = 0.2;  // [m/s], half the edge of the box [m]
-constexpr std::uint64_t patience = 100000;             // impacts at one instant that the engine allows
+constexpr std::uint64_t patience = 100000;  // impacts at one instant that the engine allows
 
 struct Contact {
   int ball;
@@ -49,12 +49,11 @@ class Clusters {
     for (std::size_t k = 0; k < c.radii.size(); ++k) c.velocities.push_back(draw_vector(1));
     return c;
   }
-
  private:
   double uniform() { return random_.uniform<double>(); }
   Vec3<double> draw_vector(double size) {
     return {size * random_.symmetric<double>(), size * random_.symmetric<double>(),
-            size * random_.symmetric<double>()};
+        size * random_.symmetric<double>()};
   }
   /// Draws a radius; the masses of two balls differ by a factor of at most 100.
   double draw_radius() { return 0.005 * std::pow(100, uniform() / 3); }
@@ -81,7 +80,8 @@ class Clusters {
       place += Vec3<double>(uniform(), uniform(), uniform()) * 0.06;
       std::vector<int> touched;
       for (std::size_t k = 0; k < 1 + static_cast<std::size_t>(uniform() * 3); ++k)
-        touched.push_back(static_cast<int>(uniform() * static_cast<double>(c.radii.size() + 3)) - 3);
+        touched.push_back(
+            static_cast<int>(uniform() * static_cast<double>(c.radii.size() + 3)) - 3);
       if (!settle(c, radius, touched, place) || !is_free(c, radius, place)) continue;
       // Off the walls by rounding: which of two exact zeros comes first no scalar can tell.
       place += Vec3<double>(uniform(), uniform(), uniform()) * 1e-15;
@@ -89,7 +89,8 @@ class Clusters {
     }
   }
 
-  static double gap(const Cluster& c, double radius, const Vec3<double>& place, int body, Vec3<double>& way) {
+  static double gap(
+      const Cluster& c, double radius, const Vec3<double>& place, int body, Vec3<double>& way) {
     if (body < 0) {
       way = Vec3<double>::Unit(body + 3);
       return place[body + 3] + room - radius;
@@ -99,7 +100,8 @@ class Clusters {
     return between.norm() - radius - c.radii[static_cast<std::size_t>(body)];
   }
   /// Newton's method for a place that touches all of them.
-  static bool settle(const Cluster& c, double radius, const std::vector<int>& touched, Vec3<double>& place) {
+  static bool settle(
+      const Cluster& c, double radius, const std::vector<int>& touched, Vec3<double>& place) {
     for (int step = 0; step < 50; ++step) {
       Eigen::MatrixXd ways(touched.size(), 3);
       Eigen::VectorXd gaps(touched.size());
@@ -115,7 +117,7 @@ class Clusters {
     }
     Vec3<double> way;
     return std::all_of(touched.begin(), touched.end(),
-                       [&](int body) { return std::abs(gap(c, radius, place, body, way)) < 1e-15; });
+        [&](int body) { return std::abs(gap(c, radius, place, body, way)) < 1e-15; });
   }
   static bool is_free(const Cluster& c, double radius, const Vec3<double>& place) {
     Vec3<double> way;
@@ -164,7 +166,9 @@ class Program {
     for (const auto& c : contacts) {
       std::vector<int> columns{0};
       std::vector<double> values{0};
-      const auto add = [&](int column, double value) { columns.push_back(column), values.push_back(value); };
+      const auto add = [&](int column, double value) {
+        columns.push_back(column), values.push_back(value);
+      };
       for (int axis = 0; axis < 3; ++axis) {
         add(3 * c.ball + axis + 1, c.normal[axis]);
         if (c.other >= 0) add(3 * c.other + axis + 1, -c.normal[axis]);
@@ -176,7 +180,8 @@ class Program {
   void add_row(const std::vector<int>& columns, const std::vector<double>& values, double least) {
     const int row = glp_add_rows(problem_.get(), 1);
     glp_set_row_bnds(problem_.get(), row, GLP_LO, least, 0);
-    glp_set_mat_row(problem_.get(), row, static_cast<int>(columns.size()) - 1, columns.data(), values.data());
+    glp_set_mat_row(
+        problem_.get(), row, static_cast<int>(columns.size()) - 1, columns.data(), values.data());
   }
   glp_prob* get() { return problem_.get(); }
   int more() const { return more_; }
@@ -187,7 +192,6 @@ class Program {
     return glp_simplex(problem_.get(), &how) == 0 && glp_get_status(problem_.get()) == GLP_OPT;
   }
   double value() { return glp_get_obj_val(problem_.get()); }
-
  private:
   std::unique_ptr<glp_prob, void (*)(glp_prob*)> problem_;
   int more_;
@@ -218,8 +222,8 @@ std::vector<Contact> jammed_among(const std::vector<Contact>& contacts, int ball
 }
 
 /// |x - z|^2 / (M v_s^2) with a z that parts all contacts at v_s and is near x.
-double bound_on_impacts(const Cluster& c, const std::vector<Contact>& contacts,
-                        const std::vector<Vec3<double>>& x) {
+double bound_on_impacts(
+    const Cluster& c, const std::vector<Contact>& contacts, const std::vector<Vec3<double>>& x) {
   const int balls = static_cast<int>(c.radii.size());
   Program program(contacts, balls, GLP_MIN);
   glp_set_col_bnds(program.get(), program.more(), GLP_LO, 0, 0);
@@ -239,8 +243,8 @@ double bound_on_impacts(const Cluster& c, const std::vector<Contact>& contacts,
   }
   for (const auto& contact : contacts) {
     const double i = mass(contact.ball);
-    lightest =
-        std::min(lightest, contact.other < 0 ? i : i * mass(contact.other) / (i + mass(contact.other)));
+    lightest = std::min(
+        lightest, contact.other < 0 ? i : i * mass(contact.other) / (i + mass(contact.other)));
   }
   return square / (lightest * least_separation * least_separation);
 }
@@ -255,7 +259,8 @@ struct Frictionless : Observer<double> {
   void on_impact(const Impact<double>& impact, Simulation<double>& simulation) override {
     ++all;
     ++count;
-    in_jam += std::any_of(jammed.begin(), jammed.end(), [&](const Contact& c) { return is_of(c, impact); });
+    in_jam += std::any_of(
+        jammed.begin(), jammed.end(), [&](const Contact& c) { return is_of(c, impact); });
     if (no_friction || impact.outcome.in_stall) return;
     count = 0;
     note(simulation);
@@ -263,12 +268,13 @@ struct Frictionless : Observer<double> {
   static bool is_of(const Contact& c, const Impact<double>& impact) {
     if (impact.with_wall || c.other < 0)
       return impact.with_wall && c.other < 0 && c.ball == impact.ball &&
-             dot<double>(c.normal, impact.normal) > 0.9;
+          dot<double>(c.normal, impact.normal) > 0.9;
     return std::minmax(c.ball, c.other) == std::minmax(impact.ball, impact.partner);
   }
   void note(const Simulation<double>& simulation) {
     begin.clear();
-    for (int k = 0; k < simulation.ball_count(); ++k) begin.push_back(simulation.flight(k).velocity);
+    for (int k = 0; k < simulation.ball_count(); ++k)
+      begin.push_back(simulation.flight(k).velocity);
   }
 };
 
@@ -281,10 +287,12 @@ struct Tally {
 void try_cluster(const Cluster& c, int number, Tally& tally) {
   const auto text = [](double x) { return fmt::format("{:.17g}", x); };
   const auto spec = casefile::parse_case(
-      "[run]\nend_time = \"1 s\"\n[mill]\ntype = \"vibratory\"\namplitude = [0, 0, 0]\nspeed = \"900 "
+      "[run]\nend_time = \"1 s\"\n[mill]\ntype = \"vibratory\"\namplitude = [0, 0, 0]\nspeed = "
+      "\"900 "
       "rpm\"\n[vessel]\ntype = \"box\"\nsize = [\"" +
-          text(2 * c.half[0]) + " m\", \"" + text(2 * c.half[1]) + " m\", \"" + text(2 * c.half[2]) +
-          " m\"]\n[contact]\nrestitution = " + text(c.restitution) + "\nfriction = " + text(c.friction) +
+          text(2 * c.half[0]) + " m\", \"" + text(2 * c.half[1]) + " m\", \"" +
+          text(2 * c.half[2]) + " m\"]\n[contact]\nrestitution = " + text(c.restitution) +
+          "\nfriction = " + text(c.friction) +
           "\nleast_separation = \"1 cm/s\"\n[[ball]]\ndiameter = \"1 mm\"\nposition = [0, 0, 0]\n",
       "cluster.toml");
   model::Case<double> the_case;
@@ -322,7 +330,8 @@ void try_cluster(const Cluster& c, int number, Tally& tally) {
   if (reason == EndReason::stalled && bound > static_cast<double>(patience))
     return static_cast<void>(++tally.narrow);
   ++tally.parted;
-  EXPECT_EQ(reason, EndReason::end_time) << number << " with a margin of " << margin << ", bound " << bound;
+  EXPECT_EQ(reason, EndReason::end_time)
+      << number << " with a margin of " << margin << ", bound " << bound;
 }
 
 void try_clusters(int count, std::uint64_t seed) {
@@ -331,7 +340,8 @@ void try_clusters(int count, std::uint64_t seed) {
   for (int k = 0; k < count && !::testing::Test::HasFailure(); ++k) {
     try {
       try_cluster(clusters.draw(), k, tally);
-    } catch (const UndecidedError&) {  // a ball exactly in an edge, which touches two walls at one time
+    } catch (
+        const UndecidedError&) {  // a ball exactly in an edge, which touches two walls at one time
       ++tally.undecided;
     }
   }
@@ -351,7 +361,8 @@ TEST(Clusters, PartWithinTheBoundOrStall) { try_clusters(120, 20261125); }
 // EDMILL_CLUSTERS_SEED.
 TEST(Clusters, LongPartWithinTheBoundOrStall) {
   const char *count = std::getenv("EDMILL_CLUSTERS"), *seed = std::getenv("EDMILL_CLUSTERS_SEED");
-  try_clusters(count ? std::atoi(count) : 100000, seed ? std::strtoull(seed, nullptr, 10) : 20261126);
+  try_clusters(
+      count ? std::atoi(count) : 100000, seed ? std::strtoull(seed, nullptr, 10) : 20261126);
 }
 
 }  // namespace

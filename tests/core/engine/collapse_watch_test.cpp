@@ -19,7 +19,9 @@ struct Ball {
     time += interval;
     return watch.note(recent, partner, drive_clock.at(time), speed, slow, restitution, drive_clock);
   }
-  double accumulation_time() const { return CollapseWatch<double>::accumulation_time(recent, drive_clock); }
+  double accumulation_time() const {
+    return CollapseWatch<double>::accumulation_time(recent, drive_clock);
+  }
 };
 
 /// A ball that bounces on one partner: intervals and speeds halve, from 0.1 ms and 1 cm/s on.

@@ -1,6 +1,6 @@
-// Balls that touch up to three walls at the start: exactly, or apart or overlapped by rounding; at rest, fast
-// or hardly moving against them; in vessels that stand still or vibrate along any axis. Each first impact is
-// that of a computation in 200 digits, in which the states are exact.
+// Balls that touch up to three walls at the start: exactly, or apart or overlapped by rounding; at
+// rest, fast or hardly moving against them; in vessels that stand still or vibrate along any axis.
+// Each first impact is that of a computation in 200 digits, in which the states are exact.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,12 +37,13 @@ struct Gap {
   Sharp value, rate;
 };
 
-/// The first time at which the gap is zero or negative while it falls, up to `soon`. Where the first two
-/// derivatives tell it they do; else the gap is followed, from a time on at which it has hardly changed.
+/// The first time at which the gap is zero or negative while it falls, up to `soon`. Where the
+/// first two derivatives tell it they do; else the gap is followed, from a time on at which it has
+/// hardly changed.
 /// @param d, r, c  the gap and its derivatives at the start
 template <class F>
-std::optional<Sharp> contact_time(const Sharp& d, const Sharp& r, const Sharp& c, const Sharp& zero,
-                                  const F& gap) {
+std::optional<Sharp> contact_time(
+    const Sharp& d, const Sharp& r, const Sharp& c, const Sharp& zero, const F& gap) {
   if (d <= 0 && (r < -zero || (abs(r) <= zero && c < -zero))) return Sharp(0);
   if (zero == 0 || abs(c) > 0.01) {
     const Sharp square = r * r - 2 * d * c;
@@ -68,17 +69,16 @@ std::optional<Sharp> contact_time(const Sharp& d, const Sharp& r, const Sharp& c
   return std::nullopt;
 }
 
-template <class Real>
-struct Corner {
+template <class Real> struct Corner {
   model::Case<Real> the_case;
   model::BallState<Real> ball;
   std::vector<Expected> expected;  ///< soon
   bool moves = false;              ///< a wall that it touches does
 };
 
-/// A box, or a cylinder with a corner of a cap and the side, that stands still or vibrates along a line.
-template <class Real>
-class Corners {
+/// A box, or a cylinder with a corner of a cap and the side, that stands still or vibrates along a
+/// line.
+template <class Real> class Corners {
  public:
   explicit Corners(std::uint64_t seed) : random_(seed) {}
 
@@ -90,11 +90,12 @@ class Corners {
     mill.gravity = {Real(0), coin(0.2) ? Real(0) : real(-9.9, -9.7), Real(0)};
     const double kind = uniform();
     mill.ball_ball.law = mill.ball_wall.law =
-        model::WaltonBraun<Real>{.normal = kind < 0.1   ? Real(0)
-                                           : kind < 0.2 ? Real(1)
-                                                        : real(0, 1),
-                                 .friction = coin(0.3) ? Real(0) : real(0, 1)};
-    mill.ball_ball.least_separation = mill.ball_wall.least_separation = coin(0.3) ? Real(0) : Real(1) / 100;
+        model::WaltonBraun<Real>{.normal = kind < 0.1 ? Real(0)
+                : kind < 0.2                          ? Real(1)
+                                                      : real(0, 1),
+            .friction = coin(0.3) ? Real(0) : real(0, 1)};
+    mill.ball_ball.least_separation = mill.ball_wall.least_separation =
+        coin(0.3) ? Real(0) : Real(1) / 100;
     corner.the_case.balls.push_back({radius, Real(1) / 100, Real(2) / 5});
     corner.ball.spin = {real(-9, 9), real(-9, 9), real(-9, 9)};
     if (coin(0.5))
@@ -103,11 +104,12 @@ class Corners {
       draw_in_cylinder(corner);
     return corner;
   }
-
  private:
   double uniform() { return random_.uniform<double>(); }
   bool coin(double share) { return uniform() < share; }
-  Real real(double low, double high) { return Real(low) + random_.uniform<Real>() * Real(high - low); }
+  Real real(double low, double high) {
+    return Real(low) + random_.uniform<Real>() * Real(high - low);
+  }
 
   void draw_motion(model::Mill<Real>& mill, const Real& period) {
     model::Joints<Real> joints{{}, period};
@@ -137,17 +139,22 @@ class Corners {
       const Sharp phase = turn() * t / period_;  // of the time since the start
       const Sharp sine_then = sine() * cos(phase) + cosine() * sin(phase),
                   cosine_then = cosine() * cos(phase) - sine() * sin(phase);
-      away -= amplitude_[k] * (sine_then - sine()), rate -= amplitude_[k] * turn() / period_ * cosine_then;
+      away -= amplitude_[k] * (sine_then - sine()),
+          rate -= amplitude_[k] * turn() / period_ * cosine_then;
     }
     return {Sharp(corner.ball.position[k]) - place(k) + away, rate};
   }
-  Sharp acceleration(int k) const { return -amplitude_[k] * turn() / period_ * turn() / period_ * sine(); }
+  Sharp acceleration(int k) const {
+    return -amplitude_[k] * turn() / period_ * turn() / period_ * sine();
+  }
   static Sharp turn() { return 2 * boost::math::constants::pi<Sharp>(); }
   Sharp sine() const {
-    return quarter() ? Sharp(quarters() % 2 == 0 ? 0 : 2 - quarters()) : sin(turn() * Sharp(phase_));
+    return quarter() ? Sharp(quarters() % 2 == 0 ? 0 : 2 - quarters())
+                     : sin(turn() * Sharp(phase_));
   }
   Sharp cosine() const {
-    return quarter() ? Sharp(quarters() % 2 == 1 ? 0 : 1 - quarters()) : cos(turn() * Sharp(phase_));
+    return quarter() ? Sharp(quarters() % 2 == 1 ? 0 : 1 - quarters())
+                     : cos(turn() * Sharp(phase_));
   }
   bool quarter() const { return Real(quarters()) == 4 * phase_; }
   int quarters() const { return static_cast<int>(static_cast<double>(Real(4 * phase_))); }
@@ -188,10 +195,10 @@ class Corners {
       const Sharp rate = -side * (Sharp(corner.ball.velocity[k]) - speed(k));
       const Sharp bend = -side * (Sharp(corner.the_case.mill.gravity[k]) - acceleration(k));
       expect(corner, 2 * k + (side > 0), amplitude_[k] != 0, gap, rate, bend,
-             [=, this, ball = corner](const Sharp& t) {
-               const auto p = seen(ball, k, t);
-               return Gap{room - side * p.value, -side * p.rate};
-             });
+          [=, this, ball = corner](const Sharp& t) {
+            const auto p = seen(ball, k, t);
+            return Gap{room - side * p.value, -side * p.rate};
+          });
     }
   }
 
@@ -204,7 +211,7 @@ class Corners {
     const auto& gravity = corner.the_case.mill.gravity;
     const bool at_cap = coin(0.8), at_side = !at_cap || coin(0.8);
     position = {real(-0.001, 0.001) + Real(place(0)), real(-0.001, 0.001) + Real(place(1)),
-                real(-0.001, 0.001) + Real(place(2))};
+        real(-0.001, 0.001) + Real(place(2))};
     velocity = {real(-1, 1), real(-1, 1), real(-1, 1)};
     if (at_cap) {
       const int side = coin(0.5) ? 1 : -1;
@@ -212,17 +219,18 @@ class Corners {
       position[1] = near(place(1) + side * room);
       velocity[1] = Real(speed(1)) + Real(side) * draw_approach();
       expect(corner, side > 0, amplitude_[1] != 0, room - side * (Sharp(position[1]) - place(1)),
-             -side * (Sharp(velocity[1]) - speed(1)), -side * (Sharp(gravity[1]) - acceleration(1)),
-             [=, this, ball = corner](const Sharp& t) {
-               const auto p = seen(ball, 1, t);
-               return Gap{room - side * p.value, -side * p.rate};
-             });
+          -side * (Sharp(velocity[1]) - speed(1)), -side * (Sharp(gravity[1]) - acceleration(1)),
+          [=, this, ball = corner](const Sharp& t) {
+            const auto p = seen(ball, 1, t);
+            return Gap{room - side * p.value, -side * p.rate};
+          });
     }
     if (!at_side) return;
     // On the x or z axis, so that what is along the normal can be zero exactly.
     const int k = coin(0.5) ? 0 : 2, other = 2 - k, side = coin(0.5) ? 1 : -1;
     const Sharp room = Sharp(wide) - Sharp(radius);
-    position[other] = Real(place(other)), velocity[other] = coin(0.5) ? Real(speed(other)) : real(-0.5, 0.5);
+    position[other] = Real(place(other)),
+    velocity[other] = coin(0.5) ? Real(speed(other)) : real(-0.5, 0.5);
     position[k] = near(place(k) + side * room);
     velocity[k] = Real(speed(k)) + Real(side) * draw_approach();
     Sharp gap = room * room, rate = 0, bend = 0;
@@ -232,18 +240,18 @@ class Corners {
       bend -= 2 * (u * u + p * (Sharp(gravity[axis]) - acceleration(axis)));
     }
     expect(corner, 2, amplitude_[0] != 0 || amplitude_[2] != 0, gap, rate, bend,
-           [=, this, ball = corner](const Sharp& t) {
-             const auto x = seen(ball, 0, t), z = seen(ball, 2, t);
-             return Gap{room * room - x.value * x.value - z.value * z.value,
-                        -2 * (x.value * x.rate + z.value * z.rate)};
-           });
+        [=, this, ball = corner](const Sharp& t) {
+          const auto x = seen(ball, 0, t), z = seen(ball, 2, t);
+          return Gap{room * room - x.value * x.value - z.value * z.value,
+              -2 * (x.value * x.rate + z.value * z.rate)};
+        });
   }
 
-  /// @param moves  the wall does, along its normal: of its sines 50 digits are known at most, and what
-  /// vanishes in them is zero by the rule
+  /// @param moves  the wall does, along its normal: of its sines 50 digits are known at most, and
+  /// what vanishes in them is zero by the rule
   template <class F>
   void expect(Corner<Real>& corner, int wall, bool moves, const Sharp& gap, const Sharp& rate,
-              const Sharp& bend, const F& later) {
+      const Sharp& bend, const F& later) {
     corner.moves = corner.moves || moves;
     const bool touches = moves && abs(gap) < 1e-47;
     const Sharp zero(moves ? 1e-44 : 0);
@@ -257,8 +265,7 @@ class Corners {
   Sharp period_;
 };
 
-template <class Real>
-struct FirstImpact : Observer<Real> {
+template <class Real> struct FirstImpact : Observer<Real> {
   std::optional<Impact<Real>> first;
   double time = 0;
   int impacts = 0;
@@ -268,8 +275,7 @@ struct FirstImpact : Observer<Real> {
   }
 };
 
-template <class Real>
-class CornersTest : public ::testing::Test {};
+template <class Real> class CornersTest : public ::testing::Test {};
 using CornerScalars = ::testing::Types<double, float128, mpfr>;
 TYPED_TEST_SUITE(CornersTest, CornerScalars);
 
@@ -316,7 +322,8 @@ TYPED_TEST(CornersTest, AreDecidedAsTheirExactStatesSay) {
     const Sharp margin = first->time / 100;
     bool right = false, tie = false;
     for (const auto& e : corner.expected) {
-      // No scalar knows better than 50 digits when a ball that is pressed on a moving wall touches it.
+      // No scalar knows better than 50 digits when a ball that is pressed on a moving wall touches
+      // it.
       const bool by_rule =
           (e.moves || first->moves) && (e.time < 1e-22 || (watch.first && watch.first->by_rule));
       const bool tied_with_first = e.time - first->time <= margin || by_rule;
@@ -326,13 +333,15 @@ TYPED_TEST(CornersTest, AreDecidedAsTheirExactStatesSay) {
     tied += tie;
     by_rule += watch.first && watch.first->by_rule && !tie && !corner.moves;
     if (!right && ++wrong < 10) {
-      ADD_FAILURE() << "state " << k << ": first " << (watch.first ? watch.first->partner : -1) << " at "
-                    << watch.time << " s, expected wall " << first->wall << " at " << first->time.str(6);
+      ADD_FAILURE() << "state " << k << ": first " << (watch.first ? watch.first->partner : -1)
+                    << " at " << watch.time << " s, expected wall " << first->wall << " at "
+                    << first->time.str(6);
     }
   }
-  std::cout << states << " states, seed " << seed << ": " << none << " without an impact, " << several
-            << " with several, " << tied << " tied, " << by_rule << " others by rule, slowest "
-            << 1e3 * slowest << " ms of processor time, state " << slowest_state << "\n";
+  std::cout << states << " states, seed " << seed << ": " << none << " without an impact, "
+            << several << " with several, " << tied << " tied, " << by_rule
+            << " others by rule, slowest " << 1e3 * slowest << " ms of processor time, state "
+            << slowest_state << "\n";
   EXPECT_EQ(undecided, 0);
   EXPECT_EQ(wrong, 0);
   EXPECT_EQ(by_rule, 0);

@@ -8,8 +8,7 @@
 namespace edmill::engine {
 namespace {
 
-template <class Real>
-Real relative_closure(const casefile::CaseSpec& spec, const Real& seconds) {
+template <class Real> Real relative_closure(const casefile::CaseSpec& spec, const Real& seconds) {
   const auto built = casefile::build_case<Real>(spec);
   Simulation<Real> simulation(built.the_case, built.states, built.start);
   run::RunStatistics<Real> statistics(model::partners_of(built.the_case.mill.vessel));
@@ -41,7 +40,8 @@ TEST(EnergyClosure, DemoCaseInFloat128) {
 TEST(EnergyClosure, ElasticBallsInAStillVesselKeepTheirEnergy) {
   // Rough spheres (e_t = -1) without gravity: no wall work, no dose, energy constant to rounding.
   const auto spec = casefile::parse_case(
-      "[run]\nend_time = \"2 s\"\n[mill]\ntype = \"still\"\n[vessel]\ndiameter = \"38 mm\"\nheight = \"57 "
+      "[run]\nend_time = \"2 s\"\n[mill]\ntype = \"still\"\n[vessel]\ndiameter = \"38 mm\"\nheight "
+      "= \"57 "
       "mm\"\n"
       "[contact]\nmodel = \"constant\"\nrestitution_normal = 1\nrestitution_tangential = -1\n"
       "least_separation = \"0 m/s\"\n"

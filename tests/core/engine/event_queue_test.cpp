@@ -22,11 +22,12 @@ TEST(EventQueue, TopIsTheEarliestAndKnowsWhetherAnotherIsDue) {
       const int ball = static_cast<int>(random.uniform<double>() * balls);
       // Few distinct times, so that ties are common.
       times[ball] = {static_cast<std::int64_t>(random.uniform<double>() * 3),
-                     0.25 * static_cast<int>(random.uniform<double>() * 4)};
+          0.25 * static_cast<int>(random.uniform<double>() * 4)};
       queue.set(ball, times[ball]);
       std::vector<int> order(balls);
       for (int k = 0; k < balls; ++k) order[k] = k;
-      std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return times[a] < times[b]; });
+      std::stable_sort(
+          order.begin(), order.end(), [&](int a, int b) { return times[a] < times[b]; });
       const Instant<double> limit{static_cast<std::int64_t>(random.uniform<double>() * 3), 0.5};
       ASSERT_EQ(queue.top(), order[0]);
       ASSERT_EQ(queue.has_more_until(limit), balls > 1 && times[order[1]] <= limit);
@@ -43,7 +44,8 @@ TEST(EventQueue, LongGapsAreCrossed) {
     for (int step = 0; step < 1000; ++step) {
       // One event after the other, in the order of the balls.
       if (step % balls == 0) period += gap;
-      for (int ball = 0; ball < balls; ++ball) queue.set(ball, {period, 0.1 * ((ball + step) % balls)});
+      for (int ball = 0; ball < balls; ++ball)
+        queue.set(ball, {period, 0.1 * ((ball + step) % balls)});
       ASSERT_EQ(queue.top(), (balls - step % balls) % balls);
       ASSERT_EQ(queue.time(queue.top()), (Instant<double>{period, 0.0}));
       period += 1;
@@ -51,7 +53,8 @@ TEST(EventQueue, LongGapsAreCrossed) {
   }
 }
 
-/// Many balls, with some events beyond the horizon, some beyond all weeks, and some that never come.
+/// Many balls, with some events beyond the horizon, some beyond all weeks, and some that never
+/// come.
 TEST(EventQueue, WhatIsPutOffComesInItsOrder) {
   casefile::Random random(13);
   for (const int balls : {40, 3000, 40000}) {
@@ -68,7 +71,7 @@ TEST(EventQueue, WhatIsPutOffComesInItsOrder) {
       order.erase({times[ball], ball});
       times[ball] = draw > 0.99 ? Instant<double>::never()
                                 : Instant<double>{now.period + static_cast<std::int64_t>(whole),
-                                                  now.offset + later - whole};
+                                      now.offset + later - whole};
       order.emplace(times[ball], ball);
       queue.set(ball, times[ball]);
     };

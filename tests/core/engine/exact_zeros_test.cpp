@@ -1,7 +1,7 @@
-// Balls and walls that touch exactly, many with exactly no relative velocity along their normals, at the
-// start and after impacts without restitution: sizes and velocities are small multiples of powers of two,
-// normals have the directions of axes and of right-angled triangles with whole sides. No scalar decides such
-// contacts, exact arithmetic does.
+// Balls and walls that touch exactly, many with exactly no relative velocity along their normals,
+// at the start and after impacts without restitution: sizes and velocities are small multiples of
+// powers of two, normals have the directions of axes and of right-angled triangles with whole
+// sides. No scalar decides such contacts, exact arithmetic does.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -55,7 +55,8 @@ class WholeClusters {
         for (int& x : ball.place)
           x = below(3) == 0 ? 59 * (2 * below(2) - 1) : below(101) - 50;  // 59 touches a wall
       } else {
-        ball.place = beside(c.balls[static_cast<std::size_t>(below(static_cast<int>(c.balls.size())))]);
+        ball.place =
+            beside(c.balls[static_cast<std::size_t>(below(static_cast<int>(c.balls.size())))]);
       }
       if (fits(ball, c.balls)) c.balls.push_back(ball);
     }
@@ -65,7 +66,6 @@ class WholeClusters {
         v = kind == 0 ? 512 * (below(3) - 1) : kind == 1 ? 0 : 100 * (below(5) - 2);
     return c;
   }
-
  private:
   int below(int n) { return static_cast<int>(random_.uniform<double>() * n); }
   /// At a distance of ten units.
@@ -92,11 +92,12 @@ class WholeClusters {
   casefile::Random random_;
 };
 
-/// The time of each contact of the first flights that comes at all [s], by the bodies: ball and partner,
-/// walls from -1 downwards.
+/// The time of each contact of the first flights that comes at all [s], by the bodies: ball and
+/// partner, walls from -1 downwards.
 std::map<std::pair<int, int>, Sharp> contacts_of(const WholeCluster& c) {
   std::map<std::pair<int, int>, Sharp> times;
-  const auto add = [&](int ball, int partner, const Sharp& gap, const Sharp& rate, const Sharp& bend) {
+  const auto add = [&](int ball, int partner, const Sharp& gap, const Sharp& rate,
+                       const Sharp& bend) {
     // gap + rate t + bend t^2
     if (gap <= 0 && (rate < 0 || (rate == 0 && bend < 0))) {
       times[{ball, partner}] = 0;
@@ -106,7 +107,8 @@ std::map<std::pair<int, int>, Sharp> contacts_of(const WholeCluster& c) {
     const Sharp square = rate * rate - 4 * gap * bend;
     if (square < 0 || (square == 0 && gap > 0)) return;
     const Sharp root = sqrt(square);
-    times[{ball, partner}] = rate < 0 ? Sharp(2 * gap / (root - rate)) : Sharp((rate + root) / (-2 * bend));
+    times[{ball, partner}] =
+        rate < 0 ? Sharp(2 * gap / (root - rate)) : Sharp((rate + root) / (-2 * bend));
   };
   for (int i = 0; i < static_cast<int>(c.balls.size()); ++i) {
     const auto& ball = c.balls[static_cast<std::size_t>(i)];
@@ -118,7 +120,8 @@ std::map<std::pair<int, int>, Sharp> contacts_of(const WholeCluster& c) {
       const auto& other = c.balls[static_cast<std::size_t>(j)];
       long long r2 = 0, rv = 0, v2 = 0;
       for (std::size_t k = 0; k < 3; ++k) {
-        const long long r = ball.place[k] - other.place[k], v = ball.velocity[k] - other.velocity[k];
+        const long long r = ball.place[k] - other.place[k],
+                        v = ball.velocity[k] - other.velocity[k];
         r2 += r * r, rv += r * v, v2 += v * v;
       }
       if (rv < 0)
@@ -129,8 +132,7 @@ std::map<std::pair<int, int>, Sharp> contacts_of(const WholeCluster& c) {
   return times;
 }
 
-template <class Real>
-struct FewImpacts : Observer<Real> {
+template <class Real> struct FewImpacts : Observer<Real> {
   std::optional<Impact<Real>> first;
   int impacts = 0;
   void on_impact(const Impact<Real>& impact, Simulation<Real>& s) override {
@@ -139,8 +141,7 @@ struct FewImpacts : Observer<Real> {
   }
 };
 
-template <class Real>
-class ExactZeros : public ::testing::Test {};
+template <class Real> class ExactZeros : public ::testing::Test {};
 using ZeroScalars = ::testing::Types<double, float128, mpfr>;
 TYPED_TEST_SUITE(ExactZeros, ZeroScalars);
 
@@ -193,17 +194,17 @@ TYPED_TEST(ExactZeros, AreDecidedAsWholeNumbersSay) {
     if (watch.first) {
       const auto& i = *watch.first;
       const std::pair bodies = i.with_wall
-                                   ? std::pair{i.ball, -1 - i.partner}
-                                   : std::pair{std::max(i.ball, i.partner), std::min(i.ball, i.partner)};
+          ? std::pair{i.ball, -1 - i.partner}
+          : std::pair{std::max(i.ball, i.partner), std::min(i.ball, i.partner)};
       right = times.count(bodies) > 0 && times.at(bodies) - *first <= *first * 1e-13;
     }
     if (!right && ++wrong < 10)
-      ADD_FAILURE() << "cluster " << k << ": first " << (watch.first ? watch.first->ball : -1) << " and "
-                    << (watch.first ? watch.first->partner : -1) << ", expected a contact at "
-                    << first->str(6) << " s";
+      ADD_FAILURE() << "cluster " << k << ": first " << (watch.first ? watch.first->ball : -1)
+                    << " and " << (watch.first ? watch.first->partner : -1)
+                    << ", expected a contact at " << first->str(6) << " s";
   }
-  std::cout << count << " clusters, seed " << seed << ": " << at_once << " with an impact at once, " << none
-            << " without any\n";
+  std::cout << count << " clusters, seed " << seed << ": " << at_once << " with an impact at once, "
+            << none << " without any\n";
   EXPECT_EQ(undecided, 0);
   EXPECT_EQ(wrong, 0);
 }

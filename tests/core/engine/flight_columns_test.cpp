@@ -1,4 +1,5 @@
-// The pair filter for many flights gives for each ball the result of PairSearch for this ball alone.
+// The pair filter for many flights gives for each ball the result of PairSearch for this ball
+// alone.
 #include "engine/flight_columns.hpp"
 
 #include <gtest/gtest.h>
@@ -22,11 +23,11 @@ struct Swarm {
   std::vector<double> radii;
   Instant<double> now{7, 0.01};
 
-  Swarm(casefile::Random& random, int balls, bool alike, const Vec3<double>& gravity, double period) {
+  Swarm(
+      casefile::Random& random, int balls, bool alike, const Vec3<double>& gravity, double period) {
     const auto somewhere = [&](double size) {
       return Vec3<double>(size * (2 * random.uniform<double>() - 1),
-                          size * (2 * random.uniform<double>() - 1),
-                          size * (2 * random.uniform<double>() - 1));
+          size * (2 * random.uniform<double>() - 1), size * (2 * random.uniform<double>() - 1));
     };
     const DriveClock<double> clock(period);
     for (int i = 0; i < balls; ++i) {
@@ -39,9 +40,10 @@ struct Swarm {
         Vec3<double> direction = somewhere(1);
         direction /= norm<double>(direction);
         f.position = dynamics::position_after(other, gravity, age) +
-                     direction * ((radii[i] + radii[i - 1]) * (1 + 4e-16 * (random.uniform<double>() - 0.5)));
-        f.velocity =
-            dynamics::velocity_after(other, gravity, age) + direction * (2 * random.uniform<double>() - 1);
+            direction *
+                ((radii[i] + radii[i - 1]) * (1 + 4e-16 * (random.uniform<double>() - 0.5)));
+        f.velocity = dynamics::velocity_after(other, gravity, age) +
+            direction * (2 * random.uniform<double>() - 1);
       } else {
         const double age = 2 * period * random.uniform<double>();
         f.start = clock.after(now, -age);
@@ -52,11 +54,11 @@ struct Swarm {
   }
 };
 
-/// Delays of the contacts with candidates [s], by their balls; negative where only the search can decide.
+/// Delays of the contacts with candidates [s], by their balls; negative where only the search can
+/// decide.
 using Delays = std::map<int, double>;
 
-template <class Real>
-model::Mill<Real> mill_with(const Vec3<double>& gravity) {
+template <class Real> model::Mill<Real> mill_with(const Vec3<double>& gravity) {
   auto mill = testing::spex_mill<Real>();
   mill.gravity = vector_cast<Real>(gravity);
   return mill;
@@ -67,8 +69,7 @@ class Trial {
  public:
   Trial(casefile::Random& random, int balls, bool alike, const Vec3<double>& gravity)
       : mill_(mill_with<double>(gravity)),
-        swarm_(random, balls, alike, gravity, mill_.motion.period()),
-        alike_(alike),
+        swarm_(random, balls, alike, gravity, mill_.motion.period()), alike_(alike),
         search_(mill_, 0.002, 0.1, 10),
         wide_(mill_with<float128>(gravity), float128(0.002), float128(0.1), float128(10)),
         self_(static_cast<int>(random.uniform<double>() * balls)),
@@ -89,8 +90,8 @@ class Trial {
     list.resize(list.size() + 3);
     PairFilterResult result;
     result.make_room(count);
-    const int found = filter_pairs(swarm_.flights.data(), swarm_.radii.data(), alike_ ? 0 : 1, query(), self_,
-                                   list.data(), count, result);
+    const int found = filter_pairs(swarm_.flights.data(), swarm_.radii.data(), alike_ ? 0 : 1,
+        query(), self_, list.data(), count, result);
     return delays(result, found, [&](int place) { return list[place]; });
   }
 
@@ -118,9 +119,10 @@ class Trial {
 
   int balls() const { return static_cast<int>(swarm_.flights.size()); }
   int self() const { return self_; }
-
  private:
-  PairFilterQuery query() const { return {own_, swarm_.radii[self_], swarm_.now, search_.filter()}; }
+  PairFilterQuery query() const {
+    return {own_, swarm_.radii[self_], swarm_.now, search_.filter()};
+  }
 
   template <class BallAt>
   static Delays delays(PairFilterResult& result, int found, const BallAt& ball_at) {
@@ -141,7 +143,8 @@ class Trial {
 };
 
 TEST(FlightColumns, DecidesAsPairSearchDoes) {
-  const std::vector<Vec3<double>> gravities{testing::spex_mill<double>().gravity, {0, 0, 0}, {1, -9, 0.5}};
+  const std::vector<Vec3<double>> gravities{
+      testing::spex_mill<double>().gravity, {0, 0, 0}, {1, -9, 0.5}};
   casefile::Random random(20110101);
   std::map<std::string, int> seen;
   for (int turn = 0; turn < 400 && !::testing::Test::HasFailure(); ++turn) {
@@ -179,8 +182,8 @@ Pair filter_pair(const Vec3<double>& position, const Vec3<double>& velocity) {
   std::vector<int> list{0, 1, 0, 0, 0};
   PairFilterResult result;
   result.make_room(2);
-  const int found = filter_pairs(flights.data(), radii.data(), 0, {own, 0.002, now, search.filter()}, 0,
-                                 list.data(), 2, result);
+  const int found = filter_pairs(flights.data(), radii.data(), 0,
+      {own, 0.002, now, search.filter()}, 0, list.data(), 2, result);
   return {found, found == 0 ? 0.0 : result.delay(result.candidates()[0])};
 }
 

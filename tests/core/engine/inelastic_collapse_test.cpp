@@ -1,5 +1,5 @@
-// Zeno points: a run without a least separation speed ends with the ball, its partner and the accumulation
-// time; with one it continues.
+// Zeno points: a run without a least separation speed ends with the ball, its partner and the
+// accumulation time; with one it continues.
 #include <gtest/gtest.h>
 
 #include "spex_case.hpp"
@@ -8,10 +8,9 @@ namespace edmill::engine {
 namespace {
 
 /// A ball dropped from h onto a still wall: impacts accumulate at sqrt(2h/g) (1+e)/(1-e).
-casefile::CaseSpec drop(const std::string& gravity, const std::string& position,
-                        const std::string& least_separation) {
-  return casefile::parse_case(
-      "[run]\nend_time = \"20 s\"\ngravity = " + gravity +
+casefile::CaseSpec drop(
+    const std::string& gravity, const std::string& position, const std::string& least_separation) {
+  return casefile::parse_case("[run]\nend_time = \"20 s\"\ngravity = " + gravity +
           "\n[mill]\ntype = \"still\"\n[vessel]\ndiameter = \"8 m\"\nheight = \"8 m\"\n"
           "[contact]\nrestitution = 0.6\nfriction = 0\nleast_separation = \"" +
           least_separation + "\"\n[[ball]]\ndiameter = \"1 m\"\nposition = " + position + "\n",
@@ -35,8 +34,10 @@ void expect_collapse(const casefile::CaseSpec& spec, int wall, const Real& toler
 }
 
 TEST(InelasticCollapse, DropOnACapEndsAtTheClosedFormTime) {
-  expect_collapse<double>(drop("[\"-1\", \"0\", \"0\"]", "[\"-0.5 m\", \"0.1 m\", \"0\"]", "0 m/s"), 1, 1e-9);
-  expect_collapse<double>(drop("[\"1\", \"0\", \"0\"]", "[\"0.5 m\", \"0.1 m\", \"0\"]", "0 m/s"), 0, 1e-9);
+  expect_collapse<double>(
+      drop("[\"-1\", \"0\", \"0\"]", "[\"-0.5 m\", \"0.1 m\", \"0\"]", "0 m/s"), 1, 1e-9);
+  expect_collapse<double>(
+      drop("[\"1\", \"0\", \"0\"]", "[\"0.5 m\", \"0.1 m\", \"0\"]", "0 m/s"), 0, 1e-9);
 }
 
 TEST(InelasticCollapse, DropOnTheCylinderEndsAtTheClosedFormTime) {
@@ -44,14 +45,15 @@ TEST(InelasticCollapse, DropOnTheCylinderEndsAtTheClosedFormTime) {
 }
 
 TEST(InelasticCollapse, Float128ComesCloser) {
-  expect_collapse<float128>(drop("[\"-1\", \"0\", \"0\"]", "[\"-0.5 m\", \"0.1 m\", \"0\"]", "0 m/s"), 1,
-                            float128("1e-18"));
+  expect_collapse<float128>(
+      drop("[\"-1\", \"0\", \"0\"]", "[\"-0.5 m\", \"0.1 m\", \"0\"]", "0 m/s"), 1,
+      float128("1e-18"));
 }
 
 TEST(InelasticCollapse, SingleBallOfThesisChapterFourCollapses) {
   const auto spec = casefile::parse_case(
       testing::spex_text("end_time = \"1 s\"", "restitution = 0.5\nleast_separation = \"0 m/s\"",
-                         testing::batch(1, "9.52 mm")),
+          testing::batch(1, "9.52 mm")),
       "chapter4.toml");
   const auto built = casefile::build_case<double>(spec);
   Simulation<double> simulation(built.the_case, built.states, built.start);
@@ -61,15 +63,18 @@ TEST(InelasticCollapse, SingleBallOfThesisChapterFourCollapses) {
 }
 
 TEST(InelasticCollapse, ThreeBallsOnALineCollapse) {
-  // Two still balls close together and a third coming in, e well below the three-ball threshold 7 - 4
-  // sqrt(3).
+  // Two still balls close together and a third coming in, e well below the three-ball threshold 7 -
+  // 4 sqrt(3).
   const auto spec = casefile::parse_case(
-      "[run]\nend_time = \"50 s\"\n[mill]\ntype = \"still\"\n[vessel]\ndiameter = \"8 m\"\nheight = \"20 "
+      "[run]\nend_time = \"50 s\"\n[mill]\ntype = \"still\"\n[vessel]\ndiameter = \"8 m\"\nheight "
+      "= \"20 "
       "m\"\n"
       "[contact]\nrestitution = 0.02\nfriction = 0\nleast_separation = \"0 m/s\"\n"
-      "[[ball]]\ndiameter = \"1 m\"\nposition = [\"-3 m\", \"0\", \"0\"]\nvelocity = [\"1\", \"0\", \"0\"]\n"
+      "[[ball]]\ndiameter = \"1 m\"\nposition = [\"-3 m\", \"0\", \"0\"]\nvelocity = [\"1\", "
+      "\"0\", \"0\"]\n"
       "[[ball]]\ndiameter = \"1 m\"\nposition = [\"0 m\", \"0\", \"0\"]\n"
-      "[[ball]]\ndiameter = \"1 m\"\nposition = [\"3 m\", \"0\", \"0\"]\nvelocity = [\"-1\", \"0\", \"0\"]\n",
+      "[[ball]]\ndiameter = \"1 m\"\nposition = [\"3 m\", \"0\", \"0\"]\nvelocity = [\"-1\", "
+      "\"0\", \"0\"]\n",
       "three.toml");
   const auto built = casefile::build_case<double>(spec);
   Simulation<double> simulation(built.the_case, built.states, built.start);

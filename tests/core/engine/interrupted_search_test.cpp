@@ -1,5 +1,5 @@
-// A search that does not end obeys the flag of interruption, and the run goes on from there as if nothing had
-// been.
+// A search that does not end obeys the flag of interruption, and the run goes on from there as if
+// nothing had been.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -15,8 +15,7 @@
 namespace edmill::engine {
 namespace {
 
-template <class Real>
-struct Times : Observer<Real> {
+template <class Real> struct Times : Observer<Real> {
   std::vector<std::pair<double, int>> impacts;
   void on_impact(const Impact<Real>& impact, Simulation<Real>& s) override {
     impacts.emplace_back(static_cast<double>(s.seconds()), impact.ball);

@@ -18,9 +18,11 @@ struct Seen : Observer<float128> {
 
 std::vector<Impact<float128>> impacts_in(const std::string& vessel) {
   const auto the_case = Case::parse(
-      "[run]\nend_time = \"1 s\"\ngravity = \"9.8 m/s2\"\n[mill]\ntype = \"planetary\"\nradius = \"75 mm\"\n"
+      "[run]\nend_time = \"1 s\"\ngravity = \"9.8 m/s2\"\n[mill]\ntype = \"planetary\"\nradius = "
+      "\"75 mm\"\n"
       "speed = \"300 rpm\"\nratio = -2\n[contact]\nrestitution = 0.6\nfriction = 0.3\n"
-      "[[balls]]\ncount = 6\ndiameter = \"8 mm\"\n[vessel]\ndiameter = \"45 mm\"\nheight = \"40 mm\"\n" +
+      "[[balls]]\ncount = 6\ndiameter = \"8 mm\"\n[vessel]\ndiameter = \"45 mm\"\nheight = \"40 "
+      "mm\"\n" +
       vessel);
   Run<float128> run(the_case);
   Seen seen;
@@ -43,7 +45,8 @@ TEST(LargeBalls, AreInARoundedCylinderAsInASharpOne) {
       EXPECT_NEAR(static_cast<double>(a.time - b.time), 0, 1e-14) << edge << ", impact " << k;
       EXPECT_NEAR(static_cast<double>(a.approach_speed - b.approach_speed), 0, 1e-12)
           << edge << ", impact " << k;
-      EXPECT_NEAR(static_cast<double>(a.milling_dose - b.milling_dose), 0, 1e-14) << edge << ", impact " << k;
+      EXPECT_NEAR(static_cast<double>(a.milling_dose - b.milling_dose), 0, 1e-14)
+          << edge << ", impact " << k;
     }
   }
 }

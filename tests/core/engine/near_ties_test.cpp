@@ -1,5 +1,6 @@
-// Two contacts of one ball at nearly, or exactly, the same time: the first one collides, by the exact answer
-// in rationals. Still vessel, no gravity, motion along the axes, so that every contact time is a rational.
+// Two contacts of one ball at nearly, or exactly, the same time: the first one collides, by the
+// exact answer in rationals. Still vessel, no gravity, motion along the axes, so that every contact
+// time is a rational.
 #include <gtest/gtest.h>
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -21,8 +22,7 @@ int states_of_each_kind() {
 }
 
 /// Random numbers that a scalar holds exactly, as rationals.
-template <class Real>
-class Exact {
+template <class Real> class Exact {
  public:
   explicit Exact(std::uint64_t seed) : random_(seed) {}
 
@@ -41,8 +41,9 @@ class Exact {
     if (n == 0) return 0;
     const int size = static_cast<int>(msb(n)) - static_cast<int>(msb(denominator(value)));
     const int shift = std::numeric_limits<Real>::digits - 2 - size;  // so that it certainly fits
-    const cpp_rational scaled = shift >= 0 ? cpp_rational(value * cpp_rational(cpp_int(1) << shift))
-                                           : cpp_rational(value / cpp_rational(cpp_int(1) << -shift));
+    const cpp_rational scaled = shift >= 0
+        ? cpp_rational(value * cpp_rational(cpp_int(1) << shift))
+        : cpp_rational(value / cpp_rational(cpp_int(1) << -shift));
     const cpp_int whole = numerator(scaled) / denominator(scaled);
     return shift >= 0 ? cpp_rational(whole, cpp_int(1) << shift) : cpp_rational(whole << -shift);
   }
@@ -56,7 +57,6 @@ class Exact {
     for (cpp_int d = denominator(value); d > 1; d >>= 1) sum /= 2;
     return value < 0 ? Real(-sum) : sum;
   }
-
  private:
   std::mt19937_64 random_;
 };
@@ -79,14 +79,15 @@ struct First {
   std::uint64_t order_decisions;
 };
 
-template <class Real>
-First first_impact(const Scene& scene) {
+template <class Real> First first_impact(const Scene& scene) {
   const auto number = [](const cpp_rational& x) { return Exact<Real>::number(x); };
   model::Case<Real> the_case;
   the_case.mill.motion = model::SpexMotion<Real>(Real(0), Real(0), Real(0), Real(1) / 16);
-  the_case.mill.vessel = model::CylinderVessel<Real>{number(scene.vessel_radius), number(scene.half_height)};
+  the_case.mill.vessel =
+      model::CylinderVessel<Real>{number(scene.vessel_radius), number(scene.half_height)};
   the_case.mill.gravity = {Real(0), Real(0), Real(0)};
-  the_case.mill.ball_ball.law = the_case.mill.ball_wall.law = model::WaltonBraun<Real>{.normal = Real(1) / 2};
+  the_case.mill.ball_ball.law = the_case.mill.ball_wall.law =
+      model::WaltonBraun<Real>{.normal = Real(1) / 2};
   std::vector<model::BallState<Real>> states;
   for (const auto& ball : scene.balls) {
     the_case.balls.push_back({number(scene.radius), Real(1), Real(2) / 5});
@@ -121,7 +122,7 @@ struct Score {
 
   /// @param right  whether the first impact is the one that is exactly earlier
   void take(const cpp_rational& one, const cpp_rational& other, bool one_came, bool other_came,
-            const First& first) {
+      const First& first) {
     const double difference = static_cast<double>(abs(cpp_rational(one - other)));
     ++states;
     escalated += first.order_decisions > 0;
@@ -135,10 +136,12 @@ struct Score {
     wrong += one < other ? !one_came : !other_came;
     marked_others += first.by_rule;
   }
-  /// @param exactly  exact arithmetic decides, as walls at rest are planes; else a wider scalar does
+  /// @param exactly  exact arithmetic decides, as walls at rest are planes; else a wider scalar
+  /// does
   void expect_all_right(double close, bool exactly = false) const {
     std::cout << states << " states: " << wrong << " wrong, " << escalated << " by a wider scalar, "
-              << exact_ties << " exact ties, others " << smallest << " to " << largest << " s apart\n";
+              << exact_ties << " exact ties, others " << smallest << " to " << largest
+              << " s apart\n";
     EXPECT_EQ(wrong, 0);
     EXPECT_EQ(unmarked_ties, 0);
     EXPECT_EQ(marked_others, 0);
@@ -151,13 +154,12 @@ struct Score {
 };
 
 /// The scene's sizes, and a ball at rest in the middle.
-template <class Real>
-Scene empty_scene(Exact<Real>& random) {
-  return {random.draw(cpp_rational(1, 1000), cpp_rational(1, 100)), random.draw(1, 1), random.draw(1, 1), {}};
+template <class Real> Scene empty_scene(Exact<Real>& random) {
+  return {random.draw(cpp_rational(1, 1000), cpp_rational(1, 100)), random.draw(1, 1),
+      random.draw(1, 1), {}};
 }
 
-template <class Real>
-class NearTies : public ::testing::Test {
+template <class Real> class NearTies : public ::testing::Test {
  public:
   /// Differences in time are about a rounding of a position over a speed [s].
   static double close() { return 4096 * static_cast<double>(epsilon<Real>()); }
@@ -179,8 +181,8 @@ TYPED_TEST(NearTies, OfTwoPairsTheEarlierCollides) {
                        right_speed = random.draw(cpp_rational(1, 2), 4);
     const cpp_rational left = random.draw(x - sum - cpp_rational(1, 2), cpp_rational(2, 5));
     const cpp_rational left_time = (x - left - sum) / (left_speed - v);
-    // At a distance to arrive at the same time, up to rounding; the gap is `left_time` times the closing
-    // speed.
+    // At a distance to arrive at the same time, up to rounding; the gap is `left_time` times the
+    // closing speed.
     const cpp_rational right = random.rounded(x + sum + left_time * (right_speed + v));
     const cpp_rational right_time = (right - x - sum) / (right_speed + v);
     const int middle = random.below(3), one = (middle + 1) % 3, two = (middle + 2) % 3;
@@ -191,7 +193,7 @@ TYPED_TEST(NearTies, OfTwoPairsTheEarlierCollides) {
     const First first = first_impact<Real>(s);
     const auto is = [&](int a) {
       return !first.with_wall && first.ball + first.partner == a + middle &&
-             (first.ball == a || first.partner == a);
+          (first.ball == a || first.partner == a);
     };
     score.take(left_time, right_time, is(one), is(two), first);
   }
@@ -217,12 +219,13 @@ TYPED_TEST(NearTies, OfAPairAndAWallTheEarlierCollides) {
     const int sign = random.coin() ? 1 : -1, ball = random.below(2);
     s.balls.resize(2);
     s.balls[ball].position[axis] = sign * x, s.balls[ball].velocity[axis] = sign * speed;
-    s.balls[1 - ball].position[axis] = sign * behind, s.balls[1 - ball].velocity[axis] = sign * faster;
+    s.balls[1 - ball].position[axis] = sign * behind,
+                s.balls[1 - ball].velocity[axis] = sign * faster;
     const First first = first_impact<Real>(s);
     // vessel frame: y is -X
     const int wall_id = cap ? (sign > 0 ? 0 : 1) : 2;
-    score.take(wall_time, pair_time, first.with_wall && first.ball == ball && first.partner == wall_id,
-               !first.with_wall, first);
+    score.take(wall_time, pair_time,
+        first.with_wall && first.ball == ball && first.partner == wall_id, !first.with_wall, first);
   }
   score.expect_all_right(this->close());
 }
@@ -246,20 +249,19 @@ TYPED_TEST(NearTies, OfTwoWallsTheEarlierCollides) {
     s.balls.push_back({{sign * x, 0, z}, {sign * along, 0, across}});
     const First first = first_impact<Real>(s);
     score.take(cap_time, side_time, first.with_wall && first.partner == (sign > 0 ? 0 : 1),
-               first.with_wall && first.partner == 2, first);
+        first.with_wall && first.partner == 2, first);
   }
   score.expect_all_right(this->close(), true);
 }
 
-template <class Real>
-class ExactTies : public ::testing::Test {};
+template <class Real> class ExactTies : public ::testing::Test {};
 using AllScalars = ::testing::Types<double, float128, mpfr>;
 TYPED_TEST_SUITE(ExactTies, AllScalars);
 
 /// Two balls hit a third at once from both sides: lower numbers first, and the impact says so.
 TYPED_TEST(ExactTies, OfTwoPairsAreMarked) {
-  const Scene s{
-      cpp_rational(1, 8), 2, 2, {{{-1, 0, 0}, {1, 0, 0}}, {{1, 0, 0}, {-1, 0, 0}}, {{0, 0, 0}, {0, 0, 0}}}};
+  const Scene s{cpp_rational(1, 8), 2, 2,
+      {{{-1, 0, 0}, {1, 0, 0}}, {{1, 0, 0}, {-1, 0, 0}}, {{0, 0, 0}, {0, 0, 0}}}};
   const First first = first_impact<TypeParam>(s);
   EXPECT_TRUE(first.by_rule);
   EXPECT_FALSE(first.with_wall);
@@ -269,10 +271,8 @@ TYPED_TEST(ExactTies, OfTwoPairsAreMarked) {
 
 TYPED_TEST(ExactTies, OfAPairAndAWallAreMarked) {
   // The front ball is at the cap after 1/2 s, when the one behind has caught up.
-  const Scene s{cpp_rational(1, 8),
-                2,
-                cpp_rational(13, 8),
-                {{{cpp_rational(-1, 4), 0, 0}, {3, 0, 0}}, {{1, 0, 0}, {1, 0, 0}}}};
+  const Scene s{cpp_rational(1, 8), 2, cpp_rational(13, 8),
+      {{{cpp_rational(-1, 4), 0, 0}, {3, 0, 0}}, {{1, 0, 0}, {1, 0, 0}}}};
   const First first = first_impact<TypeParam>(s);
   EXPECT_TRUE(first.by_rule);
   EXPECT_TRUE(first.with_wall);
@@ -280,7 +280,8 @@ TYPED_TEST(ExactTies, OfAPairAndAWallAreMarked) {
 }
 
 TYPED_TEST(ExactTies, OfTwoWallsAreMarked) {
-  const Scene s{cpp_rational(1, 8), cpp_rational(9, 8), cpp_rational(9, 8), {{{0, 0, 0}, {1, 0, 1}}}};
+  const Scene s{
+      cpp_rational(1, 8), cpp_rational(9, 8), cpp_rational(9, 8), {{{0, 0, 0}, {1, 0, 1}}}};
   const First first = first_impact<TypeParam>(s);
   EXPECT_TRUE(first.by_rule);
   EXPECT_TRUE(first.with_wall);
@@ -304,11 +305,9 @@ TYPED_TEST(ExactTies, OfMoreContactsThanABallKeepsAreMarked) {
 
 /// Contacts of different balls at one time commute: nothing is marked.
 TYPED_TEST(ExactTies, OfDifferentBallsAreNoTies) {
-  const Scene s{
-      cpp_rational(1, 8),
-      2,
-      2,
-      {{{-1, 0, 0}, {1, 0, 0}}, {{0, 0, 0}, {0, 0, 0}}, {{-1, 0, 1}, {1, 0, 0}}, {{0, 0, 1}, {0, 0, 0}}}};
+  const Scene s{cpp_rational(1, 8), 2, 2,
+      {{{-1, 0, 0}, {1, 0, 0}}, {{0, 0, 0}, {0, 0, 0}}, {{-1, 0, 1}, {1, 0, 0}},
+          {{0, 0, 1}, {0, 0, 0}}}};
   EXPECT_FALSE(first_impact<TypeParam>(s).by_rule);
 }
 

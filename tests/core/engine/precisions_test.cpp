@@ -1,5 +1,5 @@
-// Runs from one explicit state in double, float128 and mpfr50 have one sequence of events until rounding
-// separates them.
+// Runs from one explicit state in double, float128 and mpfr50 have one sequence of events until
+// rounding separates them.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -12,8 +12,7 @@ namespace {
 
 template <class Real>
 std::vector<Impact<Real>> impacts_of(const casefile::CaseSpec& spec,
-                                     const std::vector<model::BallState<double>>& states,
-                                     std::uint64_t count) {
+    const std::vector<model::BallState<double>>& states, std::uint64_t count) {
   auto built = casefile::build_case<Real>(spec);
   // Balls and states of the double case, digit for digit.
   const auto in_double = casefile::build_case<double>(spec);
@@ -30,8 +29,7 @@ std::vector<Impact<Real>> impacts_of(const casefile::CaseSpec& spec,
   return recorder.impacts;
 }
 
-template <class A, class B>
-bool same_event(const Impact<A>& a, const Impact<B>& b) {
+template <class A, class B> bool same_event(const Impact<A>& a, const Impact<B>& b) {
   const auto key = [](const auto& i) {
     const int low = i.with_wall ? i.ball : std::min(i.ball, i.partner);
     const int high = i.with_wall ? i.partner : std::max(i.ball, i.partner);
@@ -56,12 +54,13 @@ TEST(Precisions, EventSequencesAgreeUntilRoundingSeparatesThem) {
   const auto wide = impacts_of<mpfr>(spec, states, count);
 
   const auto first = common_length(narrow, quad), second = common_length(quad, wide);
-  std::cout << "double and float128 have " << first << " events in common, float128 and mpfr50 " << second
-            << " (of " << count << ", 28 balls)\n";
+  std::cout << "double and float128 have " << first << " events in common, float128 and mpfr50 "
+            << second << " (of " << count << ", 28 balls)\n";
   EXPECT_GT(first, 28u);
   EXPECT_GT(second, first + first / 2);
 
-  // Rounding is the only difference: float128 and mpfr50 times of each ball's first five collisions agree.
+  // Rounding is the only difference: float128 and mpfr50 times of each ball's first five collisions
+  // agree.
   std::map<int, int> collisions;
   const DriveClock<mpfr> clock(casefile::build_mill<mpfr>(spec).motion.period());
   const DriveClock<float128> quad_clock(casefile::build_mill<float128>(spec).motion.period());
@@ -73,7 +72,8 @@ TEST(Precisions, EventSequencesAgreeUntilRoundingSeparatesThem) {
     const int count_two = impact.with_wall ? count_one : ++collisions[impact.partner];
     if (count_one > 5 && count_two > 5) continue;
     ++compared;
-    const mpfr difference = abs(mpfr(quad_clock.seconds(impact.time)) - clock.seconds(wide[k].time));
+    const mpfr difference =
+        abs(mpfr(quad_clock.seconds(impact.time)) - clock.seconds(wide[k].time));
     worst = difference > worst ? difference : worst;
   }
   std::cout << compared << " events compared, worst difference " << worst.str(3) << " s\n";
@@ -83,8 +83,7 @@ TEST(Precisions, EventSequencesAgreeUntilRoundingSeparatesThem) {
 
 /// Radii that no scalar holds exactly: a value that passed through a narrower scalar would show in
 /// the contacts.
-template <class Real>
-Real deepest_overlap(double end) {
+template <class Real> Real deepest_overlap(double end) {
   const auto built = casefile::build_case<Real>(testing::demo_spec());
   Simulation<Real> simulation(built.the_case, built.states, built.start);
   simulation.run_until(simulation.clock().at(Real(end)));
@@ -95,7 +94,8 @@ Real deepest_overlap(double end) {
 TEST(Precisions, OverlapsAreOfTheRoundingOfTheScalar) {
   const float128 quad = deepest_overlap<float128>(0.1);
   const mpfr wide = deepest_overlap<mpfr>(0.1);
-  std::cout << "deepest overlap: float128 " << to_text(quad) << " m, mpfr50 " << to_text(wide) << " m\n";
+  std::cout << "deepest overlap: float128 " << to_text(quad) << " m, mpfr50 " << to_text(wide)
+            << " m\n";
   // 1 m represents the reach of the mill, 16 roundings of it a contact.
   EXPECT_LT(quad, 16 * epsilon<float128>());
   EXPECT_LT(wide, 16 * epsilon<mpfr>());

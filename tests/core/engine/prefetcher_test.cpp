@@ -31,8 +31,8 @@ struct Record {
 
 TEST(Prefetcher, ChangesNoBitOfARunOf2000Balls) {
   const auto spec = casefile::read_case(EDMILL_SOURCE_DIR "/docs/examples/demo.toml",
-                                        {"balls.0.count=2000", "balls.0.diameter=2.36 mm",
-                                         "balls.0.gap_ball=0.2 mm", "contact.restitution=0.8"});
+      {"balls.0.count=2000", "balls.0.diameter=2.36 mm", "balls.0.gap_ball=0.2 mm",
+          "contact.restitution=0.8"});
   const auto built = casefile::build_case<double>(spec);
   ASSERT_GT(spec.ball_count(), static_cast<std::size_t>(Prefetcher<double>::worthwhile));
   const Record with(built, true), without(built, false);

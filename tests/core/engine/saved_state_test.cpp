@@ -1,4 +1,5 @@
-// A saved state that somebody has changed is refused, or the run goes on with it: nothing else happens.
+// A saved state that somebody has changed is refused, or the run goes on with it: nothing else
+// happens.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -25,29 +26,16 @@ std::string changed(std::string bytes, std::mt19937_64& random) {
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
   for (std::size_t k = 1 + below(3); k > 0; --k) {
     const std::size_t at = below(bytes.size() - 8);
-    const double numbers[] = {0, -1, 1e300, -1e300, std::numeric_limits<double>::quiet_NaN(), 1e-9, 1e12, 3};
-    const std::int64_t integers[] = {0,
-                                     -1,
-                                     1,
-                                     1 << 20,
-                                     std::numeric_limits<std::int64_t>::max(),
-                                     std::numeric_limits<std::int64_t>::min()};
+    const double numbers[] = {
+        0, -1, 1e300, -1e300, std::numeric_limits<double>::quiet_NaN(), 1e-9, 1e12, 3};
+    const std::int64_t integers[] = {0, -1, 1, 1 << 20, std::numeric_limits<std::int64_t>::max(),
+        std::numeric_limits<std::int64_t>::min()};
     switch (below(6)) {
-      case 0:
-        bytes[at] = static_cast<char>(bytes[at] ^ (1 << below(8)));
-        break;
-      case 1:
-        bytes[at] = static_cast<char>(random());
-        break;
-      case 2:
-        std::memcpy(&bytes[at], &numbers[below(8)], 8);
-        break;
-      case 3:
-        std::memcpy(&bytes[at], &integers[below(6)], 8);
-        break;
-      case 4:
-        std::memcpy(&bytes[at], &bytes[below(bytes.size() - 8)], 8);
-        break;
+      case 0: bytes[at] = static_cast<char>(bytes[at] ^ (1 << below(8))); break;
+      case 1: bytes[at] = static_cast<char>(random()); break;
+      case 2: std::memcpy(&bytes[at], &numbers[below(8)], 8); break;
+      case 3: std::memcpy(&bytes[at], &integers[below(6)], 8); break;
+      case 4: std::memcpy(&bytes[at], &bytes[below(bytes.size() - 8)], 8); break;
       default:
         if (below(10) == 0) bytes.erase(at, 1 + below(8));
     }
@@ -94,9 +82,10 @@ void try_changes(const std::string& text, const char* name, int rounds) {
 
 const std::string demo =
     testing::spex_text("end_time = \"1 s\"", "restitution = 0.6", testing::batch(12, "6 mm", ""));
-const std::string crowd = testing::spex_text(
-    "end_time = \"1 s\"", "restitution = 0.6\nleast_separation = \"0 m/s\"",
-    testing::batch(150, "2 mm", "gap_ball = \"0.1 mm\"\ngap_wall = \"0.1 mm\"\nrandom_speed = \"1 m/s\"\n"));
+const std::string crowd =
+    testing::spex_text("end_time = \"1 s\"", "restitution = 0.6\nleast_separation = \"0 m/s\"",
+        testing::batch(150, "2 mm",
+            "gap_ball = \"0.1 mm\"\ngap_wall = \"0.1 mm\"\nrandom_speed = \"1 m/s\"\n"));
 
 TEST(SavedState, ChangedByOthers) { try_changes(demo, "demo.toml", 3000); }
 TEST(SavedState, ChangedByOthersOfManyBalls) { try_changes(crowd, "crowd.toml", 2000); }

@@ -1,5 +1,5 @@
-// Contact laws of the normal restitution against what they stand for: the equation of motion of the contact,
-// the energy of loading and unloading, the table.
+// Contact laws of the normal restitution against what they stand for: the equation of motion of the
+// contact, the energy of loading and unloading, the table.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,8 +13,8 @@ namespace {
 
 constexpr CoulombSlip<double> no_slip{0, -1};
 
-/// What is left of the approach speed 1 in x" + x^(3/2) + b x^(1/2) x' = 0 when the force vanishes, by
-/// Runge-Kutta of the fourth order.
+/// What is left of the approach speed 1 in x" + x^(3/2) + b x^(1/2) x' = 0 when the force vanishes,
+/// by Runge-Kutta of the fourth order.
 double restitution_by_integration(double b) {
   const auto force = [b](double x, double v) {
     const double root = std::sqrt(std::max(x, 0.0));
@@ -41,15 +41,15 @@ TEST(FifthRoot, IsWithinThreeRoundingsOfAWiderOne) {
     const mpfr50 root = numerics::fifth_root(mpfr50(x));
     EXPECT_LE(abs(mpfr50(root * root * root * root * root / x - 1)), 20 * epsilon<mpfr50>()) << x;
     EXPECT_LE(std::abs(static_cast<double>(mpfr50(numerics::fifth_root(x) / root - 1))),
-              3 * epsilon<double>())
+        3 * epsilon<double>())
         << x;
   }
   EXPECT_EQ(numerics::fifth_root(0.0), 0);
   EXPECT_EQ(numerics::fifth_root(1.0), 1);
 }
 
-// The rational approximation is within 0.009 of the equation of motion for v* up to 2, where e_n is 0.09; for
-// v* up to 0.6, e_n from 1 to 0.68, within 0.001.
+// The rational approximation is within 0.009 of the equation of motion for v* up to 2, where e_n is
+// 0.09; for v* up to 0.6, e_n from 1 to 0.68, within 0.001.
 TEST(Viscoelastic, FollowsTheEquationOfMotion) {
   for (const double v : {0.05, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.3, 1.6, 2.0}) {
     const double integrated = restitution_by_integration(v * v);
@@ -65,10 +65,12 @@ TEST(Viscoelastic, BeginsAsTheSeriesDoes) {
   }
 }
 
-// In SI units, for two bodies and a wall: the equation of motion itself with the stiffness of Hertz.
+// In SI units, for two bodies and a wall: the equation of motion itself with the stiffness of
+// Hertz.
 TEST(Viscoelastic, ScalesWithBodiesAndSpeed) {
   const Viscoelastic<double> law{no_slip, 2e8, 4e-6};
-  for (const auto& bodies : {ContactBodies<double>{4e-4, 2.4e-3}, ContactBodies<double>{2e-4, 2e-3, 3e-3}})
+  for (const auto& bodies :
+      {ContactBodies<double>{4e-4, 2.4e-3}, ContactBodies<double>{2e-4, 2e-3, 3e-3}})
     for (const double speed : {0.01, 0.5, 3.0}) {
       const double radius = bodies.with_wall() ? 2.4e-3 : 1.2e-3;
       const double k = 4.0 / 3 * 2e8 * std::sqrt(radius) / bodies.effective_mass;
@@ -78,8 +80,9 @@ TEST(Viscoelastic, ScalesWithBodiesAndSpeed) {
   EXPECT_EQ(law.restitution(0, {4e-4, 2.4e-3}), 1);
 }
 
-// Loading by Hertz up to the yield pressure and by a constant pressure beyond; unloading by Hertz with the
-// flattened radius. The restitution is the root of what is given back over what was put in.
+// Loading by Hertz up to the yield pressure and by a constant pressure beyond; unloading by Hertz
+// with the flattened radius. The restitution is the root of what is given back over what was put
+// in.
 TEST(ElasticPlastic, GivesBackTheEnergyOfUnloading) {
   const double modulus = 1e11, pressure = 2e9, radius = 2e-3, mass = 5e-4, pi = std::acos(-1.0);
   const ElasticPlastic<double> law{no_slip, modulus, pressure};
@@ -91,14 +94,16 @@ TEST(ElasticPlastic, GivesBackTheEnergyOfUnloading) {
   for (const double ratio : {1.0001, 1.5, 3.0, 10.0, 100.0}) {
     const double speed = ratio * yield, put_in = mass / 2 * speed * speed;
     const double slope = pi * pressure * radius;
-    const double beyond = (-yield_force + std::sqrt(yield_force * yield_force +
-                                                    2 * slope * (put_in - 0.4 * yield_force * depth))) /
-                          slope;
+    const double beyond = (-yield_force +
+                              std::sqrt(yield_force * yield_force +
+                                  2 * slope * (put_in - 0.4 * yield_force * depth))) /
+        slope;
     const double force = yield_force + slope * beyond;
     const double flattened =
         4 * modulus / (3 * force) * std::pow((2 * force + yield_force) / (2 * pi * pressure), 1.5);
     const double back = std::pow(force / (4.0 / 3 * modulus * std::sqrt(flattened)), 2.0 / 3);
-    EXPECT_NEAR(law.restitution(speed, bodies), std::sqrt(0.4 * force * back / put_in), 1e-12) << ratio;
+    EXPECT_NEAR(law.restitution(speed, bodies), std::sqrt(0.4 * force * back / put_in), 1e-12)
+        << ratio;
   }
   EXPECT_EQ(law.restitution(yield * 0.999, bodies), 1);
 }
@@ -110,7 +115,8 @@ TEST(ElasticPlastic, FallsWithTheFourthRootOfTheSpeed) {
   EXPECT_NEAR(at / beyond, 2, 1e-3);
 }
 
-// (6 3^(1/2) / 5)^(1/2) (2 (6/5)^(1/2))^(-1/4) = 1.1850: the limit of e_n (v/v_y)^(1/4) at large speed.
+// (6 3^(1/2) / 5)^(1/2) (2 (6/5)^(1/2))^(-1/4) = 1.1850: the limit of e_n (v/v_y)^(1/4) at large
+// speed.
 TEST(ElasticPlastic, HasTheFactorOfTheClosedForm) {
   const ElasticPlastic<double> law{no_slip, 1e11, 1e8};
   const ContactBodies<double> bodies{5e-4, 2e-3};
@@ -119,7 +125,8 @@ TEST(ElasticPlastic, HasTheFactorOfTheClosedForm) {
 }
 
 TEST(RestitutionBySpeed, IsTheTableAndMonotoneBetweenItsPoints) {
-  const RestitutionBySpeed<double> law{no_slip, {{{0.1, 0.9}}, {{1, 0.7}}, {{2, 0.65}}, {{8, 0.25}}}};
+  const RestitutionBySpeed<double> law{
+      no_slip, {{{0.1, 0.9}}, {{1, 0.7}}, {{2, 0.65}}, {{8, 0.25}}}};
   EXPECT_EQ(law.restitution(0), 0.9);
   for (const auto& point : law.points) EXPECT_EQ(law.restitution(point[0]), point[1]);
   EXPECT_EQ(law.restitution(100), 0.25);
@@ -135,7 +142,9 @@ TEST(RestitutionBySpeed, IsTheTableAndMonotoneBetweenItsPoints) {
 TEST(RestitutionBySlip, IsTheTableAndSlidesBeyondIt) {
   const RestitutionBySlip<double> law{0.6, {{{0, -0.5}}, {{1, -0.4}}, {{4, 0.2}}}};
   const double approach = 2, change = (1 + 0.6) * approach, compliance = 3.5;
-  const auto at = [&](double ratio) { return law.restitution_of_slip(change, ratio * approach, compliance); };
+  const auto at = [&](double ratio) {
+    return law.restitution_of_slip(change, ratio * approach, compliance);
+  };
   EXPECT_EQ(law.restitution(3), 0.6);
   for (const auto& point : law.points) EXPECT_NEAR(at(point[0]), point[1], 1e-15);
   EXPECT_NEAR(at(2.5), -0.1, 1e-15);
@@ -149,7 +158,8 @@ TEST(RestitutionBySlip, IsTheTableAndSlidesBeyondIt) {
 
 // Table 5.3 of the thesis at its points; between them the plain mean.
 TEST(PowderLoad, IsTheTableOfTheThesis) {
-  const double table[3][4] = {{0.56, 0.54, 0.53, 0.50}, {0.64, 0.60, 0.56, 0.52}, {0.80, 0.74, 0.64, 0.55}};
+  const double table[3][4] = {
+      {0.56, 0.54, 0.53, 0.50}, {0.64, 0.60, 0.56, 0.52}, {0.80, 0.74, 0.64, 0.55}};
   const double ratios[3] = {2.5, 5, 10}, millimetres[4] = {2.36, 3.16, 4.76, 9.52};
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 4; ++column) {

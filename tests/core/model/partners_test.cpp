@@ -10,7 +10,7 @@ namespace edmill::model {
 namespace {
 
 void expect(const PartnerInfo& partner, const std::string& key, const std::string& label,
-            const std::string& meaning) {
+    const std::string& meaning) {
   EXPECT_EQ(partner.key, key);
   EXPECT_EQ(partner.label, label);
   EXPECT_EQ(partner.meaning, meaning);
@@ -29,13 +29,16 @@ TEST(Partners, OfACylinder) {
 
 TEST(Partners, OfAVesselWithSixWalls) {
   const struct {
-    std::vector<WallInfo> walls() const { return std::vector<WallInfo>(6, {"side", "a side of the box"}); }
+    std::vector<WallInfo> walls() const {
+      return std::vector<WallInfo>(6, {"side", "a side of the box"});
+    }
   } box;
   const auto partners = partners_of(box);
   EXPECT_EQ(partners.count(), 7);
   expect(partners[5], "wall_5", "side", "with wall 5, a side of the box");
   expect(partners[6], "ball_ball", "ball-ball", "between balls");
-  for (int k = 0; k < partners.count(); ++k) EXPECT_EQ(partners[k].key, partner_key(k, partners.walls()));
+  for (int k = 0; k < partners.count(); ++k)
+    EXPECT_EQ(partners[k].key, partner_key(k, partners.walls()));
 }
 
 TEST(Partners, WithoutWallsAreBallsAlone) {

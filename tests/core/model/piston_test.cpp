@@ -21,8 +21,8 @@ TEST(Pistons, RoundingIsBoundedLongAfterTheStart) {
     const std::int64_t count = 17574692 + k / 100;
     const double offset = period * (k % 100) / 100;
     const mpfr50 exact = wide.at(0, Instant<mpfr50>{count, mpfr50(offset)}).value;
-    worst =
-        std::max(worst, std::abs(static_cast<double>(exact - mpfr50(pistons.at(0, {count, offset}).value))));
+    worst = std::max(
+        worst, std::abs(static_cast<double>(exact - mpfr50(pistons.at(0, {count, offset}).value))));
   }
   EXPECT_LE(worst, bound);
   EXPECT_GT(worst, 32 * extent * epsilon<double>());  // more than the vessel's size tells

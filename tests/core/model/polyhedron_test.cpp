@@ -27,9 +27,11 @@ Planes block(const Vec3<double>& low, const Vec3<double>& high) {
   return planes;
 }
 
-/// A regular tetrahedron about the origin: the distance of its planes is a third of that of its corners.
+/// A regular tetrahedron about the origin: the distance of its planes is a third of that of its
+/// corners.
 Planes tetrahedron(double distance) {
-  return {{{1, 1, 1}, distance}, {{1, -1, -1}, distance}, {{-1, 1, -1}, distance}, {{-1, -1, 1}, distance}};
+  return {{{1, 1, 1}, distance}, {{1, -1, -1}, distance}, {{-1, 1, -1}, distance},
+      {{-1, -1, 1}, distance}};
 }
 
 /// A right prism over a regular polygon with this inradius.
@@ -66,7 +68,8 @@ TEST(Polyhedron, ABlockIsTheBox) {
     const Vec3<double> p{draw(-0.04, 0.04), draw(-0.04, 0.04), draw(-0.04, 0.04)};
     const auto ours = planes.gaps(p);
     const auto expected = box.gaps(p);
-    for (std::size_t wall = 0; wall < 6; ++wall) RC_ASSERT(std::abs(ours[wall] - expected[wall]) < 1e-17);
+    for (std::size_t wall = 0; wall < 6; ++wall)
+      RC_ASSERT(std::abs(ours[wall] - expected[wall]) < 1e-17);
     RC_ASSERT(planes.contains(p) == box.contains(p));
   }));
 }
@@ -74,8 +77,8 @@ TEST(Polyhedron, ABlockIsTheBox) {
 TEST(Polyhedron, RoomForABallDoesNotDependOnTheOrigin) {
   EXPECT_TRUE(rc::check([&] {
     const Vec3<double> size{draw(0.01, 0.1), draw(0.01, 0.1), draw(0.01, 0.1)};
-    const Vec3<double> low{-size[0] * draw(0.01, 0.99), -size[1] * draw(0.01, 0.99),
-                           -size[2] * draw(0.01, 0.99)};
+    const Vec3<double> low{
+        -size[0] * draw(0.01, 0.99), -size[1] * draw(0.01, 0.99), -size[2] * draw(0.01, 0.99)};
     const Vessel vessel(block(low, low + size));
     const double widest = size.minCoeff() / 2;
     RC_ASSERT(!vessel.inset(widest * (1 - 1e-6)).is_empty());
@@ -100,7 +103,8 @@ TEST(Polyhedron, RefusesWhatIsNoVessel) {
     return more;
   };
   EXPECT_NO_THROW(Vessel{all});
-  for (std::size_t k = 0; k < 6; ++k) EXPECT_THROW(Vessel{without(k)}, InputError) << "open at wall " << k;
+  for (std::size_t k = 0; k < 6; ++k)
+    EXPECT_THROW(Vessel{without(k)}, InputError) << "open at wall " << k;
   EXPECT_THROW(Vessel({all[0], all[1], all[2]}), InputError) << "too few planes";
   EXPECT_THROW(Vessel{with({{1, 1, 0}, 1.5})}, InputError) << "a plane outside";
   EXPECT_NO_THROW(Vessel{with({{1, 1, 0}, 1.4})}) << "a plane that cuts an edge";
@@ -113,7 +117,8 @@ TEST(Polyhedron, PlacesOnlyInside) {
   const Vessel four(tetrahedron(0.01));
   int placed = 0;
   EXPECT_TRUE(rc::check([&] {
-    const auto p = AnyVessel<double>(four).place({draw(-1.0, 1.0), draw(-1.0, 1.0), draw(-1.0, 1.0)});
+    const auto p =
+        AnyVessel<double>(four).place({draw(-1.0, 1.0), draw(-1.0, 1.0), draw(-1.0, 1.0)});
     if (!p) return;
     ++placed;
     const auto gaps = four.gaps(*p);

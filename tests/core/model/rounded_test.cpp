@@ -22,7 +22,8 @@ TEST(Rounded, VolumesOfClosedForms) {
   const double pi = M_PI;
   EXPECT_NEAR(sphere.volume(), 4 * pi * 8e-6 / 3, 1e-20);
   EXPECT_NEAR(capsule.volume(), 4 * pi * 8e-6 / 3 + pi * 4e-4 * 0.02, 1e-20);
-  // Pappus: a rectangle, and two quarter discs whose centroids are 4 r / (3 pi) from their straight sides.
+  // Pappus: a rectangle, and two quarter discs whose centroids are 4 r / (3 pi) from their straight
+  // sides.
   const double a = 0.01, b = 0.02, r = 0.009;
   const double quarter = pi * r * r / 4 * 2 * pi * (a + 4 * r / (3 * pi));
   const double expected = pi * (a + r) * (a + r) * 2 * b + 2 * (pi * a * a * r + quarter);
@@ -72,9 +73,10 @@ TEST(Rounded, NormalsPointInwardsAlongTheGradient) {
   EXPECT_TRUE(rc::check([&] {
     const double tilt = draw(0.0, M_PI / 2), angle = draw(0.0, 2 * M_PI),
                  r = jar.core_radius() + 0.009 * std::sin(tilt);
-    const Vec3<double> p{r * std::cos(angle), jar.core_half() + 0.009 * std::cos(tilt), r * std::sin(angle)};
-    const Vec3<double> n{-std::sin(tilt) * std::cos(angle), -std::cos(tilt),
-                         -std::sin(tilt) * std::sin(angle)};
+    const Vec3<double> p{
+        r * std::cos(angle), jar.core_half() + 0.009 * std::cos(tilt), r * std::sin(angle)};
+    const Vec3<double> n{
+        -std::sin(tilt) * std::cos(angle), -std::cos(tilt), -std::sin(tilt) * std::sin(angle)};
     for (const int wall : {1, 2, 4}) RC_ASSERT((jar.normal(wall, p) - n).norm() < 1e-13);
   }));
 }
@@ -92,7 +94,8 @@ TEST(Rounded, LargeBallsSeeASharpCylinder) {
     RC_ASSERT(!active[0] && !active[1] && active[2] && active[3] && active[4]);
     const std::array<int, 3> of_cylinder{2, 0, 1};
     for (int wall = 2; wall < 5; ++wall)
-      RC_ASSERT((room.normal(wall, p) - expected.normal(of_cylinder[static_cast<std::size_t>(wall - 2)], p))
+      RC_ASSERT((room.normal(wall, p) -
+                    expected.normal(of_cylinder[static_cast<std::size_t>(wall - 2)], p))
                     .norm() < 1e-15);
   }));
   EXPECT_FALSE(jar.inset(0.0189).is_empty());

@@ -1,5 +1,5 @@
-// The nested motion of the vessel: (2.16'), its velocity and acceleration, and why the printed (2.14) is not
-// it.
+// The nested motion of the vessel: (2.16'), its velocity and acceleration, and why the printed
+// (2.14) is not it.
 #include <gtest/gtest.h>
 
 #include "core.hpp"
@@ -13,10 +13,9 @@ namespace {
 using testing::draw;
 using testing::draw_vector;
 
-/// Derivative of a function of time by a central difference with two Richardson steps, in 50 digits: error of
-/// order h^6, far below the comparison's tolerance.
-template <class Function>
-Vec3<mpfr> derivative(Function&& f, const mpfr& t) {
+/// Derivative of a function of time by a central difference with two Richardson steps, in 50
+/// digits: error of order h^6, far below the comparison's tolerance.
+template <class Function> Vec3<mpfr> derivative(Function&& f, const mpfr& t) {
   const mpfr h("1e-7");
   const auto central = [&](const mpfr& step) {
     return Vec3<mpfr>((f(t + step) - f(t - step)) * (1 / (2 * step)));
@@ -27,7 +26,8 @@ Vec3<mpfr> derivative(Function&& f, const mpfr& t) {
 }
 
 const SpexMotion<mpfr>& spex() {
-  static const SpexMotion<mpfr> motion = *testing::spex_mill<mpfr>().motion.get_if<SpexMotion<mpfr>>();
+  static const SpexMotion<mpfr> motion =
+      *testing::spex_mill<mpfr>().motion.get_if<SpexMotion<mpfr>>();
   return motion;
 }
 
@@ -45,8 +45,7 @@ TEST(SpexMotion, WallVelocityIsTheDerivativeOfTheWallPosition) {
   }));
 }
 
-template <class Real>
-void expect_nearby_poses_agree() {
+template <class Real> void expect_nearby_poses_agree() {
   const auto motion = *testing::spex_mill<Real>().motion.template get_if<SpexMotion<Real>>();
   const Real speed = motion.angular_speed();
   EXPECT_TRUE(rc::check([&] {
@@ -62,11 +61,11 @@ void expect_nearby_poses_agree() {
       return abs(a - b) <= allowed * unit;
     };
     RC_ASSERT(close(found.sin_alpha, direct.sin_alpha, Real(1)) &&
-              close(found.cos_alpha, direct.cos_alpha, Real(1)));
+        close(found.cos_alpha, direct.cos_alpha, Real(1)));
     RC_ASSERT(close(found.sin_gamma, direct.sin_gamma, Real(1)) &&
-              close(found.cos_gamma, direct.cos_gamma, Real(1)));
+        close(found.cos_gamma, direct.cos_gamma, Real(1)));
     RC_ASSERT(close(found.theta_rate, direct.theta_rate, speed) &&
-              close(found.gamma_rate, direct.gamma_rate, speed));
+        close(found.gamma_rate, direct.gamma_rate, speed));
     RC_ASSERT(close(found.theta_acceleration, direct.theta_acceleration, speed * speed));
     RC_ASSERT(close(found.gamma_acceleration, direct.gamma_acceleration, speed * speed));
   }));
@@ -105,8 +104,8 @@ TEST(SpexMotion, VesselFrameAndInertialFrameAreInverse) {
   EXPECT_TRUE(rc::check([] {
     const Vec3<mpfr> p = draw_vector<mpfr>(mpfr("0.03"));
     const auto pose = spex().pose({0, draw<mpfr>(mpfr(0), spex().period())});
-    const auto back =
-        spex().to_vessel_frame(pose, spex().to_inertial(pose, p), Vec3<mpfr>(mpfr(0), mpfr(0), mpfr(0)));
+    const auto back = spex().to_vessel_frame(
+        pose, spex().to_inertial(pose, p), Vec3<mpfr>(mpfr(0), mpfr(0), mpfr(0)));
     RC_ASSERT(norm<mpfr>(Vec3<mpfr>(back.position - p)) < mpfr("1e-49"));
   }));
 }
@@ -117,8 +116,8 @@ Vec3<mpfr> printed_position(const mpfr& t, const Vec3<mpfr>& p) {
   const mpfr sin_theta = pose.cos_alpha, cos_theta = -pose.sin_alpha;
   const mpfr &sg = pose.sin_gamma, &cg = pose.cos_gamma, &l = spex().arm();
   return {l * cos_theta + cos_theta * p[0] - sin_theta * p[1],
-          l * sin_theta + sin_theta * cg * p[0] + cos_theta * cg * p[1] - sg * p[2],
-          sin_theta * sg * p[0] + cos_theta * sg * p[1] + cg * p[2]};
+      l * sin_theta + sin_theta * cg * p[0] + cos_theta * cg * p[1] - sg * p[2],
+      sin_theta * sg * p[0] + cos_theta * sg * p[1] + cg * p[2]};
 }
 
 TEST(SpexMotionErrata, PrintedVelocityIsNotTheDerivativeOfThePrintedPosition) {

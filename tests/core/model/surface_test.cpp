@@ -35,7 +35,8 @@ TEST(WallSurface, PointAndMapAreInverse) {
   using std::abs;
   expect_inverse(vial.surfaces(), vial.reach());
   expect_inverse(box_surfaces(half_sizes), half_sizes.norm());
-  expect_inverse(CylinderVessel<mpfr50>{mpfr50("0.019"), mpfr50("0.0285")}.surfaces(), mpfr50("0.04"));
+  expect_inverse(
+      CylinderVessel<mpfr50>{mpfr50("0.019"), mpfr50("0.0285")}.surfaces(), mpfr50("0.04"));
   // Anywhere and turned: the frame's y axis along X.
   const Frame<double> frame{{1, 2, 3}, {0, 1, 0}, {1, 0, 0}, {0, 0, -1}};
   expect_inverse<double>({Disc<double>{{frame}, 0.3}, Tube<double>{{frame}, 0.3, 0.4}}, 5);
@@ -47,11 +48,13 @@ TEST(WallSurface, PointsLieOnTheWall) {
   EXPECT_TRUE(rc::check([&] {
     const double u = draw<double>(0, 1), v = draw<double>(0, 1);
     for (int wall = 0; wall < 3; ++wall)
-      RC_ASSERT(std::abs(vial.overlap(wall, walls[static_cast<std::size_t>(wall)].point(u, v))) < 1e-16);
+      RC_ASSERT(
+          std::abs(vial.overlap(wall, walls[static_cast<std::size_t>(wall)].point(u, v))) < 1e-16);
     for (int wall = 0; wall < 6; ++wall) {
       const Vec3<double> p = box[static_cast<std::size_t>(wall)].point(u, v);
       RC_ASSERT(p[wall / 2] == half_sizes[wall / 2] * (wall % 2 == 0 ? -1 : 1));
-      for (int axis = 0; axis < 3; ++axis) RC_ASSERT(std::abs(p[axis]) <= half_sizes[axis] * (1 + 1e-15));
+      for (int axis = 0; axis < 3; ++axis)
+        RC_ASSERT(std::abs(p[axis]) <= half_sizes[axis] * (1 + 1e-15));
     }
   }));
 }
@@ -100,10 +103,8 @@ double value_at(const WallSurface<double>& wall, std::size_t axis, const Vec3<do
       const double angle = std::atan2(p[2], p[0]);
       return angle < 0 ? angle + 2 * numerics::pi<double>() : angle;
     }
-    case Coordinate::height:
-      return p[1];
-    case Coordinate::radius:
-      return std::hypot(p[0], p[2]);
+    case Coordinate::height: return p[1];
+    case Coordinate::radius: return std::hypot(p[0], p[2]);
     default: {
       const auto& rectangle = std::get<Rectangle<double>>(wall.kind());
       return Vec3<double>(p - rectangle.centre).dot(rectangle.halves[axis].normalized());
@@ -120,7 +121,8 @@ TEST(WallSurface, EdgesAreTheValuesOfTheCoordinatesThere) {
       const double share = static_cast<double>(k) / 7;
       const auto p = wall.point(share, share);
       for (const int axis : {0, 1})
-        EXPECT_NEAR(wall.edge(axis, k, 7), value_at(wall, static_cast<std::size_t>(axis), p), 1e-14);
+        EXPECT_NEAR(
+            wall.edge(axis, k, 7), value_at(wall, static_cast<std::size_t>(axis), p), 1e-14);
     }
 }
 
@@ -141,7 +143,9 @@ TEST(Mesh, IsTheWallAsFlatFaces) {
     double area = 0;
     for (const auto& face : mesh.faces) {
       used.insert(face.begin(), face.end());
-      const auto corner = [&](std::size_t k) { return mesh.points[static_cast<std::size_t>(face[k])]; };
+      const auto corner = [&](std::size_t k) {
+        return mesh.points[static_cast<std::size_t>(face[k])];
+      };
       for (std::size_t k = 2; k < face.size(); ++k)
         area += cross<double>(corner(k - 1) - corner(0), corner(k) - corner(0)).norm() / 2;
     }

@@ -1,5 +1,5 @@
-// Derivatives of a run by dual numbers against those by differences in many digits, which share no code but
-// the laws.
+// Derivatives of a run by dual numbers against those by differences in many digits, which share no
+// code but the laws.
 #include <gtest/gtest.h>
 
 #include "any_mills.hpp"
@@ -15,8 +15,8 @@ struct Start {
 };
 
 /// Derivatives of the states after the first impacts, as `run::sensitivity` has them.
-std::vector<std::vector<double>> by_dual_numbers(const casefile::CaseSpec& spec, std::size_t impacts,
-                                                 const Start& start) {
+std::vector<std::vector<double>> by_dual_numbers(
+    const casefile::CaseSpec& spec, std::size_t impacts, const Start& start) {
   const auto built = casefile::build_case<double>(spec);
   engine::Simulation<double> simulation(built.the_case, built.states, built.start);
   const TangentMap map(built.the_case.mill, built.the_case.balls);
@@ -24,30 +24,32 @@ std::vector<std::vector<double>> by_dual_numbers(const casefile::CaseSpec& spec,
   std::vector<Tangent<double>> tangents(built.states.size());
   std::vector<Instant<double>> since(built.states.size(), built.start);
   auto& own = tangents[static_cast<std::size_t>(start.ball)];
-  (start.coordinate < 3   ? own.position
-   : start.coordinate < 6 ? own.velocity
-                          : own.spin)[start.coordinate % 3] = 1;
+  (start.coordinate < 3          ? own.position
+          : start.coordinate < 6 ? own.velocity
+                                 : own.spin)[start.coordinate % 3] = 1;
 
   std::vector<std::vector<double>> rows;
-  testing::TangentObserver observer(impacts, [&](const auto& at, const auto& bodies, const auto& impact) {
-    const auto of = [&](int place) -> Tangent<double>& {
-      return tangents[static_cast<std::size_t>(bodies[place].ball)];
-    };
-    for (int place = 0; place < (impact.with_wall ? 1 : 2); ++place) {
-      auto& when = since[static_cast<std::size_t>(bodies[place].ball)];
-      of(place).fly(clock.elapsed(when, at.time));
-      when = at.time;
-    }
-    if (impact.with_wall)
-      map.with_wall(at, impact.partner, bodies[0], {&of(0), 1});
-    else
-      map.of_pair(at, bodies[0], bodies[1], {&of(0), 1}, {&of(1), 1});
-    auto& row = rows.emplace_back();
-    const bool turned = !impact.with_wall && impact.partner < impact.ball;
-    for (int place = turned ? 1 : 0, left = impact.with_wall ? 1 : 2; left > 0; place = 1 - place, --left)
-      for (const auto* v : {&of(place).position, &of(place).velocity, &of(place).spin})
-        row.insert(row.end(), {(*v)[0], (*v)[1], (*v)[2]});
-  });
+  testing::TangentObserver observer(
+      impacts, [&](const auto& at, const auto& bodies, const auto& impact) {
+        const auto of = [&](int place) -> Tangent<double>& {
+          return tangents[static_cast<std::size_t>(bodies[place].ball)];
+        };
+        for (int place = 0; place < (impact.with_wall ? 1 : 2); ++place) {
+          auto& when = since[static_cast<std::size_t>(bodies[place].ball)];
+          of(place).fly(clock.elapsed(when, at.time));
+          when = at.time;
+        }
+        if (impact.with_wall)
+          map.with_wall(at, impact.partner, bodies[0], {&of(0), 1});
+        else
+          map.of_pair(at, bodies[0], bodies[1], {&of(0), 1}, {&of(1), 1});
+        auto& row = rows.emplace_back();
+        const bool turned = !impact.with_wall && impact.partner < impact.ball;
+        for (int place = turned ? 1 : 0, left = impact.with_wall ? 1 : 2; left > 0;
+             place = 1 - place, --left)
+          for (const auto* v : {&of(place).position, &of(place).velocity, &of(place).spin})
+            row.insert(row.end(), {(*v)[0], (*v)[1], (*v)[2]});
+      });
   simulation.attach(observer);
   simulation.run_until(Instant<double>::never());
   return rows;
@@ -57,11 +59,10 @@ class TangentMaps : public ::testing::TestWithParam<testing::MillText> {};
 
 TEST_P(TangentMaps, AgreeWithDifferencesInManyDigits) {
   constexpr std::size_t impacts = 50;
-  const auto spec =
-      testing::spec_of(GetParam(), "end_time = \"20 s\"\nseed = 3",
-                       "[[balls]]\ncount = 6\ndiameter = \"9 mm\"\nrandom_speed = \"0.3 m/s\"\n");
+  const auto spec = testing::spec_of(GetParam(), "end_time = \"20 s\"\nseed = 3",
+      "[[balls]]\ncount = 6\ndiameter = \"9 mm\"\nrandom_speed = \"0.3 m/s\"\n");
   for (const Start& start :
-       {Start{2, 0, "initial.2.x"}, Start{4, 4, "initial.4.vy"}, Start{1, 8, "initial.1.wz"}}) {
+      {Start{2, 0, "initial.2.x"}, Start{4, 4, "initial.4.vy"}, Start{1, 8, "initial.1.wz"}}) {
     run::SensitivityOptions options;
     options.by = {start.name};
     options.events = impacts;
@@ -93,7 +94,7 @@ std::vector<testing::MillText> mills() {
   return all;
 }
 INSTANTIATE_TEST_SUITE_P(Tangent, TangentMaps, ::testing::ValuesIn(mills()),
-                         [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
 }  // namespace edmill::tangent

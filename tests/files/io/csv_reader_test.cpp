@@ -18,7 +18,8 @@ using Rows = std::vector<std::vector<std::string>>;
 class CsvFile {
  public:
   explicit CsvFile(const std::string& text)
-      : place_(std::filesystem::temp_directory_path() / ("edmill-csv-" + std::to_string(getpid()) + ".csv")) {
+      : place_(std::filesystem::temp_directory_path() /
+            ("edmill-csv-" + std::to_string(getpid()) + ".csv")) {
     std::ofstream(place_, std::ios::binary) << text;
   }
   ~CsvFile() { std::filesystem::remove(place_); }
@@ -33,7 +34,6 @@ class CsvFile {
     csv.throw_problems();
     return rows;
   }
-
  private:
   std::filesystem::path place_;
 };
@@ -50,14 +50,15 @@ TEST(CsvReader, ReadsBackEveryTextOfATable) {
       if (random() % 2 == 0) texts.back() += ' ';
     }
     const std::vector<std::string> names(texts.begin(), texts.begin() + 3);
-    Table<double> table(
-        {{names[0], Column::Type::text}, {names[1], Column::Type::text}, {names[2], Column::Type::text}},
+    Table<double> table({{names[0], Column::Type::text}, {names[1], Column::Type::text},
+                            {names[2], Column::Type::text}},
         {"a comment\nin lines"});
-    for (std::size_t k = 3; k < texts.size(); k += 3) table.put(texts[k], texts[k + 1], texts[k + 2]);
+    for (std::size_t k = 3; k < texts.size(); k += 3)
+      table.put(texts[k], texts[k + 1], texts[k + 2]);
     Rows expected;
     for (std::size_t k = 0; k < texts.size(); k += 3)
       expected.push_back({texts.begin() + static_cast<std::ptrdiff_t>(k),
-                          texts.begin() + static_cast<std::ptrdiff_t>(k + 3)});
+          texts.begin() + static_cast<std::ptrdiff_t>(k + 3)});
     EXPECT_EQ(CsvFile(table.csv()).rows(), expected) << table.csv();
   }
 }
@@ -75,8 +76,9 @@ TEST(CsvReader, ReadsNumbersAndNamesInQuotes) {
 
 TEST(CsvReader, ReadsTablesOfOtherPrograms) {
   const Rows expected{{"time", "x"}, {"0.5", "1e3"}};
-  for (const auto* text : {"time,x\n0.5,1e3\n", "time ; x\r\n0.5;1e3\r\n", "  time   x\n 0.5\t1e3 \n",
-                           "\"time\" \"x\"\n0.5 1e3\n", "\xef\xbb\xbftime\tx\n0.5\t1e3\n"})
+  for (const auto* text :
+      {"time,x\n0.5,1e3\n", "time ; x\r\n0.5;1e3\r\n", "  time   x\n 0.5\t1e3 \n",
+          "\"time\" \"x\"\n0.5 1e3\n", "\xef\xbb\xbftime\tx\n0.5\t1e3\n"})
     EXPECT_EQ(CsvFile(text).rows(), expected) << text;
   const CsvFile numbers("a,b,c,d\n1.5D-3,+2,-3d0,+-4\n");
   auto csv = numbers.reader();
@@ -97,7 +99,8 @@ TEST(CsvReader, ReadsTablesOfOtherPrograms) {
     return std::string();
   };
   EXPECT_NE(problem(std::string("\xff\xfet\0i\0", 6)).find("iconv"), std::string::npos);
-  EXPECT_NE(problem("0.5,1\n").find("the header has numbers, but no column 'time'"), std::string::npos);
+  EXPECT_NE(
+      problem("0.5,1\n").find("the header has numbers, but no column 'time'"), std::string::npos);
   EXPECT_NE(problem("ITEM: TIMESTEP\n0\n").find("edmill import"), std::string::npos);
 }
 
@@ -130,7 +133,7 @@ TEST(CsvReader, AQuoteThatNothingClosesIsReported) {
 TEST(CleanText, ReplacesWhatXmlCannotHave) {
   const std::string bad = "\xef\xbf\xbd";
   EXPECT_EQ(clean_text("a\tb\n\xc3\xa4\xe2\x80\xa8\xf0\x9f\x98\x80"),
-            "a\tb\n\xc3\xa4\xe2\x80\xa8\xf0\x9f\x98\x80");
+      "a\tb\n\xc3\xa4\xe2\x80\xa8\xf0\x9f\x98\x80");
   EXPECT_EQ(clean_text(std::string("a\0b\x01\x1f", 5)), "a" + bad + "b" + bad + bad);
   EXPECT_EQ(clean_text("\xff\xc3"), bad + bad);
   EXPECT_EQ(clean_text("\xc0\x80"), bad + bad);                      // overlong
@@ -141,7 +144,7 @@ TEST(CleanText, ReplacesWhatXmlCannotHave) {
   EXPECT_EQ(one_line("a\xe2\x80\xa8"
                      "b\xc2\x85"
                      "c"),
-            "a b c");
+      "a b c");
 }
 
 }  // namespace

@@ -11,8 +11,7 @@ namespace edmill::io {
 namespace {
 
 /// With every part.
-template <class Real>
-Summary<Real> whole_summary() {
+template <class Real> Summary<Real> whole_summary() {
   Summary<Real> s(model::Partners(std::vector<model::WallInfo>{{"a", "wall a"}, {"b", "wall b"}}));
   s.provenance = {"a \"case\".toml", "digest", {"run.seed=3"}, true, "mpfr50", "1", "2", "3", 7, 5};
   s.error = "why";
@@ -31,23 +30,14 @@ Summary<Real> whole_summary() {
   s.simultaneous_contacts = 2, s.deepest_overlap = Real(1) / 3000000, s.cpu_seconds = 0.5,
   s.total_impacts = 8, s.fast_impacts = 4;
   s.notes = {{"fastest", Real(2) / 3}};
-  s.intervals = {5,
-                 0.4,
-                 {{{1, 2}, 0.1}, {{}, 0.2}, {{}, 0.3}},
-                 {{{}, 0.4}, {{}, 0.5}, {{}, 0.6}},
-                 {{}, 0.7},
-                 {{}, 0.75},
-                 {{1, 2, 3, 4, 5}, 0.8},
-                 {{}, 0.9},
-                 {{}, 1},
-                 "its impacts repeat"};
+  s.intervals = {5, 0.4, {{{1, 2}, 0.1}, {{}, 0.2}, {{}, 0.3}}, {{{}, 0.4}, {{}, 0.5}, {{}, 0.6}},
+      {{}, 0.7}, {{}, 0.75}, {{1, 2, 3, 4, 5}, 0.8}, {{}, 0.9}, {{}, 1}, "its impacts repeat"};
   s.warnings = {{"transient", "The dose rate drifts."}};
   s.target = {Real(1000), "all of the dose", Real(1) / 31};
   return s;
 }
 
-template <class Real>
-class FactsOf : public testing::Test {};
+template <class Real> class FactsOf : public testing::Test {};
 using Scalars = testing::Types<double, float128>;
 TYPED_TEST_SUITE(FactsOf, Scalars);
 
@@ -73,8 +63,8 @@ TEST(Facts, WhatIsNullIsNothing) {
 }
 
 TEST(Facts, ProblemsNameTheFileAndTheKey) {
-  const auto facts =
-      facts_in(nlohmann::json::parse(R"({"a": {"b": "x", "c": null}, "end_reason": "bored"})"), "s.json");
+  const auto facts = facts_in(
+      nlohmann::json::parse(R"({"a": {"b": "x", "c": null}, "end_reason": "bored"})"), "s.json");
   const auto problem = [](const auto& call) {
     try {
       call();
@@ -88,14 +78,15 @@ TEST(Facts, ProblemsNameTheFileAndTheKey) {
   EXPECT_EQ(problem([&] { facts.number("a/c"); }), "s.json: a.c: found null, expected a number");
   EXPECT_EQ(problem([&] { facts.text("d"); }), "s.json: d: missing, expected a text");
   EXPECT_EQ(problem([&] { end_reason_of(facts); }),
-            "s.json: end_reason: found \"bored\", expected why the run ended");
+      "s.json: end_reason: found \"bored\", expected why the run ended");
 }
 
 TEST(SummaryReference, HasEveryKeyOfAWholeSummary) {
   const auto table = summary_reference();
-  for (const auto* key : {"`format`", "`collisions.wall_0`", "`collisions.ball_ball`", "`charge_ratio`",
-                          "`target.milling_time_half_width`", "`inelastic_collapse.accumulation_time`",
-                          "`stalled.walls`", "`notes.NAME`", "`escalations.SCALAR.order`"})
+  for (const auto* key :
+      {"`format`", "`collisions.wall_0`", "`collisions.ball_ball`", "`charge_ratio`",
+          "`target.milling_time_half_width`", "`inelastic_collapse.accumulation_time`",
+          "`stalled.walls`", "`notes.NAME`", "`escalations.SCALAR.order`"})
     EXPECT_NE(table.find(std::string("| ") + key + " |"), std::string::npos) << key;
 }
 

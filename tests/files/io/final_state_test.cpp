@@ -13,8 +13,7 @@
 namespace edmill {
 namespace {
 
-template <class Real>
-class FinalState : public ::testing::Test {};
+template <class Real> class FinalState : public ::testing::Test {};
 using Scalars = ::testing::Types<double, float128, mpfr>;
 TYPED_TEST_SUITE(FinalState, Scalars);
 
@@ -39,8 +38,8 @@ TYPED_TEST(FinalState, ReadsBackEveryBit) {
     saved.states.push_back(state);
   }
   saved.states[0].velocity = Vec3<Real>(Real(0), -Real(0), Real(1));
-  const auto place =
-      std::filesystem::temp_directory_path() / ("edmill-final-state-" + std::to_string(::getpid()) + ".csv");
+  const auto place = std::filesystem::temp_directory_path() /
+      ("edmill-final-state-" + std::to_string(::getpid()) + ".csv");
   {
     std::ofstream out(place, std::ios::binary);
     io::write_final_state<Real>(out, saved, clock);

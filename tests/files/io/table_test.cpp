@@ -22,7 +22,8 @@ TEST(Table, TextsAreQuotedOnlyWhereTheyNeedIt) {
 }
 
 TEST(Table, TitlesHaveUnitsAndCommentsComeFirst) {
-  Table<double> table({{"dose, all", Type::number, "J"}, {"n", Type::integer}}, {"from here", "to there"});
+  Table<double> table(
+      {{"dose, all", Type::number, "J"}, {"n", Type::integer}}, {"from here", "to there"});
   table.put(0.1, 3);
   EXPECT_EQ(table.csv(), "# from here\n# to there\n\"dose, all [J]\",n\n0.1,3\n");
 }
@@ -60,8 +61,7 @@ TEST(Table, RowsGoOnWhereTheyWereArchived) {
 
 class TableInHdf5 : public ::testing::Test {
  protected:
-  template <class Real>
-  void store(const Table<Real>& table) {
+  template <class Real> void store(const Table<Real>& table) {
     std::ofstream(place_, std::ios::binary) << hdf5_columns(table, {});
     file_.emplace(H5Fopen(place_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   }
@@ -70,21 +70,18 @@ class TableInHdf5 : public ::testing::Test {
     std::filesystem::remove(place_);
   }
   H5T_class_t type_of(const char* name) const {
-    const Handle set(H5Dopen2(*file_, name, H5P_DEFAULT), H5Dclose), type(H5Dget_type(set), H5Tclose);
+    const Handle set(H5Dopen2(*file_, name, H5P_DEFAULT), H5Dclose),
+        type(H5Dget_type(set), H5Tclose);
     return H5Tget_class(type);
   }
-  std::filesystem::path place_ =
-      std::filesystem::temp_directory_path() / ("edmill-table-" + std::to_string(::getpid()) + ".h5");
+  std::filesystem::path place_ = std::filesystem::temp_directory_path() /
+      ("edmill-table-" + std::to_string(::getpid()) + ".h5");
   std::optional<Handle> file_;
 };
 
 TEST_F(TableInHdf5, ColumnsHaveTheTypeOfTheirCells) {
-  Table<mpfr> table({{"text", Type::text},
-                     {"flag", Type::text},
-                     {"count", Type::integer},
-                     {"whole", Type::number},
-                     {"nearly", Type::number},
-                     {"gap", Type::number}});
+  Table<mpfr> table({{"text", Type::text}, {"flag", Type::text}, {"count", Type::integer},
+      {"whole", Type::number}, {"nearly", Type::number}, {"gap", Type::number}});
   const mpfr little("1e-40");
   table.put("below", "1", 3, mpfr(4), mpfr(4 + little), mpfr(5));
   table.put("2", "0", 4, mpfr(-5), mpfr(6), std::optional<mpfr>());

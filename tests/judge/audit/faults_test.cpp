@@ -1,5 +1,5 @@
-// Logs of a mill with one mistake: the audit finds the equations that it violates and no others, and the
-// search among single causes names it.
+// Logs of a mill with one mistake: the audit finds the equations that it violates and no others,
+// and the search among single causes names it.
 #include <gtest/gtest.h>
 
 #include "faulty_log.hpp"
@@ -29,8 +29,8 @@ TEST_F(Faulty, LateEvents) {
   const int late = simulate(faults);
   const auto audit = judged();
   expect_kinds(audit, {Kind::late_event});
-  // Not where the bodies turn back in time; a ball that still overlaps may meet the wall again before it is
-  // out.
+  // Not where the bodies turn back in time; a ball that still overlaps may meet the wall again
+  // before it is out.
   EXPECT_GE(count(audit, Kind::late_event), static_cast<std::uint64_t>(late) * 3 / 4);
   EXPECT_EQ(cause(), "");
 }
@@ -209,8 +209,8 @@ TEST_F(Faulty, WrongPartners) {
 }
 
 TEST_F(Faulty, TheGapOfTheLowerCapWithThePrintedSign) {
-  // y - R - h/2 is negative everywhere: a code that searches for its change of sign never finds the cap, and
-  // balls leave the vessel there.
+  // y - R - h/2 is negative everywhere: a code that searches for its change of sign never finds the
+  // cap, and balls leave the vessel there.
   prepare();
   Faults faults;
   faults.lower_cap_unseen = true;

@@ -1,5 +1,5 @@
-// Logs of edmill that begin late, where a double knows the time badly, at many tolerances: no false alarm;
-// and a violation well above what the tolerance allows is still found.
+// Logs of edmill that begin late, where a double knows the time badly, at many tolerances: no false
+// alarm; and a violation well above what the tolerance allows is still found.
 #include <gtest/gtest.h>
 
 #include "any_mills.hpp"
@@ -16,23 +16,25 @@ class LateLogs : public ProgramTest {
 
   /// Runs a mill from this time on. @return whether it can: a run has fewer than 1e15 drive periods
   bool run(const testing::MillText& mill, double start) {
-    const std::string begin = fmt::format("initial_time = \"{} s\"\nend_time = \"{} s\"\nmax_collisions = {}",
-                                          start, start + 100, impacts);
+    const std::string begin =
+        fmt::format("initial_time = \"{} s\"\nend_time = \"{} s\"\nmax_collisions = {}", start,
+            start + 100, impacts);
     const std::string balls =
         "[[balls]]\ncount = 8\ndiameter = \"4.76 mm\"\n[[balls]]\ncount = 2\ndiameter = \"9 mm\"\n"
         "reduced_inertia = 0.5\n";
-    spec_text = "[run]\n" + begin + "\n" + mill.gravity + "\n[mill]\n" + mill.mill + "\n[vessel]\n" +
-                mill.vessel + "\n[contact]\nfriction = 0.4\nrestitution = 0.53\n" + balls;
+    spec_text = "[run]\n" + begin + "\n" + mill.gravity + "\n[mill]\n" + mill.mill +
+        "\n[vessel]\n" + mill.vessel + "\n[contact]\nfriction = 0.4\nrestitution = 0.53\n" + balls;
     write("case.toml", spec_text);
     std::filesystem::remove_all(scratch / "out");
-    const auto made =
-        edmill("run case.toml --quiet --out out --set 'output=[{type=\"collisions\", states=true}]'");
+    const auto made = edmill(
+        "run case.toml --quiet --out out --set 'output=[{type=\"collisions\", states=true}]'");
     if (made.code == 2) return false;
     EXPECT_EQ(made.code, 0) << mill.name << " from " << start << " s: " << made.err;
     return made.code == 0;
   }
   Audit judged(double tolerance) const {
-    const auto built = casefile::build_case<double>(casefile::parse_case(spec_text, "case.toml"), false);
+    const auto built =
+        casefile::build_case<double>(casefile::parse_case(spec_text, "case.toml"), false);
     Options options;
     options.log = scratch / "out";
     options.from_start = true;
@@ -55,7 +57,8 @@ TEST_F(LateLogs, AreCleanAtEveryStartAndTolerance) {
             << table(result);
         // What is not checked is told.
         const bool told = result.findings.unresolved_number(Check::touch) > 0;
-        EXPECT_TRUE(result.verdict == Verdict::agree || (result.verdict == Verdict::too_few && told))
+        EXPECT_TRUE(
+            result.verdict == Verdict::agree || (result.verdict == Verdict::too_few && told))
             << mill.name << " from " << start << " s";
         (result.verdict == Verdict::agree ? clean : unresolved) += 1;
       }
@@ -67,7 +70,7 @@ TEST_F(LateLogs, AreCleanAtEveryStartAndTolerance) {
 
 TEST_F(LateLogs, AMillInWhichTheTimeTellsNothingIsNotCalledClean) {
   const testing::MillText drum{"drum", "type = \"drum\"\nspeed = \"6 rpm\"",
-                               "type = \"sphere\"\ndiameter = \"60 mm\"", "gravity = \"9.8 m/s2\""};
+      "type = \"sphere\"\ndiameter = \"60 mm\"", "gravity = \"9.8 m/s2\""};
   ASSERT_TRUE(run(drum, 1e15));
   const auto result = judged(1e-9);
   EXPECT_EQ(result.findings.total(), 0u) << table(result);
@@ -99,8 +102,8 @@ TEST_F(LateLogs, AViolationAboveTheToleranceIsFound) {
       return judged(std::max(1e-9, by_time / 100)).findings;
     };
     // Velocities after an impact, positions and doses that are off by a hundredth.
-    EXPECT_GT(
-        changed(18, 1.01).of(Kind::normal_restitution).count + changed(18, 1.01).of(Kind::spin_change).count,
+    EXPECT_GT(changed(18, 1.01).of(Kind::normal_restitution).count +
+            changed(18, 1.01).of(Kind::spin_change).count,
         0u)
         << start;
     EXPECT_GT(changed(9, 1.01).of(Kind::non_ballistic).count, 0u) << start;

@@ -1,5 +1,5 @@
-// Each mistake is planted by itself, and every name that the audit and the search for causes can give is held
-// against it: the right one, or none.
+// Each mistake is planted by itself, and every name that the audit and the search for causes can
+// give is held against it: the right one, or none.
 #include <gtest/gtest.h>
 
 #include "faulty_log.hpp"
@@ -13,7 +13,8 @@ using testing::Faults;
 /// A mistake of the mill that makes the log, or a number of its case.
 struct Planted {
   std::string name;
-  std::set<std::string> right;  ///< names, one of which is given; none may be given where this is empty
+  std::set<std::string>
+      right;  ///< names, one of which is given; none may be given where this is empty
   Faults faults{};
   std::string setting{};  ///< of the case of the log
   int impacts = 300;
@@ -26,8 +27,8 @@ class Names : public testing::FaultyLog, public ::testing::WithParamInterface<Pl
     const std::string balls =
         testing::batch(2, "9.52 mm") + testing::batch(3, "4.76 mm", "reduced_inertia = 0.6\n");
     return casefile::parse_case(
-        testing::spex_text("end_time = \"10 s\"\nseed = 7", "restitution = 0.53", balls), "names.toml",
-        settings);
+        testing::spex_text("end_time = \"10 s\"\nseed = 7", "restitution = 0.53", balls),
+        "names.toml", settings);
   }
   /// All names that are given to a log.
   static std::set<std::string> names(const Audit& audit, const identify::Identification& found) {
@@ -45,7 +46,8 @@ class Names : public testing::FaultyLog, public ::testing::WithParamInterface<Pl
 
 TEST_P(Names, AreRightOrNotGiven) {
   const auto& p = GetParam();
-  const auto theirs = spec_with(p.setting.empty() ? std::vector<std::string>{} : std::vector{p.setting});
+  const auto theirs =
+      spec_with(p.setting.empty() ? std::vector<std::string>{} : std::vector{p.setting});
   built = casefile::build_case<double>(theirs);
   simulate(p.faults, p.impacts);
   const auto ours = spec_with({});
@@ -57,7 +59,8 @@ TEST_P(Names, AreRightOrNotGiven) {
   const auto found = identify::identify(ours, options);
   const auto given = names(result, found);
   const std::string text = edmill::audit::table(result) + identify::table(found);
-  for (const auto& name : given) EXPECT_TRUE(p.right.contains(name)) << "\"" << name << "\"\n" << text;
+  for (const auto& name : given)
+    EXPECT_TRUE(p.right.contains(name)) << "\"" << name << "\"\n" << text;
   // A coarse tolerance may hide what was planted.
   const bool seen = result.verdict == Verdict::differ;
   EXPECT_TRUE(p.right.empty() || !given.empty() || (!seen && p.tolerance > 1e-6)) << text;
@@ -78,22 +81,23 @@ std::vector<Planted> planted() {
       {"least_separation", {"contact.least_separation"}, {.least_separation = 0.03}},
       {"no_least_separation", {"contact.least_separation"}, {.least_separation = 0}},
       {"friction_of_restitution",
-       {"limit of the friction (2.24'): mu (1 + e_n) |g_n| in place of the impulse at v_s"},
-       {.restitution_friction = true}},
-      {"tangential_sign", {"change of the velocity by the friction"}, {.tangential_sign = true}, "", 80},
+          {"limit of the friction (2.24'): mu (1 + e_n) |g_n| in place of the impulse at v_s"},
+          {.restitution_friction = true}},
+      {"tangential_sign", {"change of the velocity by the friction"}, {.tangential_sign = true}, "",
+          80},
       {"printed_compliance",
-       {"impacts of balls that are not alike (2.24'): 1 + 1/J, as (2.24) is printed, in the limit of "
-        "sliding"},
-       {.printed_compliance = true}},
+          {"impacts of balls that are not alike (2.24'): 1 + 1/J, as (2.24) is printed, in the "
+           "limit of "
+           "sliding"},
+          {.printed_compliance = true}},
       {"equal_masses",
-       {"impacts of balls that are not alike (2.24'): each takes half of the relative change, as for equal "
-        "masses"},
-       {.equal_masses = true}},
+          {"impacts of balls that are not alike (2.24'): each takes half of the relative change, "
+           "as for equal "
+           "masses"},
+          {.equal_masses = true}},
       {"exchanged_masses",
-       {"impacts of balls that are not alike (2.24'): the masses are exchanged"},
-       {.exchanged_masses = true},
-       "",
-       200},
+          {"impacts of balls that are not alike (2.24'): the masses are exchanged"},
+          {.exchanged_masses = true}, "", 200},
       {"spin_lost", {"spin in flights"}, {.spin_lost = true}},
       {"no_gravity", {"run.gravity", "gravity in flights"}, {.no_gravity = true}},
       {"every_fifth_impact_late", {}, {.late_every = 5}},
@@ -103,13 +107,12 @@ std::vector<Planted> planted() {
       {"lower_cap_unseen", {"unseen_wall"}, {.lower_cap_unseen = true}},
       {"dose_factor", {"dose, column milling_dose"}, {.dose_factor = 1.001}},
       {"net_dose", {"supplied energy in the dose"}, {.net_dose = true}},
-      {"restitution_and_friction",
-       {"contact.restitution", "contact.friction"},
-       {.restitution = 0.6},
-       "contact.friction=0.5"},
+      {"restitution_and_friction", {"contact.restitution", "contact.friction"},
+          {.restitution = 0.6}, "contact.friction=0.5"},
       {"friction", {"contact.friction"}, {}, "contact.friction=0.45"},
       {"friction_of_walls", {"contact.ball_wall.friction"}, {}, "contact.ball_wall.friction=0.6"},
-      {"restitution_of_balls", {"contact.ball_ball.restitution"}, {}, "contact.ball_ball.restitution=0.8"},
+      {"restitution_of_balls", {"contact.ball_ball.restitution"}, {},
+          "contact.ball_ball.restitution=0.8"},
       {"height", {"vessel.height"}, {}, "vessel.height=\"57.2 mm\""},
       {"diameter", {"vessel.diameter"}, {}, "vessel.diameter=\"38.1 mm\""},
       {"arm", {"mill.arm"}, {}, "mill.arm=\"101 mm\""},

@@ -1,5 +1,5 @@
-// The speed at which bodies separate, max(e_n |g_n|, v_s): logs of codes with another v_s, with none,
-// and with a friction or a dose that ignores it.
+// The speed at which bodies separate, max(e_n |g_n|, v_s): logs of codes with another v_s, with
+// none, and with a friction or a dose that ignores it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,8 @@ class Separation : public testing::FaultyLog {
   static constexpr double restitution = 0.53;
 
   static std::string contact(double least_separation) {
-    return fmt::format("restitution = {}\nleast_separation = \"{} m/s\"", restitution, least_separation);
+    return fmt::format(
+        "restitution = {}\nleast_separation = \"{} m/s\"", restitution, least_separation);
   }
   std::vector<double> approach_speeds() const {
     std::vector<double> speeds;
@@ -49,7 +50,7 @@ TEST_F(Separation, NoLeastSpeedInTheLog) {
   // What is supplied in the case and not in the log is missing from the balance.
   EXPECT_GT(audit.energies.supplied.value(), 0);
   EXPECT_NEAR(audit.energies.closure(), audit.energies.supplied.value(),
-              1e-12 * audit.energies.milling_dose.value());
+      1e-12 * audit.energies.milling_dose.value());
   prepare(contact(0));
   expect_kinds(judged(), {});
 }
@@ -89,7 +90,8 @@ TEST_F(Separation, ALogWithoutSpins) {
   const auto touched = slower_than(0.01);
   auto all = lines();
   for (const char axis : {'x', 'y', 'z'})
-    for (const std::string& name : {std::string("w") + axis + "_before", std::string("w") + axis + "_after"})
+    for (const std::string& name :
+        {std::string("w") + axis + "_before", std::string("w") + axis + "_after"})
       for (std::size_t at; (at = all[0].find(name)) != std::string::npos;) all[0][at] = 'u';
   write_lines(all);
   const auto audit = judged();

@@ -86,9 +86,11 @@ TEST(Batches, CorrelatedSpectraRaiseNoMoreFalseAlarmsThanNominal) {
   for (int k = 0; k < pairs; ++k) {
     const auto a = drifting_batches(random, 0), b = drifting_batches(random, 0);
     false_alarms += test_spectra(a, b, wall_speeds).probability <= 0.05;
-    if (k % 10 == 0) found += test_spectra(a, drifting_batches(random, 8), wall_speeds).probability <= 0.05;
+    if (k % 10 == 0)
+      found += test_spectra(a, drifting_batches(random, 8), wall_speeds).probability <= 0.05;
   }
-  std::cout << false_alarms << " false alarms in " << pairs << " pairs, " << found << " of 30 shifts found\n";
+  std::cout << false_alarms << " false alarms in " << pairs << " pairs, " << found
+            << " of 30 shifts found\n";
   // 15 are nominal; 99.9 % of binomial draws are from 5 to 28.
   EXPECT_LE(false_alarms, 28);
   EXPECT_GE(false_alarms, 5);

@@ -16,14 +16,16 @@ namespace {
 
 class Comparing : public ProgramTest {
  protected:
-  Comparison compare_texts(const std::string& a, const std::string& b, ComparisonOptions options = {}) const {
+  Comparison compare_texts(
+      const std::string& a, const std::string& b, ComparisonOptions options = {}) const {
     write("a.csv", a);
     write("b.csv", b);
     options.a = scratch / "a.csv";
     options.b = scratch / "b.csv";
     return compare(options);
   }
-  /// A log, and the same after `change` of every event; where it returns false the event is left out.
+  /// A log, and the same after `change` of every event; where it returns false the event is left
+  /// out.
   template <class Change>
   Comparison compare_changed(const Change& change, const ComparisonOptions& options = {}) const {
     const auto a = synthetic_events(1);
@@ -42,7 +44,7 @@ class Comparing : public ProgramTest {
   }
   static const Quantity& quantity(const Comparison& c, std::string_view name) {
     const auto q = std::find_if(c.quantities.begin(), c.quantities.end(),
-                                [&](const Quantity& q) { return q.name == name; });
+        [&](const Quantity& q) { return q.name == name; });
     EXPECT_NE(q, c.quantities.end()) << name;
     return *q;
   }
@@ -96,24 +98,27 @@ TEST_F(Comparing, TheFirstDifferenceOfEachKindIsFound) {
     }
   };
   expect(first([](SyntheticEvent& e) {
-           e.partner = e.with_wall                      ? (e.partner + 1) % 3
-                       : (e.ball + 1) % 10 == e.partner ? (e.ball + 2) % 10
-                                                        : (e.ball + 1) % 10;
-         }),
-         "partners", 0);
+    e.partner = e.with_wall              ? (e.partner + 1) % 3
+        : (e.ball + 1) % 10 == e.partner ? (e.ball + 2) % 10
+                                         : (e.ball + 1) % 10;
+  }),
+      "partners", 0);
   expect(first([](SyntheticEvent& e) { e.ball += 100; }), "partners", 0);
   const auto scan = compare_changed([](std::size_t, SyntheticEvent&) { return true; }).a;
   const auto event = synthetic_events(1)[700];
-  const auto scale = [&](std::size_t v, double x) { return std::max(std::abs(x), scan.mean_magnitude[v]); };
-  expect(first([](SyntheticEvent& e) { e.time += 1e-7; }), "time", 1e-7 / scale(model::time, event.time));
+  const auto scale = [&](std::size_t v, double x) {
+    return std::max(std::abs(x), scan.mean_magnitude[v]);
+  };
+  expect(first([](SyntheticEvent& e) { e.time += 1e-7; }), "time",
+      1e-7 / scale(model::time, event.time));
   expect(first([](SyntheticEvent& e) { e.approach_speed += 1e-7; }), "approach_speed",
-         1e-7 / scale(model::approach_speed, event.approach_speed));
+      1e-7 / scale(model::approach_speed, event.approach_speed));
   expect(first([](SyntheticEvent& e) { e.slip_speed += 1e-7; }), "slip_speed",
-         1e-7 / scale(model::slip_speed, event.slip_speed));
+      1e-7 / scale(model::slip_speed, event.slip_speed));
   expect(first([](SyntheticEvent& e) { e.milling_dose += 1e-9; }), "milling_dose",
-         1e-9 / scale(model::milling_dose, event.milling_dose));
+      1e-9 / scale(model::milling_dose, event.milling_dose));
   expect(first([](SyntheticEvent& e) { e.wall_work += 1e-9; }), "wall_work",
-         1e-9 / scale(model::wall_work, event.wall_work));
+      1e-9 / scale(model::wall_work, event.wall_work));
 }
 
 TEST_F(Comparing, DifferencesWithinTheToleranceAreNone) {
@@ -170,20 +175,23 @@ TEST_F(Comparing, EachQuantityThatDiffersIsFound) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
   for (int wall = 0; wall < 3; ++wall) {
-    const auto names = found(
-        [&](std::size_t k, SyntheticEvent& e) { return !(e.with_wall && e.partner == wall && k % 5 == 0); });
+    const auto names = found([&](std::size_t k, SyntheticEvent& e) {
+      return !(e.with_wall && e.partner == wall && k % 5 == 0);
+    });
     for (int other = 0; other < 3; ++other)
       EXPECT_EQ(has(names, "collision_rate_wall_" + std::to_string(other)), other == wall);
   }
   EXPECT_TRUE(has(found([](std::size_t k, SyntheticEvent& e) { return e.with_wall || k % 5 != 0; }),
-                  "collision_rate_ball_ball"));
+      "collision_rate_ball_ball"));
   EXPECT_EQ(found([](std::size_t, SyntheticEvent& e) { return e.wall_work *= 1.001, true; }),
-            Names{"wall_work_rate"});
-  EXPECT_TRUE(has(found([](std::size_t, SyntheticEvent& e) { return e.milling_dose *= 1.01, true; }),
-                  "milling_dose_rate"));
-  const auto faster = found([](std::size_t, SyntheticEvent& e) { return e.approach_speed *= 1.02, true; });
+      Names{"wall_work_rate"});
+  EXPECT_TRUE(
+      has(found([](std::size_t, SyntheticEvent& e) { return e.milling_dose *= 1.01, true; }),
+          "milling_dose_rate"));
+  const auto faster =
+      found([](std::size_t, SyntheticEvent& e) { return e.approach_speed *= 1.02, true; });
   for (const auto* name :
-       {"mean_approach_speed", "wall_approach_speed_spectrum", "ball_approach_speed_spectrum"})
+      {"mean_approach_speed", "wall_approach_speed_spectrum", "ball_approach_speed_spectrum"})
     EXPECT_TRUE(has(faster, name)) << name;
 }
 
@@ -191,11 +199,13 @@ TEST_F(Comparing, NoToleranceAtAllStillSeesTheSpectra) {
   ComparisonOptions options;
   options.tolerance = 0;
   const auto c = compare_changed(
-      [](std::size_t, SyntheticEvent& e) { return e.approach_speed *= 1.05, e.milling_dose *= 1.05, true; },
+      [](std::size_t, SyntheticEvent& e) {
+        return e.approach_speed *= 1.05, e.milling_dose *= 1.05, true;
+      },
       options);
   EXPECT_EQ(c.events.agreeing, 0u);
   for (const auto* name :
-       {"wall_approach_speed_spectrum", "ball_approach_speed_spectrum", "milling_dose_spectrum"})
+      {"wall_approach_speed_spectrum", "ball_approach_speed_spectrum", "milling_dose_spectrum"})
     EXPECT_EQ(quantity(c, name).verdict, Verdict::differ) << name;
 }
 
@@ -213,14 +223,16 @@ TEST_F(Comparing, ASpectrumOfTheSameMeanIsFound) {
 }
 
 TEST_F(Comparing, MeansAndIntervalsAreThoseOfTheProcess) {
-  const auto c = compare_texts(log_text(synthetic_events(1, 100)), log_text(synthetic_events(2, 100)));
+  const auto c =
+      compare_texts(log_text(synthetic_events(1, 100)), log_text(synthetic_events(2, 100)));
   EXPECT_EQ(c.verdict, Verdict::agree);
   // 400/s of which a tenth on a cap: 100 s give 40 ± 0.63, and an interval of 2.09 deviations.
   const auto& rate = quantity(c, "collision_rate_wall_0");
   EXPECT_NEAR(*rate.a, 40, 4 * 0.63);
   EXPECT_NEAR(*rate.a_half_width, 2.09 * 0.632, 0.6);
   EXPECT_NEAR(*rate.half_width, 2.09 * 0.632 * std::sqrt(2.0), 0.8);
-  // <v> = exp(1/8); neighbours correlate by 0.95, so the mean varies like that of 40 times fewer impacts.
+  // <v> = exp(1/8); neighbours correlate by 0.95, so the mean varies like that of 40 times fewer
+  // impacts.
   const auto& speed = quantity(c, "mean_approach_speed");
   const double deviation = 0.5 * std::exp(0.125) * std::sqrt(39.0 / 40000);
   EXPECT_NEAR(*speed.a, std::exp(0.125), 4 * deviation);
@@ -232,8 +244,8 @@ TEST_F(Comparing, ColumnsThatOneLogLacksAreNotCompared) {
   const auto events = synthetic_events(1);
   std::string text = "approach_speed,partner,partner_kind,ball,time\n";
   for (const auto& e : events)
-    text += fmt::format("{},{},{},{},{}\n", e.approach_speed, e.partner, e.with_wall ? "wall" : "ball",
-                        e.ball, e.time);
+    text += fmt::format("{},{},{},{},{}\n", e.approach_speed, e.partner,
+        e.with_wall ? "wall" : "ball", e.ball, e.time);
   const auto c = compare_texts(log_text(events), text);
   EXPECT_TRUE(c.events.agree_throughout());
   EXPECT_EQ(c.verdict, Verdict::agree);
@@ -243,7 +255,8 @@ TEST_F(Comparing, ColumnsThatOneLogLacksAreNotCompared) {
 }
 
 TEST_F(Comparing, TooFewEventsAreNotJudged) {
-  const auto c = compare_texts(log_text(synthetic_events(1, 0.05)), log_text(synthetic_events(2, 0.05)));
+  const auto c =
+      compare_texts(log_text(synthetic_events(1, 0.05)), log_text(synthetic_events(2, 0.05)));
   EXPECT_EQ(c.verdict, Verdict::too_few);
   EXPECT_EQ(compare_texts(log_text({}), log_text({})).verdict, Verdict::too_few);
 }
@@ -298,7 +311,8 @@ TEST_F(Comparing, TwoGoodRunsRaiseAnAlarmInNoMoreThanFivePercentAndBadOnesDo) {
     for (auto& e : b) e.approach_speed *= 2;
     found += compare_texts(text, log_text(b)).verdict == Verdict::differ;
   }
-  std::cout << false_alarms << " false alarms in " << pairs << " pairs, " << found << " of 15 found\n";
+  std::cout << false_alarms << " false alarms in " << pairs << " pairs, " << found
+            << " of 15 found\n";
   EXPECT_LE(false_alarms, 16);  // 7.5 are allowed on the average; the binomial exceeds 16 in 0.1 %
   EXPECT_EQ(found, 15);
 }

@@ -13,7 +13,8 @@ namespace {
 
 class FrameReaderTest : public testing::Test {
  protected:
-  std::string file = std::filesystem::temp_directory_path() / ("edmill_frames_" + std::to_string(::getpid()));
+  std::string file =
+      std::filesystem::temp_directory_path() / ("edmill_frames_" + std::to_string(::getpid()));
   void TearDown() override { std::filesystem::remove(file); }
 
   void put(const std::string& text) { std::ofstream(file) << text; }
@@ -65,7 +66,8 @@ TEST_F(FrameReaderTest, UnitsTimesAndScaledPlaces) {
 }
 
 TEST_F(FrameReaderTest, ATableWhoseRowsOfOneTimeAreAFrame) {
-  put("# of another code\nt;ball;x;y;z;vx;vy;vz;wx;wy;wz\n0.5;7;1;0;0;0;0;0;0;0;0\n0.5;3;2;0;0;0;0;0;0;0;0\n"
+  put("# of another "
+      "code\nt;ball;x;y;z;vx;vy;vz;wx;wy;wz\n0.5;7;1;0;0;0;0;0;0;0;0\n0.5;3;2;0;0;0;0;0;0;0;0\n"
       "0.6;3;4;0;0;0;0;0;0;0;0\n0.6;7;3;0;0;0;0;0;0;0;0\n0.7;7;3;0;0;0;0;0;0;0;0\n");
   dem::FrameReader reader(file, {std::nullopt, "si"}, 2);
   dem::Frame frame;
@@ -138,20 +140,22 @@ TEST_F(FrameReaderTest, ABinaryDumpThatIsCutOffOrDamaged) {
   EXPECT_NE(damaged(18, "\0\0\0\1"s).find("the byte order of another machine"), std::string::npos);
   EXPECT_NE(damaged(22, "\1"s).find("revision 1"), std::string::npos);
   EXPECT_NE(damaged(34, "\3"s).find("3 balls"), std::string::npos);
-  EXPECT_NE(damaged(whole.find("omegax"), "ooegax").find("columns without omegax"), std::string::npos);
+  EXPECT_NE(
+      damaged(whole.find("omegax"), "ooegax").find("columns without omegax"), std::string::npos);
   EXPECT_NE(damaged(whole.size() - 8, "\xff\xff\xff\xff\xff\xff\xff\xff").find("expected finite"),
-            std::string::npos);
+      std::string::npos);
 }
 
 /// Boxes that LAMMPS has, and numbers as codes write them.
 TEST_F(FrameReaderTest, WrappedPlacesAndOtherNumbers) {
   const std::string bounds = "0 2\n0 2\n0 2\n", tilted = "0 2 0.5\n0 2 0\n0 2 0\n";
-  const auto place = [&](const std::string& box, const std::string& names, const std::string& values) {
+  const auto place = [&](const std::string& box, const std::string& names,
+                         const std::string& values) {
     const std::string rest = " 1 2 3 4 5 6\n";
     std::string text = head;
     text.replace(text.find(bounds), bounds.size(), box);
-    put(text + "ITEM: ATOMS id " + names + " vx vy vz omegax omegay omegaz\n" + "1 " + values + rest + "2 " +
-        values + rest);
+    put(text + "ITEM: ATOMS id " + names + " vx vy vz omegax omegay omegaz\n" + "1 " + values +
+        rest + "2 " + values + rest);
     dem::FrameReader reader(file, {1e-6, "si"}, 2);
     dem::Frame frame;
     EXPECT_TRUE(reader.next(frame));
@@ -175,8 +179,9 @@ TEST_F(FrameReaderTest, TheTimeStepOfADeckIsANumberOrIsNotKnown) {
   };
   EXPECT_EQ(step_of("units si\ntimestep 2e-6\nrun 10\ntimestep 0.000002\n"), "");
   EXPECT_EQ(step_of("O.dt = 2e-6\n"), "");
-  for (const auto* deck : {"variable dt equal 2e-6\ntimestep ${dt}\n", "O.dt = 0.8*PWaveTimeStep()\n",
-                           "timestep 1e-6\nrun 10\ntimestep 3e-6\n", "timestep 0\n"})
+  for (const auto* deck :
+      {"variable dt equal 2e-6\ntimestep ${dt}\n", "O.dt = 0.8*PWaveTimeStep()\n",
+          "timestep 1e-6\nrun 10\ntimestep 3e-6\n", "timestep 0\n"})
     EXPECT_NE(step_of(deck).find("give --timestep"), std::string::npos) << deck;
 }
 
@@ -185,18 +190,22 @@ TEST_F(FrameReaderTest, Problems) {
   EXPECT_EQ(problem(good), "");
   EXPECT_NE(problem(good, {std::nullopt, "si"}).find("without time"), std::string::npos);
   EXPECT_NE(problem(good + good).find("expected one after"), std::string::npos);
-  EXPECT_NE(problem(std::string(head) + "ITEM: ATOMS id x y z vx vy vz\n1 0 0 0 0 0 0\n").find("omegax"),
-            std::string::npos);
+  EXPECT_NE(
+      problem(std::string(head) + "ITEM: ATOMS id x y z vx vy vz\n1 0 0 0 0 0 0\n").find("omegax"),
+      std::string::npos);
   EXPECT_NE(problem("1,2,3\n").find("columns without id"), std::string::npos);
-  EXPECT_NE(problem("id,x,y,z,vx,vy,vz,wx,wy,wz\n").find("columns without time"), std::string::npos);
+  EXPECT_NE(
+      problem("id,x,y,z,vx,vy,vz,wx,wy,wz\n").find("columns without time"), std::string::npos);
   EXPECT_EQ(problem(" \n"), "");
   EXPECT_NE(problem(" \nI\n:M").find("columns without id"), std::string::npos);
-  EXPECT_NE(problem(std::string(head) + "ITEM: ATOMS\n").find("columns without id"), std::string::npos);
+  EXPECT_NE(
+      problem(std::string(head) + "ITEM: ATOMS\n").find("columns without id"), std::string::npos);
   EXPECT_NE(problem(good + "1 2 3\n").find("ITEM:"), std::string::npos);
   for (const auto* value : {"nan", "inf", "-1e160"})
-    EXPECT_NE(problem(std::string(head) + columns + "1 0.1 0.2 0.3 1 " + value + " 3 4 5 6\n" + row_2)
-                  .find("the code has become unstable"),
-              std::string::npos);
+    EXPECT_NE(
+        problem(std::string(head) + columns + "1 0.1 0.2 0.3 1 " + value + " 3 4 5 6\n" + row_2)
+            .find("the code has become unstable"),
+        std::string::npos);
   EXPECT_NE(problem(std::string(head) + columns + row_1 + row_1).find("twice"), std::string::npos);
   EXPECT_NE(problem("ITEM: UNITS\nlj\n" + good).find("units 'lj'"), std::string::npos);
   std::string three = good;

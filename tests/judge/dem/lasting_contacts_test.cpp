@@ -1,5 +1,5 @@
-// `edmill import` and `edmill audit` on the dumps of a small DEM code: right decks, frames that are far
-// apart, and a table of mistakes by what names them.
+// `edmill import` and `edmill audit` on the dumps of a small DEM code: right decks, frames that are
+// far apart, and a table of mistakes by what names them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -41,8 +41,8 @@ density = "8 g/cm3"
 class Files {
  public:
   explicit Files(const small_dem::Deck& deck)
-      : time_step_(deck.time_step),
-        folder_(std::filesystem::temp_directory_path() / ("edmill_contacts_" + std::to_string(::getpid()))) {
+      : time_step_(deck.time_step), folder_(std::filesystem::temp_directory_path() /
+                                        ("edmill_contacts_" + std::to_string(::getpid()))) {
     std::filesystem::create_directories(folder_);
     small_dem::Run(deck).write(folder_ / "frames.dump");
   }
@@ -57,13 +57,13 @@ class Files {
     dem::import_dump(spec, options);
     return dem::audit_contacts(spec, options.log, nullptr);
   }
-
  private:
   double time_step_;
   std::filesystem::path folder_;
 };
 
-dem::ContactAudit audited(const small_dem::Deck& deck, const std::vector<std::string>& settings = {}) {
+dem::ContactAudit audited(
+    const small_dem::Deck& deck, const std::vector<std::string>& settings = {}) {
   return Files(deck).audited(settings);
 }
 
@@ -78,7 +78,8 @@ void right_decks_agree(std::initializer_list<unsigned> seeds) {
     small_dem::Deck deck;
     deck.seed = seed, deck.duration = 0.6;
     const auto audit = audited(deck);
-    EXPECT_EQ(audit.verdict, compare::Verdict::agree) << "seed " << seed << "\n" << dem::table(audit);
+    EXPECT_EQ(audit.verdict, compare::Verdict::agree) << "seed " << seed << "\n"
+                                                      << dem::table(audit);
     ASSERT_TRUE(named(audit, "restitution at walls"));
     EXPECT_NEAR(named(audit, "restitution at walls")->found.value, 0.6, 0.002);
     EXPECT_NEAR(named(audit, "friction at walls")->found.value, 0.4, 0.01);
@@ -104,8 +105,8 @@ TEST(LastingContacts, FramesFarApartGiveTheSameValues) {
   }
 }
 
-/// Long contacts that a strong gravity presses on the floor: it would change approaches by some per cent
-/// meanwhile.
+/// Long contacts that a strong gravity presses on the floor: it would change approaches by some per
+/// cent meanwhile.
 TEST(LastingContacts, WhatPressesIsNoPartOfTheLaws) {
   small_dem::Deck deck;
   deck.gravity = {0, -100, 0}, deck.contact_time = 4e-4, deck.time_step = 8e-6, deck.frames = 8e-5,
@@ -141,42 +142,43 @@ void mistakes_are_named(std::size_t every) {
       {"attraction", [](auto& d) { d.attracts = true; }, "restitution at walls", 0.561},
       {"friction 0.3", [](auto& d) { d.friction = 0.3; }, "friction at walls", 0.3},
       {"no gravity",
-       [](auto& d) {
-         d.gravity = {0, 0, 0};
-       },
-       "gravity along Y", 0},
+          [](auto& d) {
+            d.gravity = {0, 0, 0};
+          },
+          "gravity along Y", 0},
       {"gravity upwards",
-       [](auto& d) {
-         d.gravity = {0, 9.8, 0};
-       },
-       "gravity along Y", 9.8},
+          [](auto& d) {
+            d.gravity = {0, 9.8, 0};
+          },
+          "gravity along Y", 9.8},
       {"density 7800", [](auto& d) { d.density = 7800; }, "density over the case's", 0.975},
       {"diameter 7.9 mm", [](auto& d) { d.radius = 0.00395; }, "diameter over the case's", 0.9875},
       {"amplitude -5 %", [](auto& d) { d.amplitude[1] = 0.01045; }, "mill.amplitude.y", 0.01045},
       {"one axis out of phase", [](auto& d) { d.quarter[1] = 0.011, d.amplitude[1] = 0; },
-       "phase of mill.amplitude along y", 1.5708},
+          "phase of mill.amplitude along y", 1.5708},
       {"all axes out of phase",
-       [](auto& d) {
-         d.quarter = d.amplitude, d.amplitude = {0, 0, 0};
-       },
-       "phase of the drive", 1.5708},
+          [](auto& d) {
+            d.quarter = d.amplitude, d.amplitude = {0, 0, 0};
+          },
+          "phase of the drive", 1.5708},
       {"speed +1 %", [](auto& d) { d.frequency = 60.6; }, "mill.speed", 380.76},
       {"box 0.3 mm too wide", [](auto& d) { d.half[0] += 0.00015; }, "vessel.size.x", 0.0333},
       {"amplitudes doubled",
-       [](auto& d) {
-         for (double& a : d.amplitude) a *= 2;
-       },
-       "factor of mill.amplitude", 2},
+          [](auto& d) {
+            for (double& a : d.amplitude) a *= 2;
+          },
+          "factor of mill.amplitude", 2},
       {"a wall is missing", [](auto& d) { d.missing_wall = 1; }, "contacts missed at walls", some},
       {"the box is periodic", [](auto& d) { d.periodic_axis = 0; }, "jumps of balls", some},
-      {"balls fly through each other", [](auto& d) { d.has_pairs = false; }, "contacts missed between balls",
-       some},
+      {"balls fly through each other", [](auto& d) { d.has_pairs = false; },
+          "contacts missed between balls", some},
       {"restitution 0.7 at one wall", [](auto& d) { d.other_wall = 5, d.other_damping = 0.27575; },
-       "restitution at wall +z", 0.7},
-      {"torque halved", [](auto& d) { d.torque = 0.5; }, "spin change over the torque's at walls", 0.5},
+          "restitution at wall +z", 0.7},
+      {"torque halved", [](auto& d) { d.torque = 0.5; }, "spin change over the torque's at walls",
+          0.5},
       {"no torque", [](auto& d) { d.torque = 0; }, "spin change over the torque's at walls", 0},
       {"walls damp as if at rest", [](auto& d) { d.wall_velocity = 0; },
-       "velocity of the walls over the case's", some},
+          "velocity of the walls over the case's", some},
   };
   for (std::size_t k = 0; k < std::size(mistakes); k += every) {
     const auto& mistake = mistakes[k];
@@ -200,7 +202,7 @@ void mistakes_are_named(std::size_t every) {
     ASSERT_FALSE(audit.causes.empty());
     EXPECT_EQ(audit.causes[0].key, mistake.value);
     EXPECT_NEAR(audit.causes[0].value, mistake.truth,
-                std::max(3 * audit.causes[0].half_width, 0.003 * mistake.truth));
+        std::max(3 * audit.causes[0].half_width, 0.003 * mistake.truth));
   }
 }
 TEST(LastingContacts, MistakesAreNamedWithTheirValues) { mistakes_are_named(5); }

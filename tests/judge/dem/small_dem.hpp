@@ -1,5 +1,5 @@
-// A DEM code of its own, as small as one can be: balls in a box that vibrates, Hertz's contacts with damping,
-// a spring along the surface up to friction, leapfrog. It shares no code with edmill.
+// A DEM code of its own, as small as one can be: balls in a box that vibrates, Hertz's contacts
+// with damping, a spring along the surface up to friction, leapfrog. It shares no code with edmill.
 #pragma once
 
 #include <array>
@@ -33,8 +33,8 @@ struct Deck {
   V gravity{0, -9.8, 0};
   double contact_time = 50e-6, damping = 0.4024611, friction = 0.4;
   bool attracts = false;  ///< the damping pulls bodies back that separate
-  // Mistakes: a wall, or contacts of pairs, that are missing; an axis along which the box is periodic; a wall
-  // with another damping; a factor of torques, and of the velocity of the walls.
+  // Mistakes: a wall, or contacts of pairs, that are missing; an axis along which the box is
+  // periodic; a wall with another damping; a factor of torques, and of the velocity of the walls.
   int missing_wall = -1, periodic_axis = -1, other_wall = -1;
   bool has_pairs = true;
   double other_damping = 0, torque = 1, wall_velocity = 1;
@@ -48,12 +48,7 @@ struct Deck {
 class Run {
  public:
   explicit Run(const Deck& deck)
-      : d(deck),
-        x(d.balls),
-        v(d.balls),
-        w(d.balls),
-        f(d.balls),
-        torque(d.balls),
+      : d(deck), x(d.balls), v(d.balls), w(d.balls), f(d.balls), torque(d.balls),
         springs(d.balls * (6 + d.balls)) {
     const double effective = d.mass() / std::sqrt(d.radius) * std::pow(2.868 / d.contact_time, 2.5);
     wall_stiffness = 4.0 / 3 * effective * std::sqrt(d.radius);
@@ -82,7 +77,8 @@ class Run {
         x[i] = x[i] + v[i] * h;
         if (d.periodic_axis < 0) continue;
         const auto axis = static_cast<std::size_t>(d.periodic_axis);
-        if (std::abs(x[i][axis]) > d.half[axis]) x[i][axis] -= std::copysign(2 * d.half[axis], x[i][axis]);
+        if (std::abs(x[i][axis]) > d.half[axis])
+          x[i][axis] -= std::copysign(2 * d.half[axis], x[i][axis]);
       }
       forces((static_cast<double>(step) + 1) * h);
       for (std::size_t i = 0; i < d.balls; ++i)
@@ -90,20 +86,20 @@ class Run {
     }
     std::fclose(out);
   }
-
  private:
   double inertia() const { return 0.4 * d.mass() * d.radius * d.radius; }
 
   void frame(std::FILE* out, long step) const {
-    std::fprintf(
-        out,
-        "ITEM: TIMESTEP\n%ld\nITEM: NUMBER OF ATOMS\n%zu\nITEM: BOX BOUNDS ff ff ff\n-1 1\n-1 1\n-1 1\n"
+    std::fprintf(out,
+        "ITEM: TIMESTEP\n%ld\nITEM: NUMBER OF ATOMS\n%zu\nITEM: BOX BOUNDS ff ff ff\n-1 1\n-1 "
+        "1\n-1 1\n"
         "ITEM: ATOMS vx vy vz id x y z omegax omegay omegaz mass radius\n",
         step, d.balls);
     for (std::size_t i = d.balls; i-- > 0;) {
       const auto put = [&](double a) {
         std::array<char, 40> text;
-        char* end = std::to_chars(text.begin(), text.end(), a, std::chars_format::general, d.digits).ptr;
+        char* end =
+            std::to_chars(text.begin(), text.end(), a, std::chars_format::general, d.digits).ptr;
         *end++ = ' ';
         std::fwrite(text.data(), 1, static_cast<std::size_t>(end - text.data()), out);
       };
@@ -116,13 +112,13 @@ class Run {
     }
   }
 
-  /// One contact: normal from the other body to ball i, the velocity of the surfaces, and the forces on ball
-  /// i.
+  /// One contact: normal from the other body to ball i, the velocity of the surfaces, and the
+  /// forces on ball i.
   V contact(V& spring, double overlap, double stiffness, double mass, double damping, const V& n,
-            const V& g) {
+      const V& g) {
     const double root = std::sqrt(overlap), speed = dot(g, n);
-    double normal =
-        stiffness * overlap * root - damping * std::sqrt(stiffness * mass) * std::sqrt(root) * speed;
+    double normal = stiffness * overlap * root -
+        damping * std::sqrt(stiffness * mass) * std::sqrt(root) * speed;
     if (normal < 0 && !d.attracts) normal = 0;
     spring = spring + (g - n * speed) * d.time_step;
     spring = spring - n * dot(spring, n);
@@ -135,7 +131,8 @@ class Run {
   }
 
   void forces(double t) {
-    const double phase = 2 * std::acos(-1.0) * d.frequency, s = std::sin(phase * t), c = std::cos(phase * t);
+    const double phase = 2 * std::acos(-1.0) * d.frequency, s = std::sin(phase * t),
+                 c = std::cos(phase * t);
     const V centre = d.amplitude * s + d.quarter * c;
     const V moving = (d.amplitude * c - d.quarter * s) * (phase * d.wall_velocity);
     for (std::size_t i = 0; i < d.balls; ++i) f[i] = d.gravity * d.mass(), torque[i] = {};

@@ -1,6 +1,6 @@
-// A DEM code of springs and dashpots, linear ones or Hertz's, in a vibrated box, with mistakes by name:
-// frames to standard output, as LAMMPS writes them. Shares no code with edmill. usage: spring_dem
-// [NAME=VALUE...]   a name that it does not have is an error
+// A DEM code of springs and dashpots, linear ones or Hertz's, in a vibrated box, with mistakes by
+// name: frames to standard output, as LAMMPS writes them. Shares no code with edmill. usage:
+// spring_dem [NAME=VALUE...]   a name that it does not have is an error
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -23,66 +23,26 @@ V cross(const V& a, const V& b) {
 const double pi = std::acos(-1.0);
 
 /// What a run has, and its mistakes; factors are 1, axes and walls -1 where there is none.
-std::map<std::string, double> options{
-    // the run: number of balls, duration of a contact [s], time steps in it, steps between frames, digits
-    {"balls", 5},
-    {"small_balls", 0},
-    {"hertz", 0},
-    {"contact_time", 1e-4},
-    {"steps", 50},
-    {"every", 10},
-    {"digits", 9},
-    {"duration", 0.6},
-    {"seed", 1},
-    {"restitution", 0.6},
-    {"friction", 0.4},
-    {"with_sizes", 1},
-    {"first_ball", 1},
+std::map<std::string, double> options{// the run: number of balls, duration of a contact [s], time
+                                      // steps in it, steps between frames, digits
+    {"balls", 5}, {"small_balls", 0}, {"hertz", 0}, {"contact_time", 1e-4}, {"steps", 50},
+    {"every", 10}, {"digits", 9}, {"duration", 0.6}, {"seed", 1}, {"restitution", 0.6},
+    {"friction", 0.4}, {"with_sizes", 1}, {"first_ball", 1},
     // contacts
-    {"restitution_of_walls", -1},
-    {"restitution_of_pairs", -1},
-    {"friction_of_walls", -1},
-    {"friction_of_pairs", -1},
-    {"restitution_by_speed", 0},
-    {"mixed_restitution", 0},
-    {"other_wall", -1},
-    {"restitution_of_other_wall", 0.4},
-    {"other_ball", -1},
-    {"restitution_of_other_ball", 0.4},
-    {"mass_of_pairs", 1},
-    {"torque", 1},
-    {"inertia", 1},
-    {"missing_wall", -1},
-    {"no_pairs", 0},
-    {"missing_share", 0},
-    {"attraction", 0},
-    {"wall_velocity", 1},
-    {"tangential_damping", 0},
-    {"no_spin_in_slip", 0},
+    {"restitution_of_walls", -1}, {"restitution_of_pairs", -1}, {"friction_of_walls", -1},
+    {"friction_of_pairs", -1}, {"restitution_by_speed", 0}, {"mixed_restitution", 0},
+    {"other_wall", -1}, {"restitution_of_other_wall", 0.4}, {"other_ball", -1},
+    {"restitution_of_other_ball", 0.4}, {"mass_of_pairs", 1}, {"torque", 1}, {"inertia", 1},
+    {"missing_wall", -1}, {"no_pairs", 0}, {"missing_share", 0}, {"attraction", 0},
+    {"wall_velocity", 1}, {"tangential_damping", 0}, {"no_spin_in_slip", 0},
     // mill, vessel and balls
-    {"gravity", 1},
-    {"gravity_axis", 1},
-    {"radius", 1},
-    {"radius_of_last", 1},
-    {"density_of_last", 1},
-    {"density", 1},
-    {"size_x", 1},
-    {"size_y", 1},
-    {"size_z", 1},
-    {"amplitude", 1},
-    {"amplitude_y", 1},
-    {"speed", 1},
-    {"phase", 0},
-    {"phase_y", 0},
-    {"periodic_axis", -1},
-    {"shift_x", 0},
+    {"gravity", 1}, {"gravity_axis", 1}, {"radius", 1}, {"radius_of_last", 1},
+    {"density_of_last", 1}, {"density", 1}, {"size_x", 1}, {"size_y", 1}, {"size_z", 1},
+    {"amplitude", 1}, {"amplitude_y", 1}, {"speed", 1}, {"phase", 0}, {"phase_y", 0},
+    {"periodic_axis", -1}, {"shift_x", 0},
     // the dump
-    {"length_unit", 1},
-    {"spin_sign", 1},
-    {"spin_unit", 1},
-    {"exchanged_axes", 0},
-    {"turned_axes", 0},
-    {"scaled", 0}};
+    {"length_unit", 1}, {"spin_sign", 1}, {"spin_unit", 1}, {"exchanged_axes", 0},
+    {"turned_axes", 0}, {"scaled", 0}};
 double at(const char* name) { return options.at(name); }
 int whole(const char* name) { return static_cast<int>(at(name)); }
 
@@ -91,7 +51,8 @@ double unit_of_time() { return at("hertz") != 0 ? 2.9432750 : pi; }
 
 /// Force along the normal in these units.
 double normal_force(double overlap, double speed, double damping) {
-  if (at("hertz") != 0) return overlap * std::sqrt(overlap) + damping * std::sqrt(std::sqrt(overlap)) * speed;
+  if (at("hertz") != 0)
+    return overlap * std::sqrt(overlap) + damping * std::sqrt(std::sqrt(overlap)) * speed;
   return overlap + damping * speed;
 }
 
@@ -129,7 +90,7 @@ class Run {
     for (int i = 0; i < count; ++i) {
       Ball ball{};
       ball.x = {-0.008 + 0.016 * (i % 2), -0.018 + 0.036 * i / std::max(1, count - 1),
-                0.004 * (i % 3) - 0.004};
+          0.004 * (i % 3) - 0.004};
       for (double& v : ball.v) v = share(random) / 2;
       ball.radius = (i < count - whole("small_balls") ? 0.004 : 0.003) * at("radius");
       const bool last = i == count - 1;
@@ -139,7 +100,8 @@ class Run {
       ball.inertia = 0.4 * at("inertia") * ball.mass * ball.radius * ball.radius;
       balls_.push_back(ball);
     }
-    for (int wall = 0; wall < 6; ++wall) walls_[static_cast<std::size_t>(wall)] = damping_of_wall(wall);
+    for (int wall = 0; wall < 6; ++wall)
+      walls_[static_cast<std::size_t>(wall)] = damping_of_wall(wall);
     pairs_ = damping("restitution_of_pairs");
     other_ = damping_for(at("restitution_of_other_ball"), whole("steps"));
   }
@@ -160,18 +122,19 @@ class Run {
       }
     }
   }
-
  private:
   static double damping(const char* name) {
     return damping_for(at(name) < 0 ? at("restitution") : at(name), whole("steps"));
   }
   static double damping_of_wall(int wall) {
-    return damping(wall == whole("other_wall") ? "restitution_of_other_wall" : "restitution_of_walls");
+    return damping(
+        wall == whole("other_wall") ? "restitution_of_other_wall" : "restitution_of_walls");
   }
   static double friction(const char* name) { return at(name) < 0 ? at("friction") : at(name); }
 
   /// Force on the body at which the normal points, for a relative velocity g of the surfaces.
-  V contact(int key, const V& n, double overlap, const V& g, double mass, double damping, double friction) {
+  V contact(int key, const V& n, double overlap, const V& g, double mass, double damping,
+      double friction) {
     if (!springs_.contains(key)) dampings_[key] = damping_at(damping, std::abs(dot(g, n)));
     damping = dampings_[key];
     // Lengths and speeds of one are those of a contact at 1 m/s.
@@ -184,7 +147,8 @@ class Run {
     const double softer = at("hertz") != 0 ? 1.5 * std::sqrt(overlap / unit) : 1;
     const double tangential = 2.0 / 7 * softer * mass / (unit * unit);
     V force = wound * -tangential - along * (at("tangential_damping") * mass / unit);
-    if (const double size = std::sqrt(dot(force, force)), most = friction * std::abs(normal); size > most) {
+    if (const double size = std::sqrt(dot(force, force)), most = friction * std::abs(normal);
+        size > most) {
       force = force * (most / size);
       wound = force * (-1 / tangential);
     }
@@ -195,7 +159,8 @@ class Run {
   double damping_at(double damping, double speed) {
     const double steeper = at("restitution_by_speed"), mixed = at("mixed_restitution");
     if (steeper == 0 && mixed == 0) return damping;
-    const double own = at("restitution") - steeper * std::log(speed / 2) + (++contacts_ % 2 ? mixed : -mixed);
+    const double own =
+        at("restitution") - steeper * std::log(speed / 2) + (++contacts_ % 2 ? mixed : -mixed);
     return damping_for(std::min(0.95, std::max(0.1, own)), whole("steps"));
   }
 
@@ -220,31 +185,36 @@ class Run {
       auto& b = balls_[i];
       for (int wall = 0; wall < 6; ++wall) {
         const auto k = static_cast<std::size_t>(wall / 2);
-        const double side = wall % 2 ? 1 : -1, overlap = side * (b.x[k] - centre[k]) - (half_[k] - b.radius);
+        const double side = wall % 2 ? 1 : -1,
+                     overlap = side * (b.x[k] - centre[k]) - (half_[k] - b.radius);
         const int key = static_cast<int>(i) * 100 + wall;
-        if (overlap <= 0 || wall == whole("missing_wall") || static_cast<int>(k) == whole("periodic_axis")) {
+        if (overlap <= 0 || wall == whole("missing_wall") ||
+            static_cast<int>(k) == whole("periodic_axis")) {
           springs_.erase(key);
           continue;
         }
         V n{};
         n[k] = -side;
-        const double damping =
-            static_cast<int>(i) == whole("other_ball") ? other_ : walls_[static_cast<std::size_t>(wall)];
-        const V force = contact(key, n, overlap, b.v - moving + cross(b.w, n * -(arm * b.radius)), b.mass,
-                                damping, friction("friction_of_walls"));
+        const double damping = static_cast<int>(i) == whole("other_ball")
+            ? other_
+            : walls_[static_cast<std::size_t>(wall)];
+        const V force = contact(key, n, overlap, b.v - moving + cross(b.w, n * -(arm * b.radius)),
+            b.mass, damping, friction("friction_of_walls"));
         b.force = b.force + force;
         b.torque = b.torque + cross(n * -b.radius, force) * at("torque");
       }
       for (std::size_t j = 0; j < i; ++j) {
         auto& c = balls_[j];
         const V apart = b.x - c.x;
-        const double distance = std::sqrt(dot(apart, apart)), overlap = b.radius + c.radius - distance;
+        const double distance = std::sqrt(dot(apart, apart)),
+                     overlap = b.radius + c.radius - distance;
         const int key = static_cast<int>(i) * 100 + 50 + static_cast<int>(j);
         if (overlap <= 0 || at("no_pairs") != 0 || left_out(key)) {
           springs_.erase(key);
           continue;
         }
-        const V n = apart * (1 / distance), g = b.v - c.v - cross(b.w * b.radius + c.w * c.radius, n * arm);
+        const V n = apart * (1 / distance),
+                g = b.v - c.v - cross(b.w * b.radius + c.w * c.radius, n * arm);
         const double mass = b.mass * c.mass / (b.mass + c.mass) * at("mass_of_pairs");
         const V force = contact(key, n, overlap, g, mass, pairs_, friction("friction_of_pairs"));
         b.force = b.force + force;
@@ -256,10 +226,12 @@ class Run {
   }
 
   void write(long step) const {
-    std::printf("ITEM: TIMESTEP\n%ld\nITEM: NUMBER OF ATOMS\n%zu\nITEM: BOX BOUNDS ff ff ff\n", step,
-                balls_.size());
-    std::printf("-0.08 0.08\n-0.08 0.08\n-0.08 0.08\nITEM: ATOMS id x y z vx vy vz omegax omegay omegaz%s\n",
-                at("with_sizes") != 0 ? " mass radius" : "");
+    std::printf("ITEM: TIMESTEP\n%ld\nITEM: NUMBER OF ATOMS\n%zu\nITEM: BOX BOUNDS ff ff ff\n",
+        step, balls_.size());
+    std::printf(
+        "-0.08 0.08\n-0.08 0.08\n-0.08 0.08\nITEM: ATOMS id x y z vx vy vz omegax omegay "
+        "omegaz%s\n",
+        at("with_sizes") != 0 ? " mass radius" : "");
     const int digits = whole("digits");
     const double unit = at("length_unit");
     const auto put = [&](V vector) {
@@ -282,7 +254,7 @@ class Run {
   const double step_ = at("contact_time") / at("steps");
   const V half_{0.0165 * at("size_x"), 0.0285 * at("size_y"), 0.018 * at("size_z")};
   const V amplitude_{0.003 * at("amplitude"), 0.011 * at("amplitude") * at("amplitude_y"),
-                     -0.002 * at("amplitude")};
+      -0.002 * at("amplitude")};
   std::vector<Ball> balls_;
   std::array<double, 6> walls_{};  ///< damping of each
   double pairs_ = 0, other_ = 0;

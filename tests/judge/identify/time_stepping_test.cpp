@@ -10,25 +10,27 @@
 namespace edmill::identify {
 namespace {
 
-/// A ball of 10 mm that bounces on the floor of a box that stands still: each line is a contact that lasts.
+/// A ball of 10 mm that bounces on the floor of a box that stands still: each line is a contact
+/// that lasts.
 class Bounces : public testing::Test {
  protected:
   Bounces()
-      : built(casefile::build_case<double>(
-            casefile::parse_case("[run]\nend_time = \"1 s\"\ngravity = \"9.8 m/s2\"\n[mill]\ntype = "
-                                 "\"still\"\n[vessel]\ntype = \"box\"\n"
-                                 "size = [\"1 m\", \"1 m\", \"1 m\"]\n[contact]\nrestitution = 0.9\nfriction "
-                                 "= 0.3\n[[ball]]\ndiameter = \"10 mm\"\n"
-                                 "position = [\"0 m\", \"0 m\", \"0 m\"]\n",
-                                 "bounces.toml"))) {
+      : built(casefile::build_case<double>(casefile::parse_case(
+            "[run]\nend_time = \"1 s\"\ngravity = \"9.8 m/s2\"\n[mill]\ntype = "
+            "\"still\"\n[vessel]\ntype = \"box\"\n"
+            "size = [\"1 m\", \"1 m\", \"1 m\"]\n[contact]\nrestitution = 0.9\nfriction "
+            "= 0.3\n[[ball]]\ndiameter = \"10 mm\"\n"
+            "position = [\"0 m\", \"0 m\", \"0 m\"]\n",
+            "bounces.toml"))) {
     log.file = "log.csv";
     for (auto& body : log.available.body) body = {true, true, true, true, true};
   }
 
-  /// @param duration  of a contact, by its approach speed; a line has the begin of its contact, rounded up to
-  /// a step
+  /// @param duration  of a contact, by its approach speed; a line has the begin of its contact,
+  /// rounded up to a step
   /// @param step      [s]; 0 for exact times
-  /// @param slip      [s]; step of an integrator of first order, with which flights fall g slip t/2 too far
+  /// @param slip      [s]; step of an integrator of first order, with which flights fall g slip t/2
+  /// too far
   template <class Duration>
   void write(int count, const Duration& duration, double step, double slip) {
     constexpr double g = 9.8, floor = -0.5 + 0.005;
@@ -37,7 +39,8 @@ class Bounces : public testing::Test {
       audit::LoggedEvent e;
       e.ball = 0, e.with_wall = true, e.partner = 0;
       e.time = step > 0 ? std::ceil(time / step) * step : time;
-      const double late = e.time - time, up = speed > 0.8 ? 0.9 * speed : 2.0;  // a kick now and then
+      const double late = e.time - time,
+                   up = speed > 0.8 ? 0.9 * speed : 2.0;  // a kick now and then
       auto& b = e.body[0];
       b.position = {0, floor - speed * late - g / 2 * late * late, 0};
       b.velocity_before = {0, -speed - g * late, 0};

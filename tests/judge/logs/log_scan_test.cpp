@@ -31,8 +31,8 @@ class LogReading : public ProgramTest {
 
 TEST_F(LogReading, ColumnsInAnyOrderWithOthersBetween) {
   write("log.csv",
-        "\xef\xbb\xbfmilling_dose,partner, partner_kind ,approach_speed,extra,time,ball\r\n"
-        "1e-3,2,wall,1.5,hello,0.25,4\r\n\r\n3e-3,4,ball,2.5E0,,0.50,7\r\n");
+      "\xef\xbb\xbfmilling_dose,partner, partner_kind ,approach_speed,extra,time,ball\r\n"
+      "1e-3,2,wall,1.5,hello,0.25,4\r\n\r\n3e-3,4,ball,2.5E0,,0.50,7\r\n");
   EventLog log(scratch / "log.csv");
   EXPECT_TRUE(log.has(model::milling_dose));
   EXPECT_FALSE(log.has(model::slip_speed));
@@ -56,9 +56,9 @@ TEST_F(LogReading, ColumnsInAnyOrderWithOthersBetween) {
 }
 
 TEST_F(LogReading, ManyDigitsAndTinyNumbersAreNumbers) {
-  EXPECT_TRUE(
-      problems(least + "0.12345678901234567890123456789012345678,0,wall,0,1e-400\n1,0,ball,1,-1e-18\n")
-          .empty());
+  EXPECT_TRUE(problems(
+      least + "0.12345678901234567890123456789012345678,0,wall,0,1e-400\n1,0,ball,1,-1e-18\n")
+                  .empty());
 }
 
 TEST_F(LogReading, EveryProblemOfAHeaderAtOnce) {
@@ -67,7 +67,8 @@ TEST_F(LogReading, EveryProblemOfAHeaderAtOnce) {
   EXPECT_EQ(all[0], "1: column 5: found 'time' a second time, expected it once");
   EXPECT_EQ(all[1], "1: the header has no column 'partner_kind'");
   EXPECT_EQ(all[2], "1: the header has no column 'approach_speed'");
-  EXPECT_EQ(problems(""), (std::vector<std::string>{"1: found the end of the file, expected a header"}));
+  EXPECT_EQ(
+      problems(""), (std::vector<std::string>{"1: found the end of the file, expected a header"}));
 }
 
 TEST_F(LogReading, BadLinesAreExplained) {
@@ -82,13 +83,13 @@ TEST_F(LogReading, BadLinesAreExplained) {
       {"1,0,wall,100,1", "column 4 (partner): found '100', expected the number of a wall"},
       {"1,5,ball,5,1", "column 4 (partner): found '5', expected another ball than the first"},
       {"0.1,0,wall,0,1",
-       "column 1 (time): found '0.1', expected a time not before 0.5 s, that of the line above"},
+          "column 1 (time): found '0.1', expected a time not before 0.5 s, that of the line above"},
       {"1,0,wall,0", "found 4 fields, expected 5"},
       {"1,0,wall,0,1,", "found 6 fields, expected 5"},
   };
   for (const auto& [line, message] : bad)
     EXPECT_EQ(problems(least + "0.5,0,wall,0,1\n" + line + "\n2,0,wall,1,1\n"),
-              (std::vector<std::string>{"3: " + message}))
+        (std::vector<std::string>{"3: " + message}))
         << line;
 }
 
@@ -118,7 +119,7 @@ TEST_F(LogReading, AFolderNeedsItsLogAndAGoodSummary) {
   EXPECT_EQ(scan_log(scratch / "run").statistics_start, 0.5);
   EXPECT_EQ(scan_log(scratch / "run").walls, 1);  // the one that the log meets
   write("run/summary.json",
-        "{\"start_time\": 0.5, \"collisions\": {\"wall_0\": 1, \"wall_1\": 0, \"ball_ball\": 0}}");
+      "{\"start_time\": 0.5, \"collisions\": {\"wall_0\": 1, \"wall_1\": 0, \"ball_ball\": 0}}");
   EXPECT_EQ(scan_log(scratch / "run").walls, 2);
   for (const auto* bad : {"{", "{}", "{\"start_time\": \"early\"}"}) {
     write("run/summary.json", bad);

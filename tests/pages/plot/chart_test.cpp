@@ -35,11 +35,13 @@ std::vector<std::pair<double, double>> points_of(const pugi::xml_node& path) {
 }
 
 /// The value at a position in the drawing, by two labelled ticks of its axis.
-double by_ticks(const pugi::xml_document& document, const char* axis, const char* coordinate, double place) {
+double by_ticks(
+    const pugi::xml_document& document, const char* axis, const char* coordinate, double place) {
   std::vector<std::pair<double, double>> ticks;  // place, value
   for (const auto& found : document.select_nodes(
            (std::string("//g[contains(@class,'") + axis + "')]/text[@class='label']").c_str()))
-    ticks.emplace_back(found.node().attribute(coordinate).as_double(), found.node().text().as_double());
+    ticks.emplace_back(
+        found.node().attribute(coordinate).as_double(), found.node().text().as_double());
   const auto [p0, v0] = ticks.front();
   const auto [p1, v1] = ticks.back();
   return v0 + (place - p0) * (v1 - v0) / (p1 - p0);
@@ -60,7 +62,8 @@ TEST(Chart, ADecadeIsAsLongAsAnyOtherOnALogarithmicAxis) {
   auto chart = some_chart();
   chart.y = {"energy [J]", 1e-6, 1, true};
   chart.curves[0].points = {{0, 1e-5}, {1, 1e-4}, {2, 1e-3}};
-  const auto points = points_of(drawn(chart).select_node("//path[contains(@class,'curve')]").node());
+  const auto points =
+      points_of(drawn(chart).select_node("//path[contains(@class,'curve')]").node());
   ASSERT_EQ(points.size(), 3u);
   EXPECT_NEAR(points[0].second - points[1].second, points[1].second - points[2].second, 0.02);
   EXPECT_GT(points[0].second, points[1].second);
@@ -70,7 +73,8 @@ TEST(Chart, AHistogramIsLevelOverEachBin) {
   auto chart = some_chart();
   chart.curves[0].points = {{0, 1}, {5, 3}, {10, 0}};
   chart.curves[0].steps = true;
-  const auto points = points_of(drawn(chart).select_node("//path[contains(@class,'curve')]").node());
+  const auto points =
+      points_of(drawn(chart).select_node("//path[contains(@class,'curve')]").node());
   ASSERT_EQ(points.size(), 4u);
   EXPECT_EQ(points[0].second, points[1].second);
   EXPECT_EQ(points[1].first, points[2].first);
@@ -116,7 +120,8 @@ TEST(HeatMap, MoreIsAlwaysLighter) {
 
 TEST(HeatMap, CellsOfADiscLieOnTheirRing) {
   HeatMap map;
-  map.id = "cap", map.title = "Cap", map.value = "dose rate [kW/m2]", map.disc = true, map.highest = 2;
+  map.id = "cap", map.title = "Cap", map.value = "dose rate [kW/m2]", map.disc = true,
+  map.highest = 2;
   map.y = {"", 0, 0.019, false};
   map.cells = {{0, std::acos(-1.0) / 2, 0.0095, 0.019, 2}};
   pugi::xml_document document;
@@ -141,7 +146,8 @@ TEST(HeatMap, LabelsAlongXAreRoundOrAtSteps) {
     pugi::xml_document document;
     draw(document, map);
     std::string text;
-    for (const auto& label : document.select_nodes("//g[@class='axis x-axis']/text[@class='label']"))
+    for (const auto& label :
+        document.select_nodes("//g[@class='axis x-axis']/text[@class='label']"))
       text += std::string(label.node().text().as_string()) + " ";
     return text;
   };

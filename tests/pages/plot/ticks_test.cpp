@@ -31,10 +31,10 @@ TEST(Ticks, StandAtRoundNumbersWithAsManyDecimalsAsTheyNeed) {
   EXPECT_EQ(labels(linear_ticks(0, 12400)), (Texts{"0", "5000", "10\u202f000"}));
   EXPECT_EQ(labels(linear_ticks(0, 1.2e6)), (Texts{"0", "5 \u00d7 10\u2075", "1 \u00d7 10\u2076"}));
   EXPECT_EQ(labels(linear_ticks(1000000, 1000000.5)),
-            (Texts{"1\u202f000\u202f000.0", "1\u202f000\u202f000.1", "1\u202f000\u202f000.2",
-                   "1\u202f000\u202f000.3", "1\u202f000\u202f000.4", "1\u202f000\u202f000.5"}));
+      (Texts{"1\u202f000\u202f000.0", "1\u202f000\u202f000.1", "1\u202f000\u202f000.2",
+          "1\u202f000\u202f000.3", "1\u202f000\u202f000.4", "1\u202f000\u202f000.5"}));
   EXPECT_EQ(labels(fitting_ticks(1000000, 1000000.5, 6, 380)),
-            (Texts{"1\u202f000\u202f000.0", "1\u202f000\u202f000.2", "1\u202f000\u202f000.4"}));
+      (Texts{"1\u202f000\u202f000.0", "1\u202f000\u202f000.2", "1\u202f000\u202f000.4"}));
   EXPECT_EQ(labels(fitting_ticks(0, 10, 6, 380)), labels(linear_ticks(0, 10)));
   EXPECT_EQ(linear_ticks(0, 0.31)[3].place, 0.3);  // not 3 * 0.1
 }
@@ -53,7 +53,8 @@ RC_GTEST_PROP(Ticks, LinearOnesAreEvenFewAndInsideTheRange, ()) {
     RC_ASSERT(std::abs(ticks[k].place - ticks[k - 1].place - step) < 1e-6 * step);
   // 1, 2 or 5 times a power of ten
   const double mantissa = step / std::pow(10.0, std::floor(std::log10(step) + 1e-9));
-  RC_ASSERT(std::abs(mantissa - 1) < 1e-6 || std::abs(mantissa - 2) < 1e-6 || std::abs(mantissa - 5) < 1e-6);
+  RC_ASSERT(std::abs(mantissa - 1) < 1e-6 || std::abs(mantissa - 2) < 1e-6 ||
+      std::abs(mantissa - 5) < 1e-6);
 }
 
 TEST(Ticks, LogarithmicOnesArePowersOfTenWithMarksBetween) {

@@ -12,7 +12,8 @@ namespace {
 
 using edmill::casefile::read_case;
 
-pugi::xml_document drawn(const std::string& example, const std::vector<std::string>& overrides = {}) {
+pugi::xml_document drawn(
+    const std::string& example, const std::vector<std::string>& overrides = {}) {
   const auto spec = read_case(EDMILL_SOURCE_DIR "/docs/examples/" + example, overrides);
   pugi::xml_document document;
   const auto text =
@@ -61,15 +62,16 @@ TEST(MillDrawing, TheJarOfAPlanetaryMillGoesRoundADiscOfItsRadius) {
   double largest = 0;
   for (const auto& [px, py] : path) largest = std::max(largest, std::hypot(px - x, py - y));
   EXPECT_NEAR(largest * metres / pixels, 0.075, 0.075 * 2e-3);
-  EXPECT_EQ(document.select_nodes("//circle[@class='joint']").size(), 3u * 3);  // three joints in three views
+  EXPECT_EQ(document.select_nodes("//circle[@class='joint']").size(),
+      3u * 3);  // three joints in three views
   EXPECT_EQ(document.select_nodes("//path[@class='axis']").size(), 2u * 3);
 }
 
 TEST(MillDrawing, AnAxisStandsWhereTheChainSays) {
   // Up by 20 mm, then a turn about x: the axis is level, 20 mm above the ground's origin.
-  const auto document =
-      drawn("planetary.toml",
-            {"mill={type=\"chain\",joint=[{translate=[0,\"20 mm\",0]},{rotate=\"x\",speed=\"60 rpm\"}]}"});
+  const auto document = drawn("planetary.toml",
+      {"mill={type=\"chain\",joint=[{translate=[0,\"20 mm\",0]},{rotate=\"x\",speed=\"60 "
+       "rpm\"}]}"});
   const auto arm = points_of(first(document, "arm")), axis = points_of(first(document, "axis"));
   const auto [pixels, metres] = bar_of(document);
   ASSERT_EQ(arm.size(), 2u);

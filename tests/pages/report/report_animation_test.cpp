@@ -30,22 +30,26 @@ TEST_F(Report, TheAnimationBeginsWithTheStatisticsAndHasEveryBallInTheVessel) {
     EXPECT_EQ(keys.back(), 1);
     EXPECT_TRUE(std::is_sorted(keys.begin(), keys.end()));
     for (std::size_t k = 0; k < keys.size(); ++k) {
-      const double phase = 2 * std::acos(-1.0) * (0.5 / period + 2 * keys[k]);  // two turns from 0.5 s on
-      const double theta = (90 + 15 * std::cos(phase)) * degree, gamma = 15 * std::sin(phase) * degree;
+      const double phase =
+          2 * std::acos(-1.0) * (0.5 / period + 2 * keys[k]);  // two turns from 0.5 s on
+      const double theta = (90 + 15 * std::cos(phase)) * degree,
+                   gamma = 15 * std::sin(phase) * degree;
       const double *place = &places[3 * k], x = place[0], y = place[1], z = place[2];
       const double along = std::cos(theta) * x + std::sin(theta) * y - 0.1;
       const double across = -std::sin(theta) * x + std::cos(theta) * y;
       const double axial = across * std::cos(gamma) + z * std::sin(gamma);
       const double side = -across * std::sin(gamma) + z * std::cos(gamma);
       ASSERT_LT(std::abs(axial), 0.0285 - 0.00238 + 1e-9) << "ball " << ball << ", key " << keys[k];
-      ASSERT_LT(std::hypot(along, side), 0.019 - 0.00238 + 1e-9) << "ball " << ball << ", key " << keys[k];
+      ASSERT_LT(std::hypot(along, side), 0.019 - 0.00238 + 1e-9)
+          << "ball " << ball << ", key " << keys[k];
     }
   }
 }
 
 /// Where ball `ball` is at a fraction of the animation: straight between the keys of its path.
 std::array<double, 3> place_at(const pugi::xml_node& scene, std::size_t ball, double fraction) {
-  const auto path = scene.find_child_by_attribute("DEF", ("ball_" + std::to_string(ball) + "_path").c_str());
+  const auto path =
+      scene.find_child_by_attribute("DEF", ("ball_" + std::to_string(ball) + "_path").c_str());
   const auto keys = numbers(path, "key"), values = numbers(path, "keyValue");
   std::size_t k = 1;
   while (k + 1 < keys.size() && keys[k] < fraction) ++k;
@@ -62,7 +66,8 @@ TEST_F(Report, TheFramesOfThePageShowTheAnimation) {
   ASSERT_TRUE(animation.load_file((folder / "report/animation.x3d").c_str()));
   const auto scene = animation.child("X3D").child("Scene");
   const auto main = body();
-  const auto frames = nlohmann::json::parse(main.select_node("//script[@id='frames']").node().text().get());
+  const auto frames =
+      nlohmann::json::parse(main.select_node("//script[@id='frames']").node().text().get());
   const auto slider = main.select_node("//input[@id='time']").node();
   EXPECT_NEAR(slider.attribute("max").as_double(), 1000 * 2 * 60.0 / 1054, 1e-3);
   EXPECT_NEAR(frames["duration"], 8, 1e-9);
@@ -98,11 +103,14 @@ TEST_F(Report, TheFramesOfThePageShowTheAnimation) {
     for (std::size_t ball = 0; ball < 28; ++ball) {
       const auto place = place_at(scene, ball, fraction);
       for (std::size_t c = 0; c < 3; ++c)
-        ASSERT_NEAR(places[3 * (28 * frame + ball) + c], 1000 * place[c], 0.0051) << ball << " " << frame;
+        ASSERT_NEAR(places[3 * (28 * frame + ball) + c], 1000 * place[c], 0.0051)
+            << ball << " " << frame;
     }
-    // Places are straight between keys, 80 each turn, and turns uniform: up to 0.02 mm and 0.2 mrad off.
+    // Places are straight between keys, 80 each turn, and turns uniform: up to 0.02 mm and 0.2 mrad
+    // off.
     const double phase = turn * (0.5 * 1054 / 60 + 2 * fraction);
-    const double theta = (90 + 15 * std::cos(phase)) * degree, gamma = 15 * std::sin(phase) * degree;
+    const double theta = (90 + 15 * std::cos(phase)) * degree,
+                 gamma = 15 * std::sin(phase) * degree;
     const double* pose = &poses[7 * frame];
     EXPECT_NEAR(pose[0], 100 * std::cos(theta), 0.03);
     EXPECT_NEAR(pose[1], 100 * std::sin(theta), 0.03);

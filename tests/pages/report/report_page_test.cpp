@@ -21,7 +21,8 @@ using edmill::testing::Report;
 
 std::vector<std::string> ids(const pugi::xml_document& body, const char* what) {
   std::vector<std::string> list;
-  for (const auto& found : body.select_nodes(what)) list.push_back(found.node().attribute("id").as_string());
+  for (const auto& found : body.select_nodes(what))
+    list.push_back(found.node().attribute("id").as_string());
   return list;
 }
 
@@ -31,7 +32,8 @@ TEST_F(Report, OfARunWithReportHasEverySection) {
   run("--report");
   const auto main = body();
   EXPECT_EQ(ids(main, "//section"),
-            (Ids{"results", "animation", "rates", "check", "spectra", "vessel", "speeds", "energy", "case"}));
+      (Ids{"results", "animation", "rates", "check", "spectra", "vessel", "speeds", "energy",
+          "case"}));
   EXPECT_EQ(ids(main, "//figure").size(), 12u);
   EXPECT_TRUE(main.select_nodes("//*[@class='missing']").empty());
   EXPECT_LT(page().size(), 6000000u);
@@ -87,7 +89,8 @@ TEST_F(Report, WarningsHaveASectionOfTheirOwnAndStandWithTheRatesThatTheyVoid) {
   const auto sections = ids(main, "//section");
   ASSERT_GE(sections.size(), 2u);
   EXPECT_EQ(sections[1], "warnings");
-  const auto doubts = main.select_nodes("//*[@id='results']//dd[@class='doubt']/a[@href='#warnings']");
+  const auto doubts =
+      main.select_nodes("//*[@id='results']//dd[@class='doubt']/a[@href='#warnings']");
   const auto intervals = main.select_nodes("//*[@id='results']//dd[@class='interval']");
   ASSERT_GE(intervals.size(), 2u);
   EXPECT_GE(doubts.size(), intervals.size());
@@ -98,7 +101,8 @@ TEST_F(Report, WarningsHaveASectionOfTheirOwnAndStandWithTheRatesThatTheyVoid) {
 TEST_F(Report, CallsWallsAlongGravityTopAndBottom) {
   run("--report");  // the vial of a SPEX is on its side
   EXPECT_EQ(page().find("(bottom)"), std::string::npos);
-  run("--report --set 'mill={type=\"vibratory\",amplitude=[\"0 mm\",\"10 mm\",\"0 mm\"],speed=\"1500 "
+  run("--report --set 'mill={type=\"vibratory\",amplitude=[\"0 mm\",\"10 mm\",\"0 "
+      "mm\"],speed=\"1500 "
       "rpm\"}'");
   const std::string standing = page();
   EXPECT_NE(standing.find("(bottom)"), standing.npos);
@@ -118,8 +122,8 @@ TEST_F(Report, OfAnyRunSaysWhichOutputsItMisses) {
   std::string missing;
   for (const auto& found : main.select_nodes("//*[@class='missing']/code"))
     missing += found.node().text().as_string();
-  for (const char* type :
-       {"trends", "trends_balls", "frequency", "spectra", "rates_above", "coverage", "bodies", "animation"})
+  for (const char* type : {"trends", "trends_balls", "frequency", "spectra", "rates_above",
+           "coverage", "bodies", "animation"})
     EXPECT_NE(missing.find("type = \"" + std::string(type) + "\""), std::string::npos) << type;
   EXPECT_LT(page().size(), 100000u);  // without the player
 }
@@ -139,15 +143,17 @@ TEST_F(Report, ShowsTheNumbersOfTheSummary) {
     return std::stod(summary.substr(summary.find("\"" + key + "\":") + key.size() + 3));
   };
   const auto main = body();
-  const auto card = main.select_node("//div[@class='card'][dt='Milling dose rate']/dd/strong").node();
+  const auto card =
+      main.select_node("//div[@class='card'][dt='Milling dose rate']/dd/strong").node();
   EXPECT_NEAR(card.text().as_double(), number("milling_dose_rate"), 0.0006);
 }
 
 /// Ends of the tick labels of an axis: place and value.
-double at_ticks(const pugi::xml_node& figure, const std::string& axis, const char* coordinate, double place) {
+double at_ticks(
+    const pugi::xml_node& figure, const std::string& axis, const char* coordinate, double place) {
   std::vector<std::pair<double, double>> ticks;
   for (const auto& found :
-       figure.select_nodes((".//g[contains(@class,'" + axis + "')]/text[@class='label']").c_str())) {
+      figure.select_nodes((".//g[contains(@class,'" + axis + "')]/text[@class='label']").c_str())) {
     std::string label = found.node().text().as_string();
     for (auto at = label.find("\u202f"); at != std::string::npos; at = label.find("\u202f"))
       label.erase(at, 3);
@@ -175,8 +181,10 @@ TEST_F(Report, TheLastPointOfTheDoseRateIsTheLastWholeIntervalOfItsTable) {
   table.pop_back();
   const auto main = body();
   const auto figure = main.select_node("//figure[@id='dose-rate']").node();
-  const std::string path = figure.select_node(".//path[@class='curve c0']").node().attribute("d").as_string();
-  EXPECT_EQ(std::count(path.begin(), path.end(), 'L') + 1, static_cast<std::ptrdiff_t>(table.size()));
+  const std::string path =
+      figure.select_node(".//path[@class='curve c0']").node().attribute("d").as_string();
+  EXPECT_EQ(
+      std::count(path.begin(), path.end(), 'L') + 1, static_cast<std::ptrdiff_t>(table.size()));
   std::istringstream last(path.substr(path.rfind('L') + 1));
   double x = 0, y = 0;
   last >> x >> y;
@@ -197,7 +205,8 @@ TEST_F(Report, OfARunThatEndsBeforeItsStatisticsSaysThatTheyAreMissing) {
   const auto main = body();
   for (const char* section : {"animation", "spectra", "vessel"})
     EXPECT_FALSE(
-        main.select_nodes((std::string("//section[@id='") + section + "']//*[@class='missing']").c_str())
+        main.select_nodes(
+                (std::string("//section[@id='") + section + "']//*[@class='missing']").c_str())
             .empty())
         << section;
 }
@@ -224,7 +233,8 @@ TEST_F(Report, HasTheDoseOfEachBall) {
 }
 
 TEST_F(Report, ReadsTablesWhoseHeadersHoldCommasAndQuotes) {
-  run("--set 'output=[{type=\"trends\",interval=\"50 ms\",columns=[{variable=\"milling_dose\",label=\"dose, "
+  run("--set 'output=[{type=\"trends\",interval=\"50 "
+      "ms\",columns=[{variable=\"milling_dose\",label=\"dose, "
       "\\\"real\\\"\","
       "statistics=[\"rate\"]}]}]'");
   ASSERT_NE(contents(folder / "trends.csv").find("\"dose, \"\"real\"\" [W]\""), std::string::npos);
@@ -237,7 +247,7 @@ TEST_F(Report, TextsOfTheCaseAreNoMarkup) {
   const auto file = scratch / "<b>&.toml";
   write(file, "# </pre><script>alert(1)</script>\n" + contents(source / "docs/examples/demo.toml"));
   const auto done = edmill("run '" + file.string() + "' --quiet --set 'run.end_time=0.6 s' --out " +
-                           folder.string() + " --report");
+      folder.string() + " --report");
   ASSERT_EQ(done.code, 0) << done.err;
   EXPECT_NE(page().find("<h1>&lt;b&gt;&amp;.toml</h1>"), std::string::npos);
   EXPECT_EQ(page().find("<script>alert"), std::string::npos);
@@ -267,25 +277,28 @@ TEST_F(Report, BrokenFilesAreToldByFileLineAndKey) {
   const auto energy = summary.begin() + static_cast<std::ptrdiff_t>(summary.find("\"energy\""));
   const auto line = 1 + std::count(summary.begin(), energy, '\n');
   breaks("summary.json", "\"energy\": {", "\"energy\" {",
-         "summary.json:" + std::to_string(line) + ": invalid JSON");
-  breaks("summary.json", "\"wall_work\"", "\"work\"", "summary.json: wall_work: missing, expected a number");
+      "summary.json:" + std::to_string(line) + ": invalid JSON");
+  breaks("summary.json", "\"wall_work\"", "\"work\"",
+      "summary.json: wall_work: missing, expected a number");
   breaks("summary.json", "\"end_reason\": \"end_time\"", "\"end_reason\": 3",
-         "end_reason: found 3, expected why the run ended");
+      "end_reason: found 3, expected why the run ended");
   breaks("summary.json", "\"end_reason\": \"end_time\"", "\"end_reason\": \"bored\"",
-         "end_reason: found \"bored\", expected why the run ended");
+      "end_reason: found \"bored\", expected why the run ended");
   breaks("case.toml", "friction = 0.4", "friction = 0.5", "case.toml: found a case with digest ");
   breaks("case.toml", "friction = 0.4", "friction = ", "case.toml:");
   breaks("report/trends.csv", ",", ",what,", "trends.csv:2: found 4 fields, expected 5");
   breaks("report/coverage.csv", "dose_per_area", "dose",
-         "coverage.csv: the header has no column 'dose_per_area'");
+      "coverage.csv: the header has no column 'dose_per_area'");
   breaks("report/animation.x3d", "</Scene>", "", "animation.x3d: invalid XML");
-  breaks("report/animation.x3d", "\"vessel\"", "\"other\"", "animation.x3d: found X3D without moving vessel");
+  breaks("report/animation.x3d", "\"vessel\"", "\"other\"",
+      "animation.x3d: found X3D without moving vessel");
   breaks("report/animation.x3d", "DEF=\"ball_7_path\" key=\"", "DEF=\"ball_7_path\" key=\"0 ",
-         "numbers in 'ball_7_path', expected 3 numbers for each key");
-  breaks("report/animation.x3d", "point=\"", "point=\"1 ", "numbers in the points of a wall, expected 3");
+      "numbers in 'ball_7_path', expected 3 numbers for each key");
+  breaks("report/animation.x3d", "point=\"", "point=\"1 ",
+      "numbers in the points of a wall, expected 3");
   breaks("report/animation.x3d", "coordIndex=\"", "coordIndex=\"99 ", "found corner 99 of a wall");
   breaks("report/animation.x3d", "centerOfRotation=\"", "centerOfRotation=\"1 ",
-         "animation.x3d: found 4 numbers, expected 3 for 'centerOfRotation' of <Viewpoint>");
+      "animation.x3d: found 4 numbers, expected 3 for 'centerOfRotation' of <Viewpoint>");
   fs::remove(folder / "case.toml");
   const auto done = edmill("report " + folder.string());
   EXPECT_EQ(done.code, 2);
@@ -296,10 +309,9 @@ TEST_F(Report, IsMadeOfARunThatBeganFromASavedState) {
   run("");
   const auto saved = folder / "final_state.csv";
   const auto next = scratch / "next";
-  const auto done =
-      edmill("run " + (source / "docs/examples/demo.toml").string() + " --quiet --report --out " +
-             next.string() + " --set run.initial_state=" + saved.string() +
-             " --set 'run.start_time=1.6 s' --set 'run.initial_time=1.5 s' --set 'run.end_time=1.7 s'");
+  const auto done = edmill("run " + (source / "docs/examples/demo.toml").string() +
+      " --quiet --report --out " + next.string() + " --set run.initial_state=" + saved.string() +
+      " --set 'run.start_time=1.6 s' --set 'run.initial_time=1.5 s' --set 'run.end_time=1.7 s'");
   ASSERT_EQ(done.code, 0) << done.err;
   fs::remove(saved);  // a report needs only its own folder
   EXPECT_EQ(edmill("report " + next.string()).code, 0);

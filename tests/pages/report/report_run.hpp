@@ -21,7 +21,7 @@ class Report : public ProgramTest {
   /// The demo for 1.5 s.
   void run(const std::string& options) {
     const auto done = edmill("run " + std::string(EDMILL_SOURCE_DIR "/docs/examples/demo.toml") +
-                             " --quiet --set 'run.end_time=1.5 s' --out " + folder.string() + " " + options);
+        " --quiet --set 'run.end_time=1.5 s' --out " + folder.string() + " " + options);
     ASSERT_EQ(done.code, 0) << done.err;
   }
   std::string page() const { return contents(folder / "report.html"); }

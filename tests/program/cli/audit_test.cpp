@@ -15,15 +15,17 @@ class AuditCommand : public ProgramTest {
  protected:
   const std::string demo = EDMILL_SOURCE_DIR "/docs/examples/demo.toml";
   void run(const std::string& settings, const std::string& states = ", states=true") const {
-    const auto outcome = edmill("run " + demo + " --quiet --out out --set 'output=[{type=\"collisions\"" +
-                                states + "}]' " + settings);
+    const auto outcome = edmill("run " + demo +
+        " --quiet --out out --set 'output=[{type=\"collisions\"" + states + "}]' " + settings);
     ASSERT_EQ(outcome.code, 0) << outcome.err;
   }
   nlohmann::json result() const { return nlohmann::json::parse(contents(scratch / "result.json")); }
-  void change_line(std::size_t number, const std::function<std::string(const std::string&)>& how) const {
+  void change_line(
+      std::size_t number, const std::function<std::string(const std::string&)>& how) const {
     std::istringstream in(contents(scratch / "out/collisions.csv"));
     std::string all, line;
-    for (std::size_t k = 1; std::getline(in, line); ++k) all += (k == number ? how(line) : line) + "\n";
+    for (std::size_t k = 1; std::getline(in, line); ++k)
+      all += (k == number ? how(line) : line) + "\n";
     write("out/collisions.csv", all);
   }
 };
@@ -49,31 +51,35 @@ TEST_F(AuditCommand, ACleanLogGivesZeroAndABrokenOneSix) {
 
 TEST_F(AuditCommand, AWrongCaseIsFoundInTheLaw) {
   run("--set run.max_collisions=2000");
-  EXPECT_EQ(edmill("audit " + demo + " out --json result.json --set contact.restitution=0.54").code, 6);
+  EXPECT_EQ(
+      edmill("audit " + demo + " out --json result.json --set contact.restitution=0.54").code, 6);
   EXPECT_GT(result()["violations"]["normal_restitution"]["count"], 200);
 }
 
 TEST_F(AuditCommand, ALogWithAnotherLeastSeparationSpeedIsFoundAndItsEnergyDoesNotClose) {
   run("--set run.max_collisions=2000 --set run.start_time='\"0 s\"'");
-  const auto supplied =
-      nlohmann::json::parse(contents(scratch / "out/summary.json"))["least_separation"]["supplied_energy"]
-          .get<double>();
+  const auto supplied = nlohmann::json::parse(
+      contents(scratch / "out/summary.json"))["least_separation"]["supplied_energy"]
+                            .get<double>();
   ASSERT_GT(supplied, 0);
   ASSERT_EQ(edmill("audit " + demo + " out --json result.json").code, 0);
   const auto good = result()["energy"];
   const double dose = good["milling_dose"];
   EXPECT_NEAR(good["supplied"], supplied, 1e-12 * dose);
   EXPECT_NEAR(good["closure"], 0, 1e-12 * dose);
-  EXPECT_NEAR(good["wall_work"].get<double>() - dose + supplied, good["kinetic_change"], 1e-12 * dose);
+  EXPECT_NEAR(
+      good["wall_work"].get<double>() - dose + supplied, good["kinetic_change"], 1e-12 * dose);
 
-  const auto bad =
-      edmill("audit " + demo + " out --json result.json --set contact.least_separation='\"0 m/s\"'");
+  const auto bad = edmill(
+      "audit " + demo + " out --json result.json --set contact.least_separation='\"0 m/s\"'");
   EXPECT_EQ(bad.code, 6);
   EXPECT_EQ(result()["violations"].size(), 1u);
   EXPECT_GT(result()["violations"]["normal_restitution"]["count"], 100);
   EXPECT_NEAR(result()["energy"]["closure"], -supplied, 1e-12 * dose);
-  EXPECT_NE(bad.out.find("looks like   contact.least_separation = 0.01 "), std::string::npos) << bad.out;
-  EXPECT_EQ(bad.out.find("--identify"), std::string::npos) << bad.out;  // nothing is left to search for
+  EXPECT_NE(bad.out.find("looks like   contact.least_separation = 0.01 "), std::string::npos)
+      << bad.out;
+  EXPECT_EQ(bad.out.find("--identify"), std::string::npos)
+      << bad.out;  // nothing is left to search for
 }
 
 TEST_F(AuditCommand, LogsWithoutStatesAreCheckedAsFarAsTheyGo) {
@@ -95,12 +101,13 @@ TEST_F(AuditCommand, ColumnsOfTheCaseAndOfTheCommandLine) {
   write("log.csv", "t,i,j,vn\n100,1,-1,1\n200,2,-3,1\n");
   const std::string columns =
       " --column 'time=t [ms]' --column ball=i --column partner=j --column approach_speed=vn";
-  EXPECT_EQ(edmill("audit " + demo + " log.csv --first-ball 1 --json result.json" + columns).code, 7);
+  EXPECT_EQ(
+      edmill("audit " + demo + " log.csv --first-ball 1 --json result.json" + columns).code, 7);
   EXPECT_EQ(result()["last_time"], 0.2);
   write("case.toml",
-        contents(demo) +
-            "[audit]\nfirst_ball = 1\nwalls = \"-3, -2, -1\"\n[audit.columns]\ntime = \"t [s]\"\n"
-            "ball = \"i\"\npartner = \"j\"\n");
+      contents(demo) +
+          "[audit]\nfirst_ball = 1\nwalls = \"-3, -2, -1\"\n[audit.columns]\ntime = \"t [s]\"\n"
+          "ball = \"i\"\npartner = \"j\"\n");
   EXPECT_EQ(edmill("audit case.toml log.csv --json result.json").code, 7);
   EXPECT_EQ(result()["last_time"], 200);
   EXPECT_EQ(edmill("audit case.toml log.csv --json result.json --column 'time=t [ms]'").code, 7);
@@ -110,10 +117,9 @@ TEST_F(AuditCommand, ColumnsOfTheCaseAndOfTheCommandLine) {
 
 TEST_F(AuditCommand, BadInputIsTold) {
   write("log.csv", "time,ball,partner_kind,partner\n0.1,0,wall,0\n0.2,x,wall,0\n");
-  for (const std::string arguments :
-       {"log.csv", "nowhere.csv", "log.csv --column time", "log.csv --column time=t",
-        "log.csv --column 'time=time [m]'", "log.csv --walls 1,2", "log.csv --tolerance 2",
-        "log.csv --gap-tolerance -1"}) {
+  for (const std::string arguments : {"log.csv", "nowhere.csv", "log.csv --column time",
+           "log.csv --column time=t", "log.csv --column 'time=time [m]'", "log.csv --walls 1,2",
+           "log.csv --tolerance 2", "log.csv --gap-tolerance -1"}) {
     const auto outcome = edmill("audit " + demo + " " + arguments);
     EXPECT_EQ(outcome.code, 2) << arguments;
     EXPECT_FALSE(outcome.err.empty()) << arguments;

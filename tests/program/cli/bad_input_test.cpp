@@ -1,5 +1,5 @@
-// Bad input to the program itself: exit code 2, one line per problem, and no file of the output folder
-// touched.
+// Bad input to the program itself: exit code 2, one line per problem, and no file of the output
+// folder touched.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -28,7 +28,9 @@ std::string contents(const fs::path& path) {
   return text.str();
 }
 
-void write(const fs::path& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
+void write(const fs::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
@@ -91,16 +93,18 @@ class BadInput : public ::testing::Test {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(out_file), contents(err_file)};
   }
 
-  /// Runs a case that must fail with exactly these messages, and checks the output folder afterwards.
-  void expect_failure(const std::vector<std::string>& arguments, const std::vector<std::string>& starts,
-                      const std::vector<std::string>& parts) const {
+  /// Runs a case that must fail with exactly these messages, and checks the output folder
+  /// afterwards.
+  void expect_failure(const std::vector<std::string>& arguments,
+      const std::vector<std::string>& starts, const std::vector<std::string>& parts) const {
     const Answer outcome = edmill(arguments);
     EXPECT_EQ(outcome.code, 2) << outcome.err;
     EXPECT_EQ(outcome.out, "");
     const auto lines = lines_of(outcome.err);
     ASSERT_EQ(lines.size(), parts.size()) << outcome.err;
     for (std::size_t k = 0; k < lines.size(); ++k) {
-      EXPECT_TRUE(lines[k].starts_with("edmill: " + starts[k])) << lines[k] << "\nwanted: " << starts[k];
+      EXPECT_TRUE(lines[k].starts_with("edmill: " + starts[k]))
+          << lines[k] << "\nwanted: " << starts[k];
       EXPECT_NE(lines[k].find(parts[k]), std::string::npos) << lines[k] << "\nwanted: " << parts[k];
     }
     expect_output_untouched();
@@ -145,9 +149,9 @@ TEST_F(BadInput, EveryBrokenCaseIsReportedByLineAndKeyAndLeavesTheOutputAlone) {
     for (const auto& e : expected) {
       // A problem of an initial state names that file, whose name is part of the text.
       const bool elsewhere = e.text.starts_with("states/");
-      starts.push_back(elsewhere     ? (broken_folder / "states").string()
-                       : e.line == 0 ? file.string() + ":"
-                                     : file.string() + ":" + std::to_string(e.line) + ": ");
+      starts.push_back(elsewhere ? (broken_folder / "states").string()
+              : e.line == 0      ? file.string() + ":"
+                                 : file.string() + ":" + std::to_string(e.line) + ": ");
       parts.push_back(e.text);
     }
     expect_failure(run(file.string()), starts, parts);
@@ -178,9 +182,11 @@ TEST_F(BadInput, EveryCutOfAValidCaseEndsWithoutACrash) {
   for (std::size_t length = 0; length < whole.size(); length += 13) {
     write(scratch / "cut.toml", whole.substr(0, length));
     const Answer outcome = edmill({"check", scratch / "cut.toml"});
-    EXPECT_TRUE(outcome.code == 2 || (outcome.code == 0 && length > whole.find("diameter = \"4.76")))
+    EXPECT_TRUE(
+        outcome.code == 2 || (outcome.code == 0 && length > whole.find("diameter = \"4.76")))
         << length << ": " << outcome.code << " " << outcome.err;
-    for (const auto& line : lines_of(outcome.err)) EXPECT_TRUE(line.starts_with("edmill: ")) << line;
+    for (const auto& line : lines_of(outcome.err))
+      EXPECT_TRUE(line.starts_with("edmill: ")) << line;
   }
 }
 
@@ -189,7 +195,7 @@ TEST_F(BadInput, AnEmptyFileNamesEveryMissingKey) {
   const Answer outcome = edmill(run(scratch / "empty.toml"));
   EXPECT_EQ(outcome.code, 2);
   for (const auto* key : {"run.end_time", "vessel.diameter", "vessel.height", "contact.restitution",
-                          "contact.friction", "balls"})
+           "contact.friction", "balls"})
     EXPECT_NE(outcome.err.find("key '" + std::string(key) + "'"), std::string::npos) << outcome.err;
   expect_output_untouched();
 }
@@ -207,21 +213,22 @@ TEST_F(BadInput, AFolderIsNoCase) {
 TEST_F(BadInput, AFileIsNoOutputFolder) {
   write(scratch / "file", "kept");
   expect_failure({"run", valid_case, "--out", scratch / "file"},
-                 (scratch / "file").string() + ": cannot create this output folder");
+      (scratch / "file").string() + ": cannot create this output folder");
   expect_failure({"run", valid_case, "--out", scratch / "file/below"},
-                 "/file/below: cannot create this output folder");
+      "/file/below: cannot create this output folder");
   EXPECT_EQ(contents(scratch / "file"), "kept");
 }
 
 TEST_F(BadInput, APlaceThatTakesNoFolderIsNoOutputFolder) {
   expect_failure({"run", valid_case, "--out", "/proc/edmill/out"},
-                 "/proc/edmill/out: cannot create this output folder");
+      "/proc/edmill/out: cannot create this output folder");
   expect_failure({"run", valid_case, "--out", scratch / std::string(300, 'n')},
-                 ": cannot create this output folder");
+      ": cannot create this output folder");
 }
 
 TEST_F(BadInput, APlaceThatTakesNoFileIsNoOutputFolder) {
-  const std::vector<std::string> short_run{"--set", "run.start_time=0 s", "--set", "run.end_time=1 us"};
+  const std::vector<std::string> short_run{
+      "--set", "run.start_time=0 s", "--set", "run.end_time=1 us"};
   std::vector<std::string> arguments{"run", valid_case, "--out", "/proc/self"};
   arguments.insert(arguments.end(), short_run.begin(), short_run.end());
   expect_failure(arguments, "/proc/self");
@@ -231,15 +238,17 @@ TEST_F(BadInput, AFolderInTheWayOfAResultIsFoundBeforeTheRun) {
   for (const auto* name : {"summary.json", "final_state.csv"}) {
     const fs::path other = scratch / ("other-" + std::string(name));
     fs::create_directories(other / name);
-    expect_failure({"run", valid_case, "--out", other}, "/" + std::string(name) + ": found a folder");
+    expect_failure(
+        {"run", valid_case, "--out", other}, "/" + std::string(name) + ": found a folder");
     EXPECT_EQ(std::distance(fs::directory_iterator(other), fs::directory_iterator()), 1);
   }
 }
 
 TEST_F(BadInput, AFolderInTheWayOfAnOutputLeavesNoPartialFile) {
-  write(scratch / "two.toml", contents(valid_case) +
-                                  "[[output]]\ntype = \"collisions\"\nfile = \"first.csv\"\n"
-                                  "[[output]]\ntype = \"collisions\"\nfile = \"second.csv\"\n");
+  write(scratch / "two.toml",
+      contents(valid_case) +
+          "[[output]]\ntype = \"collisions\"\nfile = \"first.csv\"\n"
+          "[[output]]\ntype = \"collisions\"\nfile = \"second.csv\"\n");
   const fs::path other = scratch / "other";
   fs::create_directories(other / "second.csv");
   expect_failure({"run", scratch / "two.toml", "--out", other}, "/second.csv: found a folder");
@@ -255,38 +264,34 @@ TEST_F(BadInput, CommandLineErrorsAreOneLineAndCodeTwo) {
   expect_failure(run(demo, {"--set"}), "--set");
   expect_failure(run(demo, {"another.toml"}), "another.toml");
   expect_failure({"run"}, "case is required");
-  expect_failure({"grind", demo}, "grind: unknown command, expected one of: new, machines, run, demo, ");
+  expect_failure(
+      {"grind", demo}, "grind: unknown command, expected one of: new, machines, run, demo, ");
   expect_failure({"check", demo, "--out", out}, "--out");
   expect_failure({}, "subcommand is required");
 }
 
 TEST_F(BadInput, MistypedCommandsAndOptionsAreNamedWithTheNearest) {
   const std::string demo = valid_case.string(), of = "', or another of: new, machines, run, demo, ";
-  for (const auto& [word, meant] : std::vector<std::pair<std::string, std::string>>{{"simulate", "run"},
-                                                                                    {"help", "--help"},
-                                                                                    {"validate", "check"},
-                                                                                    {"restart", "resume"},
-                                                                                    {"diff", "compare"}})
-    expect_failure({word, demo}, word + ": unknown command, expected '" + meant + "' (see edmill --help)");
-  for (const auto& [word, meant] : std::vector<std::pair<std::string, std::string>>{{"rnu", "run"},
-                                                                                    {"Run", "run"},
-                                                                                    {"chekc", "check"},
-                                                                                    {"swep", "sweep"},
-                                                                                    {"optimise", "optimize"},
-                                                                                    {"res", "resume"}})
+  for (const auto& [word, meant] :
+      std::vector<std::pair<std::string, std::string>>{{"simulate", "run"}, {"help", "--help"},
+          {"validate", "check"}, {"restart", "resume"}, {"diff", "compare"}})
+    expect_failure(
+        {word, demo}, word + ": unknown command, expected '" + meant + "' (see edmill --help)");
+  for (const auto& [word, meant] :
+      std::vector<std::pair<std::string, std::string>>{{"rnu", "run"}, {"Run", "run"},
+          {"chekc", "check"}, {"swep", "sweep"}, {"optimise", "optimize"}, {"res", "resume"}})
     expect_failure({word, demo}, word + ": unknown command, expected '" + meant + of);
-  for (const auto& [option, meant] :
-       std::vector<std::pair<std::string, std::string>>{{"--quite", "--quiet"},
-                                                        {"--Report", "--report"},
-                                                        {"--prec=double", "--precision"},
-                                                        {"--check-point", "--checkpoint"}}) {
+  for (const auto& [option, meant] : std::vector<std::pair<std::string, std::string>>{
+           {"--quite", "--quiet"}, {"--Report", "--report"}, {"--prec=double", "--precision"},
+           {"--check-point", "--checkpoint"}}) {
     const auto name = option.substr(0, option.find('='));
-    expect_failure(run(demo, {option}), name + ": unknown option, expected '" + meant + "', or another of: ");
+    expect_failure(
+        run(demo, {option}), name + ": unknown option, expected '" + meant + "', or another of: ");
     expect_failure({"run", option}, "(see edmill run --help)");  // without the case too
   }
   expect_failure({"--versoin"}, "--versoin: unknown option, expected '--version'");
   expect_failure({"compare", "a", "b", "--tolerance", "1,5"},
-                 "a decimal point is expected (see edmill compare --help)");
+      "a decimal point is expected (see edmill compare --help)");
 }
 
 TEST_F(BadInput, BadSettingsAreNamedWithTheirKey) {
@@ -300,13 +305,16 @@ TEST_F(BadInput, BadSettingsAreNamedWithTheirKey) {
       {"run.end_time=1 kg", "key 'run.end_time': found \"1 kg\" (a mass), expected a time"},
       {"run.end_time=", "key 'run.end_time': found \"\" (not a finite decimal number)"},
       {"run.end_time.x=1", "'end_time' is not a section"},
-      {"run.gravity=[0, -9.8]", "key 'run.gravity': found an array of 2, expected an array of three"},
+      {"run.gravity=[0, -9.8]",
+          "key 'run.gravity': found an array of 2, expected an array of three"},
       {"run.gravity.3=1", "'gravity' is not a section"},
       {"contact.restitution.0=1", "'restitution' is not a section"},
-      {"run.gravity=[0, nan, 0]", "key 'run.gravity.1': found \"nan\" (not a finite decimal number)"},
+      {"run.gravity=[0, nan, 0]",
+          "key 'run.gravity.1': found \"nan\" (not a finite decimal number)"},
       {"run.seed=-1", "key 'run.seed': found \"-1\", expected an integer"},
       {"run.initial_state=nowhere.csv", "key 'run.initial_state': found \""},
-      {"contact.ball_wall={restitution=2}", "key 'contact.ball_wall.restitution': found \"2\", expected"},
+      {"contact.ball_wall={restitution=2}",
+          "key 'contact.ball_wall.restitution': found \"2\", expected"},
       {"balls=5", "key 'balls': found an integer, expected entries [[balls]]"},
       {"balls.1.count=5", "'balls' has no entry '1'"},
       {"balls.-1.count=5", "'balls' has no entry '-1'"},
@@ -327,9 +335,10 @@ TEST_F(BadInput, BadSettingsAreNamedWithTheirKey) {
 }
 
 TEST_F(BadInput, SettingsAndFileAreReportedTogether) {
-  expect_failure(run(broken_folder / "friction_negative.toml", {"--set", "run.seed=x", "--set", "oops"}),
-                 {"--set oops", "--set run.seed=x", (broken_folder / "friction_negative.toml").string()},
-                 {"'=' is missing", "key 'run.seed'", "key 'contact.friction'"});
+  expect_failure(
+      run(broken_folder / "friction_negative.toml", {"--set", "run.seed=x", "--set", "oops"}),
+      {"--set oops", "--set run.seed=x", (broken_folder / "friction_negative.toml").string()},
+      {"'=' is missing", "key 'run.seed'", "key 'contact.friction'"});
 }
 
 }  // namespace

@@ -12,8 +12,8 @@ namespace {
 class CompareCommand : public ProgramTest {
  protected:
   void run(const std::string& folder, const std::string& settings) const {
-    const auto outcome = edmill("run " EDMILL_SOURCE_DIR "/docs/examples/demo.toml --quiet --out " + folder +
-                                " --set 'output=[{type=\"collisions\"}]' " + settings);
+    const auto outcome = edmill("run " EDMILL_SOURCE_DIR "/docs/examples/demo.toml --quiet --out " +
+        folder + " --set 'output=[{type=\"collisions\"}]' " + settings);
     ASSERT_EQ(outcome.code, 0) << outcome.err;
   }
   nlohmann::json result() const { return nlohmann::json::parse(contents(scratch / "result.json")); }
@@ -33,7 +33,8 @@ TEST_F(CompareCommand, DoubleAndFloat128PartByRoundingAndAgreeInStatistics) {
   EXPECT_LE(events["largest"]["approach_speed"], 1e-9);
   EXPECT_EQ(result()["statistics"]["from"], 0.5);  // where the run's own statistics begin
 
-  EXPECT_EQ(edmill("compare reference double --tolerance 1e-4 --events 500 --json result.json").code, 0);
+  EXPECT_EQ(
+      edmill("compare reference double --tolerance 1e-4 --events 500 --json result.json").code, 0);
   EXPECT_GE(result()["event_by_event"]["agreeing"], 500);
   EXPECT_EQ(result()["verdict"], "agree");
   const auto demanding = edmill("compare reference double --events 100000 --json result.json");
@@ -43,7 +44,8 @@ TEST_F(CompareCommand, DoubleAndFloat128PartByRoundingAndAgreeInStatistics) {
 
 TEST_F(CompareCommand, ARestitutionThatIsFivePercentOffIsFound) {
   run("a", "--set run.seed=1");
-  // Equal cases are reported to differ with a probability of 5 %: more than one of six with one of 3 %.
+  // Equal cases are reported to differ with a probability of 5 %: more than one of six with one of
+  // 3 %.
   int alarms = 0;
   for (int seed = 2; seed <= 7; ++seed) {
     run("b", "--set run.seed=" + std::to_string(seed));
@@ -89,16 +91,19 @@ TEST_F(CompareCommand, BadInputIsExplained) {
   write("later.csv", header + "3,0,wall,0,1\n4,0,wall,1,1\n");
   write("bad.csv", header + "1,0,wall,0,fast\n");
   write("other.csv", "t,v\n1,2\n");
-  const auto expect = [&](const std::string& arguments, const std::string& message, std::size_t lines = 1) {
+  const auto expect = [&](const std::string& arguments, const std::string& message,
+                          std::size_t lines = 1) {
     const auto outcome = edmill("compare " + arguments + " --json result.json");
     EXPECT_EQ(outcome.code, 2) << arguments;
     EXPECT_EQ(outcome.out, "") << arguments;
     EXPECT_NE(outcome.err.find(message), std::string::npos) << outcome.err << "wanted: " << message;
-    EXPECT_EQ(static_cast<std::size_t>(std::count(outcome.err.begin(), outcome.err.end(), '\n')), lines)
+    EXPECT_EQ(
+        static_cast<std::size_t>(std::count(outcome.err.begin(), outcome.err.end(), '\n')), lines)
         << outcome.err;
     EXPECT_FALSE(std::filesystem::exists(scratch / "result.json"));
   };
-  expect("good.csv bad.csv", "bad.csv:2: column 5 (approach_speed): found 'fast', expected a finite number");
+  expect("good.csv bad.csv",
+      "bad.csv:2: column 5 (approach_speed): found 'fast', expected a finite number");
   expect("bad.csv other.csv", "other.csv:1: the header has no column 'time'", 6);
   expect("good.csv missing.csv", "missing.csv: no readable file");
   expect("good.csv .", "type \"collisions\"");

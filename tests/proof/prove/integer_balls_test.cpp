@@ -1,5 +1,5 @@
-// The second arithmetic of the checker of certificates against Arb: each of its enclosures holds what Arb
-// encloses with many more bits, and is about as narrow.
+// The second arithmetic of the checker of certificates against Arb: each of its enclosures holds
+// what Arb encloses with many more bits, and is about as narrow.
 #include "../../../verification/checker/integer_balls.hpp"
 
 #include <arb.h>
@@ -47,16 +47,15 @@ class Draw {
     return Real::exact({m, e}, below(3) == 0 ? Dyadic{} : spread);
   }
   std::uint64_t below(std::uint64_t n) { return random_() % n; }
-
  private:
   std::mt19937_64 random_;
 };
 
-/// Whether a result holds what Arb finds, with many bits, for the ends and the midpoints of the operands; and
-/// is not much wider than Arb's for all of them.
+/// Whether a result holds what Arb finds, with many bits, for the ends and the midpoints of the
+/// operands; and is not much wider than Arb's for all of them.
 template <class Function>
-void expect_holds(const Real& result, const Real& a, const Real& b, const char* what,
-                  const Function& of_arb) {
+void expect_holds(
+    const Real& result, const Real& a, const Real& b, const char* what, const Function& of_arb) {
   if (result.unbounded) return;
   const Arb ours(result);
   for (const Dyadic& x : {a.lower(), a.midpoint, a.upper()})
@@ -74,7 +73,8 @@ void expect_holds(const Real& result, const Real& a, const Real& b, const char* 
   const double ratio = std::exp2(10), last = std::exp2(10 - static_cast<double>(precision));
   const auto radius_of = [](const Arb& x) { return mag_get_d(arb_radref(x.value)); };
   EXPECT_LE(radius_of(ours),
-            ratio * radius_of(peer) + last * (1 + std::abs(arf_get_d(arb_midref(peer.value), ARF_RND_NEAR))))
+      ratio * radius_of(peer) +
+          last * (1 + std::abs(arf_get_d(arb_midref(peer.value), ARF_RND_NEAR))))
       << what;
 }
 
@@ -96,7 +96,8 @@ TEST(IntegerBalls, HoldWhatArbEncloses) {
       const auto [sine, cosine] = sine_and_cosine_of_pi(a);
       expect_holds(sine, a, b, "sine", of_one(arb_sin_pi));
       expect_holds(cosine, a, b, "cosine", of_one(arb_cos_pi));
-      expect_holds(pi(), a, b, "pi", [](arb_t r, const arb_t, const arb_t, slong p) { arb_const_pi(r, p); });
+      expect_holds(
+          pi(), a, b, "pi", [](arb_t r, const arb_t, const arb_t, slong p) { arb_const_pi(r, p); });
       const Real both = interval(a, b);
       EXPECT_TRUE(contains(both, a) && contains(both, b));
       const Real less = Real::exact(both.midpoint, both.radius * Dyadic{4095, -12});

@@ -44,7 +44,7 @@ class ProveTest : public ProgramTest {
     const auto exact = rows(suite(name) + "/events.csv");
     ASSERT_GE(exact.size(), 8u);
     const auto made = edmill("prove '" + suite(name) + "/case.toml' --collisions " +
-                             std::to_string(exact.size()) + " --out events.csv");
+        std::to_string(exact.size()) + " --out events.csv");
     ASSERT_EQ(made.code, 0) << made.err;
     const auto proven = rows((scratch / "events.csv").string());
     ASSERT_EQ(proven.size(), exact.size());
@@ -56,7 +56,8 @@ class ProveTest : public ProgramTest {
         // The closed forms are rounded to 40 digits.
         EXPECT_LE(off, Number(proven[k].at(value + "_radius")) + Number("1e-38"))
             << name << ", event " << k << " " << value;
-        // The slip speed of a central impact is the root of a square that is zero within its radius.
+        // The slip speed of a central impact is the root of a square that is zero within its
+        // radius.
         EXPECT_LT(Number(proven[k].at(value + "_radius")), Number("1e-20"));
       }
     }
@@ -65,7 +66,7 @@ class ProveTest : public ProgramTest {
     return "[run]\nend_time = \"1 s\"\n[mill]\ntype = \"still\"\n[vessel]\ntype = \"box\"\n"
            "size = [\"1 m\", \"1 m\", \"1 m\"]\n[contact]\nmodel = \"constant\"\nrestitution = 1\n"
            "restitution_tangential = 1\nleast_separation = \"0 m/s\"\n" +
-           more;
+        more;
   }
 };
 
@@ -75,12 +76,14 @@ TEST_F(ProveTest, ObliqueImpacts) { holds_the_closed_form("oblique_impact"); }
 
 TEST_F(ProveTest, SimultaneousContactsOfABallAreSaid) {
   // The ball between two others is struck from both sides at once.
-  write("case.toml", box_case("[[ball]]\ndiameter = \"0.1 m\"\nposition = [\"0 m\", \"0 m\", \"0 m\"]\n"
-                              "[[ball]]\ndiameter = \"0.1 m\"\nposition = [\"-0.3 m\", \"0 m\", \"0 m\"]\n"
-                              "velocity = [\"1 m/s\", \"0 m/s\", \"0 m/s\"]\n"
-                              "[[ball]]\ndiameter = \"0.1 m\"\nposition = [\"0.3 m\", \"0 m\", \"0 m\"]\n"
-                              "velocity = [\"-1 m/s\", \"0 m/s\", \"0 m/s\"]\n"));
-  const auto outcome = edmill("prove case.toml --collisions 3 --certificate certificate --out events.csv");
+  write("case.toml",
+      box_case("[[ball]]\ndiameter = \"0.1 m\"\nposition = [\"0 m\", \"0 m\", \"0 m\"]\n"
+               "[[ball]]\ndiameter = \"0.1 m\"\nposition = [\"-0.3 m\", \"0 m\", \"0 m\"]\n"
+               "velocity = [\"1 m/s\", \"0 m/s\", \"0 m/s\"]\n"
+               "[[ball]]\ndiameter = \"0.1 m\"\nposition = [\"0.3 m\", \"0 m\", \"0 m\"]\n"
+               "velocity = [\"-1 m/s\", \"0 m/s\", \"0 m/s\"]\n"));
+  const auto outcome =
+      edmill("prove case.toml --collisions 3 --certificate certificate --out events.csv");
   EXPECT_EQ(outcome.code, 4);
   EXPECT_NE(outcome.err.find("has another contact of its ball at the same time"), std::string::npos)
       << outcome.err;
@@ -89,10 +92,11 @@ TEST_F(ProveTest, SimultaneousContactsOfABallAreSaid) {
 }
 
 TEST_F(ProveTest, TwoContactsAtOnceOfDifferentBallsAreNotOrdered) {
-  write("case.toml", box_case("[[ball]]\ndiameter = \"0.1 m\"\nposition = [\"0 m\", \"0 m\", \"0 m\"]\n"
-                              "velocity = [\"1 m/s\", \"0 m/s\", \"0 m/s\"]\n"
-                              "[[ball]]\ndiameter = \"0.1 m\"\nposition = [\"0 m\", \"0.3 m\", \"0 m\"]\n"
-                              "velocity = [\"1 m/s\", \"0 m/s\", \"0 m/s\"]\n"));
+  write("case.toml",
+      box_case("[[ball]]\ndiameter = \"0.1 m\"\nposition = [\"0 m\", \"0 m\", \"0 m\"]\n"
+               "velocity = [\"1 m/s\", \"0 m/s\", \"0 m/s\"]\n"
+               "[[ball]]\ndiameter = \"0.1 m\"\nposition = [\"0 m\", \"0.3 m\", \"0 m\"]\n"
+               "velocity = [\"1 m/s\", \"0 m/s\", \"0 m/s\"]\n"));
   const auto outcome = edmill("prove case.toml --collisions 2 --most-bits 512");
   EXPECT_EQ(outcome.code, 4);
   EXPECT_NE(outcome.err.find("512 bits do not decide"), std::string::npos) << outcome.err;
@@ -103,20 +107,21 @@ TEST_F(ProveTest, TwoContactsAtOnceOfDifferentBallsAreNotOrdered) {
 TEST_F(ProveTest, EndsWhenItIsInterrupted) {
   std::atomic<bool> interrupt{true};
   const auto proof = prove::prove(casefile::read_case(EDMILL_SOURCE_DIR "/docs/examples/demo.toml"),
-                                  {100000, 16384, &interrupt, {}});
+      {100000, 16384, &interrupt, {}});
   EXPECT_TRUE(proof.interrupted);
   EXPECT_TRUE(proof.events.empty());
 }
 
 TEST_F(ProveTest, WhatHasNoExactNumbersIsRefused) {
   const auto refused = [&](const std::string& settings, const std::string& expected) {
-    const auto outcome = edmill(
-        "prove '" EDMILL_SOURCE_DIR "/regression/reference/three_balls.toml' --collisions 3 " + settings);
+    const auto outcome = edmill("prove '" EDMILL_SOURCE_DIR
+                                "/regression/reference/three_balls.toml' --collisions 3 " +
+        settings);
     EXPECT_EQ(outcome.code, 2) << settings;
     EXPECT_NE(outcome.err.find(expected), std::string::npos) << outcome.err;
   };
   refused("--set vessel.type=capsule --set 'vessel.height=\"60 mm\"'",
-          "walls that are planes, a cylinder or a sphere");
+      "walls that are planes, a cylinder or a sphere");
   refused("--set 'balls.0.random_speed=\"1 m/s\"'", "`prove` needs exact ones");
   refused("--set 'balls.0.diameter_spread=\"1 mm\"'", "`prove` needs exact ones");
   refused(

@@ -46,7 +46,8 @@ TEST_F(Chapter4, FrequenciesAreThoseOfTheLog) {
     EXPECT_EQ(number(row, "walls"), walls);
     EXPECT_EQ(number(row, "ball_ball"), 0);
     EXPECT_EQ(number(row, "total"), walls);
-    EXPECT_NEAR(number(row, "total_percentage"), 100 * walls / static_cast<double>(recorded.size()), 1e-12);
+    EXPECT_NEAR(
+        number(row, "total_percentage"), 100 * walls / static_cast<double>(recorded.size()), 1e-12);
     EXPECT_EQ(row.at("interval"), k == 0 ? "below" : k == 11 ? "above" : std::to_string(k));
     if (k > 0 && k < 11) {
       EXPECT_NEAR(lower, 0.025 + 0.7 * static_cast<double>(k - 1), 1e-14);
@@ -64,7 +65,7 @@ TEST_F(Chapter4, StatisticsOfWallsAddUp) {
   std::map<std::string, Row> by_name;
   for (const auto& row : rows) by_name[row.at("variable") + " " + row.at("statistic")] = row;
   for (const auto& [name, column, unit] :
-       {std::tuple{"COL. sum", "", "1"}, {"MIL. DOSE sum", "milling_dose", "J"}}) {
+      {std::tuple{"COL. sum", "", "1"}, {"MIL. DOSE sum", "milling_dose", "J"}}) {
     const auto& row = by_name.at(name);
     EXPECT_EQ(row.at("unit"), unit);
     double walls = 0;
@@ -79,16 +80,19 @@ TEST_F(Chapter4, StatisticsOfWallsAddUp) {
   EXPECT_EQ(rate.at("unit"), "1/s");
   EXPECT_NEAR(number(rate, "total"), sum("") / (end - 30), 1e-9);
   const auto& share = by_name.at("COL. percentage");
-  EXPECT_NEAR(number(share, "wall_0") + number(share, "wall_1") + number(share, "wall_2"), 100, 1e-9);
+  EXPECT_NEAR(
+      number(share, "wall_0") + number(share, "wall_1") + number(share, "wall_2"), 100, 1e-9);
   EXPECT_EQ(number(share, "total"), 100);
   double largest = 0;
   for (const auto& impact : recorded) largest = std::max(largest, number(impact, "milling_dose"));
   EXPECT_EQ(number(by_name.at("MIL. DOSE maximum"), "total"), largest);
-  EXPECT_NEAR(number(by_name.at("MIL. DOSE average"), "total"), sum("milling_dose") / sum(""), 1e-15);
+  EXPECT_NEAR(
+      number(by_name.at("MIL. DOSE average"), "total"), sum("milling_dose") / sum(""), 1e-15);
 }
 
 TEST_F(Chapter4, TrendsOfIntervalsAndFromTheStart) {
-  const auto rows = read("trends.csv"), all = read("trends_accumulated.csv"), log = read("collisions.csv");
+  const auto rows = read("trends.csv"), all = read("trends_accumulated.csv"),
+             log = read("collisions.csv");
   ASSERT_EQ(rows.size(), 80u);
   ASSERT_EQ(all.size(), 80u);
   double collisions = 0, dose = 0, work = 0, supplied = 0;
@@ -98,12 +102,14 @@ TEST_F(Chapter4, TrendsOfIntervalsAndFromTheStart) {
     const double upto = 0.5 * static_cast<double>(k + 1);
     EXPECT_EQ(number(rows[k], "time [s]"), upto);
     double here = 0, dose_here = 0, work_here = 0;
-    for (; next < log.size() && (number(log[next], "time") < upto || k + 1 == rows.size()); ++next) {
+    for (; next < log.size() && (number(log[next], "time") < upto || k + 1 == rows.size());
+         ++next) {
       ++here;
       dose_here += number(log[next], "milling_dose");
       work_here += number(log[next], "wall_work");
       // A ball slower than the least separation speed leaves with it.
-      supplied += mass / 2 * std::max(0.0, least * least - std::pow(number(log[next], "approach_speed"), 2));
+      supplied += mass / 2 *
+          std::max(0.0, least * least - std::pow(number(log[next], "approach_speed"), 2));
     }
     EXPECT_EQ(number(rows[k], "COL SUM [1]"), here);
     EXPECT_EQ(number(rows[k], "COL RATE [1/s]"), here / 0.5);
@@ -127,13 +133,14 @@ TEST_F(Chapter4, TrendsOfBallsAndTraceAgreeWithTheFinalState) {
   ASSERT_EQ(final_state.size(), 1u);
   const auto& last = balls.back();
   EXPECT_EQ(number(last, "time [s]"), end);
-  const double speed = std::hypot(number(final_state[0], "velocity_x"), number(final_state[0], "velocity_y"),
-                                  number(final_state[0], "velocity_z"));
+  const double speed = std::hypot(number(final_state[0], "velocity_x"),
+      number(final_state[0], "velocity_y"), number(final_state[0], "velocity_z"));
   EXPECT_NEAR(number(last, "Ave Speed [m/s]"), speed, 1e-12);
   EXPECT_NEAR(number(last, "Max Speed [m/s]"), speed, 1e-12);
   EXPECT_EQ(number(last, "Max Speed ball [1]"), 0);
   for (const std::string axis : {"x", "y", "z"})
-    EXPECT_NEAR(number(trace.back(), axis + " [m]"), number(final_state[0], "position_" + axis), 1e-12);
+    EXPECT_NEAR(
+        number(trace.back(), axis + " [m]"), number(final_state[0], "position_" + axis), 1e-12);
 }
 
 TEST_F(Chapter4, InstantTrendsAndIterationsAreImpactsOfTheLog) {
@@ -160,8 +167,8 @@ TEST_F(Chapter4, InstantTrendsAndIterationsAreImpactsOfTheLog) {
     const auto& impact = log.at(details[k].at("index [1]"));
     EXPECT_EQ(details[k].at("time [s]"), impact.at("time"));
     EXPECT_EQ(details[k].at("milling_dose [J]"), impact.at("milling_dose"));
-    EXPECT_NEAR(number(details[k], "contact_tangential_speed_before [m/s]"), number(impact, "slip_speed"),
-                1e-12);
+    EXPECT_NEAR(number(details[k], "contact_tangential_speed_before [m/s]"),
+        number(impact, "slip_speed"), 1e-12);
   }
 }
 

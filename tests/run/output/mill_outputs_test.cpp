@@ -1,4 +1,5 @@
-// Outputs beyond the thesis: each against the collision log, closed sums, and the laws of mechanics.
+// Outputs beyond the thesis: each against the collision log, closed sums, and the laws of
+// mechanics.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -25,7 +26,8 @@ const char* const mill_case =
 const char* const five_balls = "[[balls]]\ncount = 5\ndiameter = \"9.52 mm\"\n";
 const char* const flying_balls =
     "[[ball]]\ndiameter = \"9.52 mm\"\nposition = [\"-26 mm\", \"96.5 mm\", \"0 mm\"]\n"
-    "velocity = [\"1 m/s\", \"0.5 m/s\", \"-0.3 m/s\"]\nspin = [\"20 rad/s\", \"-50 rad/s\", \"70 rad/s\"]\n"
+    "velocity = [\"1 m/s\", \"0.5 m/s\", \"-0.3 m/s\"]\nspin = [\"20 rad/s\", \"-50 rad/s\", \"70 "
+    "rad/s\"]\n"
     "[[ball]]\ndiameter = \"9.52 mm\"\nposition = [\"-37.5 mm\", \"93.5 mm\", \"2 mm\"]\n"
     "velocity = [\"-1.5 m/s\", \"0.1 m/s\", \"0.2 m/s\"]\n";
 
@@ -38,10 +40,12 @@ struct Pose {
         gamma(pi / 12 * std::sin(2 * pi * 1054 / 60 * time)) {}
   /// Components along the vessel's axes.
   Vector turned(const Vector& v) const {
-    return Eigen::AngleAxisd(-gamma, Vector::UnitX()) * (Eigen::AngleAxisd(-theta, Vector::UnitZ()) * v);
+    return Eigen::AngleAxisd(-gamma, Vector::UnitX()) *
+        (Eigen::AngleAxisd(-theta, Vector::UnitZ()) * v);
   }
   Vector inertial(const Vector& v) const {
-    return Eigen::AngleAxisd(theta, Vector::UnitZ()) * (Eigen::AngleAxisd(gamma, Vector::UnitX()) * v);
+    return Eigen::AngleAxisd(theta, Vector::UnitZ()) *
+        (Eigen::AngleAxisd(gamma, Vector::UnitX()) * v);
   }
   Vector centre() const { return inertial({0.1, 0, 0}); }
   Vector own(const Vector& place) const { return turned(place - centre()); }
@@ -49,14 +53,19 @@ struct Pose {
 
 class MillOutputs : public ProgramTest {
  protected:
-  std::vector<Row> read(const std::string& file) const { return table(contents(scratch / "out" / file)); }
-  nlohmann::json summary() const { return nlohmann::json::parse(contents(scratch / "out/summary.json")); }
+  std::vector<Row> read(const std::string& file) const {
+    return table(contents(scratch / "out" / file));
+  }
+  nlohmann::json summary() const {
+    return nlohmann::json::parse(contents(scratch / "out/summary.json"));
+  }
 
   /// Runs for 0.2 s with the log beside the outputs.
   void run(const std::string& outputs, const std::string& balls = five_balls,
-           const std::string& keys = "gravity = \"9.8 m/s2\"\n") {
-    write("case.toml", "[run]\nend_time = \"0.2 s\"\n" + keys + mill_case + balls +
-                           "[[output]]\ntype = \"collisions\"\nstates = true\n" + outputs);
+      const std::string& keys = "gravity = \"9.8 m/s2\"\n") {
+    write("case.toml",
+        "[run]\nend_time = \"0.2 s\"\n" + keys + mill_case + balls +
+            "[[output]]\ntype = \"collisions\"\nstates = true\n" + outputs);
     const auto outcome = edmill("run case.toml --quiet --out out");
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     log = read("collisions.csv");
@@ -67,12 +76,12 @@ class MillOutputs : public ProgramTest {
     return impact.at("partner_kind") == "ball" ? "ball_ball" : "wall_" + impact.at("partner");
   }
   static Vector vector(const Row& row, const std::string& before, const std::string& after = "",
-                       const std::string& axes = "xyz") {
+      const std::string& axes = "xyz") {
     return {number(row, before + axes[0] + after), number(row, before + axes[1] + after),
-            number(row, before + axes[2] + after)};
+        number(row, before + axes[2] + after)};
   }
-  /// Dissipated along the normal: by the normal velocity, relative to the partner, before and after. 0 where
-  /// the least separation speed supplies energy.
+  /// Dissipated along the normal: by the normal velocity, relative to the partner, before and
+  /// after. 0 where the least separation speed supplies energy.
   static double normal_dose(const Row& impact) {
     if (impact.at("partner_kind") == "wall") {
       const double before = -number(impact, "approach_speed");
@@ -110,8 +119,9 @@ TEST_F(MillOutputs, SpectraCountTheImpactsOfTheLog) {
   run("[[output]]\ntype = \"spectra\"\nlow = \"1e-6 J\"\nhigh = \"2 mJ\"\nbins_per_decade = 3\n"
       "[[output]]\ntype = \"spectra\"\nof = \"speed\"\nfile = \"speeds.csv\"\n");
   for (const auto& [file, names, unit, bins] :
-       {std::tuple{"spectra.csv", std::vector<std::string>{"normal", "tangential", "total"}, "J", 10},
-        {"speeds.csv", {"approach", "slip"}, "m/s", 40}}) {
+      {std::tuple{
+           "spectra.csv", std::vector<std::string>{"normal", "tangential", "total"}, "J", 10},
+          {"speeds.csv", {"approach", "slip"}, "m/s", 40}}) {
     const auto rows = read(file);
     ASSERT_EQ(rows.size(), names.size() * static_cast<std::size_t>(bins + 2));
     for (std::size_t r = 0; r < rows.size(); ++r) {
@@ -129,11 +139,11 @@ TEST_F(MillOutputs, SpectraCountTheImpactsOfTheLog) {
       std::map<std::string, double> energy;
       for (const auto& impact : log) {
         const double dose = number(impact, "milling_dose"), along = normal_dose(impact);
-        const double value = name == "normal"       ? along
-                             : name == "tangential" ? dose - along
-                             : name == "total"      ? dose
-                             : name == "approach"   ? number(impact, "approach_speed")
-                                                    : number(impact, "slip_speed");
+        const double value = name == "normal" ? along
+            : name == "tangential"            ? dose - along
+            : name == "total"                 ? dose
+            : name == "approach"              ? number(impact, "approach_speed")
+                                              : number(impact, "slip_speed");
         if (value < low || value >= high) continue;
         for (const auto& part : {partner(impact), std::string("total")}) {
           ++impacts[part];
@@ -141,7 +151,8 @@ TEST_F(MillOutputs, SpectraCountTheImpactsOfTheLog) {
         }
       }
       for (const auto& part : partners) {
-        EXPECT_EQ(number(row, part + " impacts [1]"), impacts[part]) << file << " " << name << " " << place;
+        EXPECT_EQ(number(row, part + " impacts [1]"), impacts[part])
+            << file << " " << name << " " << place;
         EXPECT_NEAR(number(row, part + " energy [J]"), energy[part], 1e-13)
             << file << " " << name << " " << place;
       }
@@ -164,12 +175,13 @@ TEST_F(MillOutputs, BinsOfSpectraHaveEqualRatiosUpToTheLast) {
 }
 
 TEST_F(MillOutputs, BinsOfSpectraHaveTheDigitsOfTheScalar) {
-  write("case.toml", std::string("[run]\nend_time = \"1 ms\"\nprecision = \"mpfr50\"\n") + mill_case +
-                         five_balls + "[[output]]\ntype = \"spectra\"\nlow = \"1 J\"\nhigh = \"10 J\"\n");
+  write("case.toml",
+      std::string("[run]\nend_time = \"1 ms\"\nprecision = \"mpfr50\"\n") + mill_case + five_balls +
+          "[[output]]\ntype = \"spectra\"\nlow = \"1 J\"\nhigh = \"10 J\"\n");
   ASSERT_EQ(edmill("run case.toml --quiet --out out").code, 0);
   // Python: getcontext().prec = 60; Decimal(10) ** (Decimal(1) / 10)
   EXPECT_EQ(read("spectra.csv")[1].at("high [J]").substr(0, 48),
-            "1.2589254117941672104239541063958006060936174094");
+      "1.2589254117941672104239541063958006060936174094");
 }
 
 TEST_F(MillOutputs, NormalAndTangentialEnergyAddUpToTheDose) {
@@ -184,11 +196,13 @@ TEST_F(MillOutputs, NormalAndTangentialEnergyAddUpToTheDose) {
   EXPECT_GT(sums["tangential"], 0.01 * dose);
   EXPECT_NEAR(sums["normal"] + sums["tangential"], dose, 1e-12 * dose);
   EXPECT_NEAR(sums["total"], dose, 1e-12 * dose);
-  for (const auto* name : {"normal", "tangential", "total"}) EXPECT_EQ(impacts[name], log.size()) << name;
+  for (const auto* name : {"normal", "tangential", "total"})
+    EXPECT_EQ(impacts[name], log.size()) << name;
 }
 
 TEST_F(MillOutputs, RatesAboveCutoffsCountTheImpactsOfTheLog) {
-  run("[[output]]\ntype = \"rates_above\"\nstart_time = \"50 ms\"\ncutoffs = [\"0.5 m/s\", \"0 m/s\", \"20 "
+  run("[[output]]\ntype = \"rates_above\"\nstart_time = \"50 ms\"\ncutoffs = [\"0.5 m/s\", \"0 "
+      "m/s\", \"20 "
       "mm/s\"]\n");
   const auto rows = read("rates_above.csv");
   ASSERT_EQ(rows.size(), 3u);
@@ -198,7 +212,8 @@ TEST_F(MillOutputs, RatesAboveCutoffsCountTheImpactsOfTheLog) {
     EXPECT_EQ(number(rows[k], "cutoff [m/s]"), cutoffs[k]);
     std::map<std::string, double> impacts, dose;
     for (const auto& impact : log)
-      if (number(impact, "time") >= 0.05 && (k == 0 || number(impact, "approach_speed") >= cutoffs[k]))
+      if (number(impact, "time") >= 0.05 &&
+          (k == 0 || number(impact, "approach_speed") >= cutoffs[k]))
         for (const auto& part : {partner(impact), std::string("total")}) {
           ++impacts[part];
           dose[part] += number(impact, "milling_dose");
@@ -226,7 +241,7 @@ TEST_F(MillOutputs, EitherBodyOfAnImpactGetsHalfOfItsDose) {
   for (const auto& impact : log) {
     const double half = number(impact, "milling_dose") / 2;
     for (const auto& body :
-         {"ball " + impact.at("ball"), impact.at("partner_kind") + " " + impact.at("partner")})
+        {"ball " + impact.at("ball"), impact.at("partner_kind") + " " + impact.at("partner")})
       doses[body] += half, ++impacts[body];
   }
   double sum = 0, area = 0;
@@ -268,8 +283,9 @@ TEST_F(MillOutputs, ImpulsesAreTheMomentumThatTheBallsLose) {
   Vector given = Vector::Zero();
   for (const auto& row : read("vessel_load.csv")) {
     const Vector impulse{number(row, "impulse_x [N s]"), number(row, "impulse_y [N s]"),
-                         number(row, "impulse_z [N s]")};
-    const Vector force{number(row, "force_x [N]"), number(row, "force_y [N]"), number(row, "force_z [N]")};
+        number(row, "impulse_z [N s]")};
+    const Vector force{
+        number(row, "force_x [N]"), number(row, "force_y [N]"), number(row, "force_z [N]")};
     EXPECT_LT((force * number(row, "duration [s]") - impulse).norm(), 1e-16);
     given += impulse;
   }
@@ -283,18 +299,19 @@ TEST_F(MillOutputs, TorqueIsTheAngularMomentumThatTheBallsLose) {
   run("[[output]]\ntype = \"vessel_load\"\n", flying_balls, "");
   Vector given = Vector::Zero();
   for (const auto& row : read("vessel_load.csv"))
-    given +=
-        number(row, "duration [s]") *
-        Vector{number(row, "torque_x [N m]"), number(row, "torque_y [N m]"), number(row, "torque_z [N m]")};
+    given += number(row, "duration [s]") *
+        Vector{number(row, "torque_x [N m]"), number(row, "torque_y [N m]"),
+            number(row, "torque_z [N m]")};
   const double inertia = 0.4 * mass * radius * radius;
   const auto angular_momentum = [&](const Vector& place, const Vector& velocity,
                                     const Vector& spin) -> Vector {
     return mass * place.cross(velocity) + inertia * spin;
   };
   Vector change = -angular_momentum({-0.026, 0.0965, 0}, {1, 0.5, -0.3}, {20, -50, 70}) -
-                  angular_momentum({-0.0375, 0.0935, 0.002}, {-1.5, 0.1, 0.2}, {0, 0, 0});
+      angular_momentum({-0.0375, 0.0935, 0.002}, {-1.5, 0.1, 0.2}, {0, 0, 0});
   for (const auto& ball : read("final_state.csv"))
-    change += angular_momentum(vector(ball, "position_"), vector(ball, "velocity_"), vector(ball, "spin_"));
+    change += angular_momentum(
+        vector(ball, "position_"), vector(ball, "velocity_"), vector(ball, "spin_"));
   EXPECT_LT((given + change).norm(), 1e-14);
   EXPECT_GT(change.norm(), 1e-4);
 }
@@ -310,8 +327,8 @@ TEST_F(MillOutputs, TheVesselFeelsNothingBetweenWallImpacts) {
   for (int k = 0; k < static_cast<int>(rows.size()); ++k) {
     bool nothing = true;
     for (const auto& [column, cell] : rows[k])
-      nothing =
-          nothing && (column.starts_with("time") || column.starts_with("duration") || std::stod(cell) == 0);
+      nothing = nothing &&
+          (column.starts_with("time") || column.starts_with("duration") || std::stod(cell) == 0);
     EXPECT_EQ(nothing, !with_wall.count(k)) << "interval " << k;
     free += nothing;
     balls_only += nothing && with_balls.count(k);
@@ -344,7 +361,8 @@ TEST_F(MillOutputs, CoverageHoldsTheWallDoseAndEveryContactPoint) {
   double area[3] = {0, 0, 0}, dose[3] = {0, 0, 0}, impacts = 0;
   for (const auto& cell : cells) {
     const auto wall = static_cast<std::size_t>(number(cell, "wall"));
-    const std::string band = wall == 2 ? "height" : "radius", other = wall == 2 ? "radius" : "height";
+    const std::string band = wall == 2 ? "height" : "radius",
+                      other = wall == 2 ? "radius" : "height";
     EXPECT_EQ(cell.at(other + "_low [m]") + cell.at(other + "_high [m]"), "");
     double expected = 0, count = 0;
     for (const auto& impact : log) {
@@ -369,7 +387,8 @@ TEST_F(MillOutputs, CoverageHoldsTheWallDoseAndEveryContactPoint) {
   EXPECT_NEAR(area[1], pi * vessel_radius * vessel_radius, 1e-15);
   EXPECT_NEAR(area[2], 2 * pi * vessel_radius * 2 * half_height, 1e-15);
   for (std::size_t wall = 0; wall < 3; ++wall)
-    EXPECT_NEAR(dose[wall], summary()["milling_dose_by_partner"]["wall_" + std::to_string(wall)], 1e-14);
+    EXPECT_NEAR(
+        dose[wall], summary()["milling_dose_by_partner"]["wall_" + std::to_string(wall)], 1e-14);
   EXPECT_GT(impacts, 30);
 }
 

@@ -71,8 +71,8 @@ TEST(OutputTimer, RunThatBeginsLaterThanTheRecord) {
 }
 
 /// Ends of the rows for impacts at these times and a record that ends at `until`.
-std::vector<std::pair<double, double>> rows(const TimerSpec& spec, const std::vector<double>& impacts,
-                                            double until) {
+std::vector<std::pair<double, double>> rows(
+    const TimerSpec& spec, const std::vector<double>& impacts, double until) {
   OutputTimer<double> timer(spec, 0);
   IntervalClock<double> clock(spec);
   std::vector<std::pair<double, double>> list;
@@ -123,7 +123,8 @@ TEST(IntervalClock, TenthsOfASecond) {
 TEST(Accumulator, OfNothingHasNoAverage) {
   const Accumulator<double> nothing;
   EXPECT_EQ(nothing.value(Statistic::sum, 1, 0), 0);
-  for (const auto s : {Statistic::average, Statistic::minimum, Statistic::maximum, Statistic::percentage})
+  for (const auto s :
+      {Statistic::average, Statistic::minimum, Statistic::maximum, Statistic::percentage})
     EXPECT_FALSE(nothing.value(s, 1, 0));
   EXPECT_FALSE(nothing.value(Statistic::rate, 0, 0));
 }

@@ -24,7 +24,8 @@ std::vector<double> list(const pugi::xml_node& node, const char* attribute) {
 }
 
 pugi::xml_node named(const pugi::xml_document& page, const std::string& name) {
-  return page.find_node([&](const pugi::xml_node& n) { return n.attribute("DEF").value() == name; });
+  return page.find_node(
+      [&](const pugi::xml_node& n) { return n.attribute("DEF").value() == name; });
 }
 
 TEST_F(Chapter4, SnapshotShowsTheBallWhereItTouches) {
@@ -37,18 +38,21 @@ TEST_F(Chapter4, SnapshotShowsTheBallWhereItTouches) {
                contact = list(named(page, "contact_point"), "translation");
     ASSERT_EQ(ball.size(), 3u);
     ASSERT_EQ(contact.size(), 3u);
-    EXPECT_NEAR(std::hypot(ball[0] - contact[0], ball[1] - contact[1], ball[2] - contact[2]), 0.00476, 1e-9);
+    EXPECT_NEAR(std::hypot(ball[0] - contact[0], ball[1] - contact[1], ball[2] - contact[2]),
+        0.00476, 1e-9);
     EXPECT_EQ(list(named(page, "contact_point").child("Shape").child("Sphere"), "radius"),
-              std::vector<double>{0.001});
-    EXPECT_EQ(
-        list(named(page, "ball_0").child("Shape").child("Appearance").child("Material"), "diffuseColor"),
+        std::vector<double>{0.001});
+    EXPECT_EQ(list(named(page, "ball_0").child("Shape").child("Appearance").child("Material"),
+                  "diffuseColor"),
         (std::vector<double>{0, 0, 1}));
     // Seen in the vessel frame the ball is inside and touches.
     const auto vessel = named(page, "vessel");
     const auto origin = list(vessel, "translation"), turn = list(vessel, "rotation");
     const Eigen::Vector3d d(ball[0] - origin[0], ball[1] - origin[1], ball[2] - origin[2]);
-    const Eigen::Vector3d p = Eigen::AngleAxisd(-turn[3], Eigen::Vector3d(turn[0], turn[1], turn[2])) * d;
-    const double gap = std::min(0.0285 - 0.00476 - std::abs(p[1]), 0.019 - 0.00476 - std::hypot(p[0], p[2]));
+    const Eigen::Vector3d p =
+        Eigen::AngleAxisd(-turn[3], Eigen::Vector3d(turn[0], turn[1], turn[2])) * d;
+    const double gap =
+        std::min(0.0285 - 0.00476 - std::abs(p[1]), 0.019 - 0.00476 - std::hypot(p[0], p[2]));
     EXPECT_NEAR(gap, 0, 1e-9);
   }
 }
@@ -59,7 +63,8 @@ TEST_F(Chapter4, AnimationPlaysTheFirstImpacts) {
   const auto log = read("collisions.csv");
   const double length = number(log[3], "time");  // it ends with the fourth impact
   EXPECT_NEAR(list(named(page, "clock"), "cycleInterval")[0], length / 0.001, 1e-9);
-  for (const std::string name : {"vessel_path", "vessel_turn", "ball_0_path", "contact_point_path"}) {
+  for (const std::string name :
+      {"vessel_path", "vessel_turn", "ball_0_path", "contact_point_path"}) {
     const auto keys = list(named(page, name), "key"), values = list(named(page, name), "keyValue");
     ASSERT_GE(keys.size(), 4u) << name;
     EXPECT_TRUE(std::is_sorted(keys.begin(), keys.end())) << name;
@@ -74,10 +79,12 @@ TEST_F(Chapter4, AnimationPlaysTheFirstImpacts) {
   EXPECT_EQ(keys.back(), 1);
   // The nested motion: about Z by theta, along the arm, about the arm by gamma.
   for (std::size_t k = 0; k < keys.size(); ++k) {
-    const double phase = 2 * std::acos(-1.0) * 1054 / 60 * length * keys[k], degree = std::acos(-1.0) / 180;
-    const double theta = (90 + 15 * std::cos(phase)) * degree, gamma = 15 * std::sin(phase) * degree;
+    const double phase = 2 * std::acos(-1.0) * 1054 / 60 * length * keys[k],
+                 degree = std::acos(-1.0) / 180;
+    const double theta = (90 + 15 * std::cos(phase)) * degree,
+                 gamma = 15 * std::sin(phase) * degree;
     const Eigen::Quaterniond expected = Eigen::AngleAxisd(theta, Eigen::Vector3d::UnitZ()) *
-                                        Eigen::AngleAxisd(gamma, Eigen::Vector3d::UnitX());
+        Eigen::AngleAxisd(gamma, Eigen::Vector3d::UnitX());
     const Eigen::Quaterniond found(Eigen::AngleAxisd(
         turns[4 * k + 3], Eigen::Vector3d(turns[4 * k], turns[4 * k + 1], turns[4 * k + 2])));
     EXPECT_LT(found.angularDistance(expected), 1e-7) << k;
@@ -88,9 +95,8 @@ TEST_F(Chapter4, AnimationPlaysTheFirstImpacts) {
   // The ball has a key at each impact.
   const auto ball_keys = list(named(page, "ball_0_path"), "key");
   for (int k = 0; k < 4; ++k)
-    EXPECT_TRUE(std::any_of(ball_keys.begin(), ball_keys.end(), [&](double key) {
-      return std::abs(key * length - number(log[k], "time")) < 1e-12;
-    }));
+    EXPECT_TRUE(std::any_of(ball_keys.begin(), ball_keys.end(),
+        [&](double key) { return std::abs(key * length - number(log[k], "time")) < 1e-12; }));
   int routes = 0;
   for (const auto& node : page.child("X3D").child("Scene").children("ROUTE")) {
     EXPECT_TRUE(named(page, node.attribute("fromNode").value()));
@@ -103,9 +109,10 @@ TEST_F(Chapter4, AnimationPlaysTheFirstImpacts) {
 /// The piston of the animation stands where the case says, in the page and as the report reads it.
 TEST_F(Outputs, AnimationMovesPistons) {
   write("case.toml",
-        std::string(small_case) +
-            "[[vessel.piston]]\nwall = \"cap +y\"\ndistance = \"4 mm\"\n"
-            "swing = [{amplitude = \"3 mm\", speed = \"1500 rpm\"}]\n[[output]]\ntype = \"animation\"\n");
+      std::string(small_case) +
+          "[[vessel.piston]]\nwall = \"cap +y\"\ndistance = \"4 mm\"\n"
+          "swing = [{amplitude = \"3 mm\", speed = \"1500 rpm\"}]\n[[output]]\ntype = "
+          "\"animation\"\n");
   ASSERT_EQ(edmill("run case.toml --quiet --out out").code, 0);
   const auto animation = report::read_animation(scratch / "out/animation.x3d");
   const auto& vessel = animation.vessel;
@@ -128,8 +135,9 @@ TEST_F(Outputs, AnimationMovesPistons) {
 }
 
 TEST_F(Outputs, ParaviewFramesHoldBallsAndVessel) {
-  write("case.toml", std::string(small_case) +
-                         "[[output]]\ntype = \"paraview\"\nfolder = \"movie\"\ninterval = \"30 ms\"\n");
+  write("case.toml",
+      std::string(small_case) +
+          "[[output]]\ntype = \"paraview\"\nfolder = \"movie\"\ninterval = \"30 ms\"\n");
   for (int repeat = 0; repeat < 2; ++repeat)  // the second replaces the first
     ASSERT_EQ(edmill("run case.toml --quiet --out out").code, 0);
   pugi::xml_document index;
@@ -196,12 +204,13 @@ TEST(BoxScene, HasSixWallsInTheVesselFrame) {
 }
 
 TEST(BoxScene, HasItsBodies) {
-  const auto file = std::filesystem::temp_directory_path() / ("body_" + std::to_string(::getpid()) + ".x3d");
+  const auto file =
+      std::filesystem::temp_directory_path() / ("body_" + std::to_string(::getpid()) + ".x3d");
   auto scene = box_scene();
   const model::RoundedBody<double> plate(false, {0.01, 0, 0.02}, 0.003);
   scene.bodies.push_back({{model::mesh_of(plate)}, {1, 0, 0}, turned(0, 0)});
-  const output::SceneMotion motion{
-      1, {{0, turned(0, 0)}, {1, turned(0, 0)}}, {{{0, turned(0, 0)}, {1, turned(90, 2)}}}, {}, {}, {}};
+  const output::SceneMotion motion{1, {{0, turned(0, 0)}, {1, turned(0, 0)}},
+      {{{0, turned(0, 0)}, {1, turned(90, 2)}}}, {}, {}, {}};
   std::ofstream(file) << output::x3d_text(scene, &motion);
   const auto bodies = report::read_animation(file).bodies;
   std::filesystem::remove(file);
@@ -220,13 +229,15 @@ TEST(BoxScene, HasItsBodies) {
 }
 
 TEST(BoxScene, IsReadBackAndTurnsTheShortWay) {
-  const auto file = std::filesystem::temp_directory_path() / ("box_" + std::to_string(::getpid()) + ".x3d");
+  const auto file =
+      std::filesystem::temp_directory_path() / ("box_" + std::to_string(::getpid()) + ".x3d");
   const output::SceneMotion motion{1, {{0, turned(170, 1)}, {1, turned(-170, 3)}}, {}, {}, {}, {}};
   std::ofstream(file) << output::x3d_text(box_scene(), &motion);
   const auto vessel = report::read_animation(file).vessel;
   std::filesystem::remove(file);
   ASSERT_EQ(vessel.walls.size(), 6u);
-  for (const auto& wall : vessel.walls) EXPECT_EQ(wall.faces, (std::vector<std::vector<int>>{{0, 1, 2, 3}}));
+  for (const auto& wall : vessel.walls)
+    EXPECT_EQ(wall.faces, (std::vector<std::vector<int>>{{0, 1, 2, 3}}));
   const auto half_way = vessel.pose(0.5);
   EXPECT_TRUE((half_way * Eigen::Vector3d(1, 0, 0)).isApprox(Eigen::Vector3d(-1, 2, 0), 1e-12));
   EXPECT_TRUE((half_way * Eigen::Vector3d(0, 0, 1)).isApprox(Eigen::Vector3d(0, 2, -1), 1e-12));

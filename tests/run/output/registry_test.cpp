@@ -31,15 +31,14 @@ std::string entry_of(std::string_view type) {
 }
 
 casefile::CaseSpec case_with(const std::string& outputs) {
-  return casefile::parse_case(
-      testing::spex_text("end_time = \"1 ms\"", "restitution = 0.5", testing::batch(1, "9.52 mm") + outputs),
+  return casefile::parse_case(testing::spex_text("end_time = \"1 ms\"", "restitution = 0.5",
+                                  testing::batch(1, "9.52 mm") + outputs),
       "case.toml");
 }
 
 class OutputRegistry : public ProgramTest {
  protected:
-  template <class Real>
-  void commit_all(const casefile::CaseSpec& spec) const {
+  template <class Real> void commit_all(const casefile::CaseSpec& spec) const {
     output::Outputs<Real> outputs(spec, casefile::build_mill<Real>(spec), scratch, Real(0));
     for (io::WholeFile* file : outputs.complete(false)) file->commit();
   }

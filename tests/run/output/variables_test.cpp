@@ -1,5 +1,5 @@
-// Every variable of tables D.3 to D.5 again, from states before and after an impact that the test follows
-// itself, by other formulas, in long double.
+// Every variable of tables D.3 to D.5 again, from states before and after an impact that the test
+// follows itself, by other formulas, in long double.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -24,11 +24,12 @@ struct Vessel {
     const Number theta = acosl(-1) / 2 + amplitude * cosl(speed * time),
                  gamma = amplitude * sinl(speed * time);
     const Vector nested{arm + p[0], p[1] * cosl(gamma) - p[2] * sinl(gamma),
-                        p[1] * sinl(gamma) + p[2] * cosl(gamma)};
+        p[1] * sinl(gamma) + p[2] * cosl(gamma)};
     return {nested[0] * cosl(theta) - nested[1] * sinl(theta),
-            nested[0] * sinl(theta) + nested[1] * cosl(theta), nested[2]};
+        nested[0] * sinl(theta) + nested[1] * cosl(theta), nested[2]};
   }
-  /// The vessel's own point at an inertial place: its axes are orthonormal, so dot products invert `place`.
+  /// The vessel's own point at an inertial place: its axes are orthonormal, so dot products invert
+  /// `place`.
   Vector own_point(const Vector& place_now, Number time) const {
     const Vector centre = place({0, 0, 0}, time), from_centre = place_now - centre;
     Vector p;
@@ -43,8 +44,8 @@ struct Vessel {
   Vector velocity(const Vector& p, Number time) const {
     const Number h = 1e-5L;
     return (8 * (place(p, time + h) - place(p, time - h)) -
-            (place(p, time + 2 * h) - place(p, time - 2 * h))) /
-           (12 * h);
+               (place(p, time + 2 * h) - place(p, time - 2 * h))) /
+        (12 * h);
   }
 };
 
@@ -66,7 +67,9 @@ struct Recomputed {
   Number angle(const Vector& v) const {
     return v.norm() == 0 ? 0 : acosl(std::clamp<Number>(normal_part(v) / v.norm(), -1, 1));
   }
-  Number translational(const State& s, int k) const { return mass[k] * s.velocity.dot(s.velocity) / 2; }
+  Number translational(const State& s, int k) const {
+    return mass[k] * s.velocity.dot(s.velocity) / 2;
+  }
   Number rotational(const State& s, int k) const { return inertia[k] * s.spin.dot(s.spin) / 2; }
   Vector relative(const State* s) const { return s[0].velocity - s[1].velocity; }
   /// Velocities of the surfaces at the contact point: v + spin x (contact - centre).
@@ -79,15 +82,18 @@ struct Recomputed {
     return balls ? 0 : mass[0] * before[1].velocity.dot(after[0].velocity - before[0].velocity);
   }
   Number energy(const State* s) const {
-    return translational(s[0], 0) + rotational(s[0], 0) + translational(s[1], 1) + rotational(s[1], 1);
+    return translational(s[0], 0) + rotational(s[0], 0) + translational(s[1], 1) +
+        rotational(s[1], 1);
   }
   Number dose() const { return wall_work() - (energy(after) - energy(before)) + supplied(); }
   Number dose_normal() const { return std::max<Number>(0, normal_loss()); }
   Number supplied() const { return std::max<Number>(0, -normal_loss()); }
-  Number effective_mass() const { return balls ? mass[0] * mass[1] / (mass[0] + mass[1]) : mass[0]; }
+  Number effective_mass() const {
+    return balls ? mass[0] * mass[1] / (mass[0] + mass[1]) : mass[0];
+  }
   Number normal_loss() const {
     return effective_mass() / 2 *
-           (powl(normal_part(relative(before)), 2) - powl(normal_part(relative(after)), 2));
+        (powl(normal_part(relative(before)), 2) - powl(normal_part(relative(after)), 2));
   }
   Vector tangential(const Vector& v) const { return v - normal * normal_part(v); }
   /// Simpson's rule on the speed.
@@ -98,7 +104,10 @@ struct Recomputed {
     Number sum = 0;
     for (int i = 0; i <= steps; ++i) {
       const Number back = flight_time[k] - i * h;
-      sum += (i == 0 || i == steps ? 1 : i % 2 ? 4 : 2) * (before[k].velocity - gravity * back).norm();
+      sum += (i == 0 || i == steps ? 1
+                     : i % 2       ? 4
+                                   : 2) *
+          (before[k].velocity - gravity * back).norm();
     }
     return sum * h / 3;
   }
@@ -108,7 +117,7 @@ using Formulas = std::map<std::string, std::function<Number(const Recomputed&)>>
 
 /// name_before, name_after and name_change of what `of` gives for the states before or after.
 void add_three(Formulas& all, const std::string& name,
-               std::function<Number(const Recomputed&, const State*)> of) {
+    std::function<Number(const Recomputed&, const State*)> of) {
   all[name + "_before"] = [of](const Recomputed& r) { return of(r, r.before); };
   all[name + "_after"] = [of](const Recomputed& r) { return of(r, r.after); };
   all[name + "_change"] = [of](const Recomputed& r) { return of(r, r.after) - of(r, r.before); };
@@ -117,16 +126,19 @@ void add_three(Formulas& all, const std::string& name,
 void add_body(Formulas& all, const std::string& who, int k) {
   add_three(all, who + "_speed", [k](const auto&, const State* s) { return s[k].velocity.norm(); });
   add_three(all, who + "_normal_speed",
-            [k](const auto& r, const State* s) { return fabsl(r.normal_part(s[k].velocity)); });
+      [k](const auto& r, const State* s) { return fabsl(r.normal_part(s[k].velocity)); });
   add_three(all, who + "_tangential_speed",
-            [k](const auto& r, const State* s) { return r.tangential_size(s[k].velocity); });
-  add_three(all, who + "_angle", [k](const auto& r, const State* s) { return r.angle(s[k].velocity); });
+      [k](const auto& r, const State* s) { return r.tangential_size(s[k].velocity); });
+  add_three(
+      all, who + "_angle", [k](const auto& r, const State* s) { return r.angle(s[k].velocity); });
   add_three(all, who + "_spin", [k](const auto&, const State* s) { return s[k].spin.norm(); });
   add_three(all, who + "_translational_energy",
-            [k](const auto& r, const State* s) { return r.translational(s[k], k); });
-  add_three(all, who + "_spin_energy", [k](const auto& r, const State* s) { return r.rotational(s[k], k); });
-  add_three(all, who + "_energy",
-            [k](const auto& r, const State* s) { return r.translational(s[k], k) + r.rotational(s[k], k); });
+      [k](const auto& r, const State* s) { return r.translational(s[k], k); });
+  add_three(all, who + "_spin_energy",
+      [k](const auto& r, const State* s) { return r.rotational(s[k], k); });
+  add_three(all, who + "_energy", [k](const auto& r, const State* s) {
+    return r.translational(s[k], k) + r.rotational(s[k], k);
+  });
   all[who + "_free_path"] = [k](const Recomputed& r) { return r.path(k); };
 }
 
@@ -138,16 +150,18 @@ Formulas formulas() {
     return r.translational(s[0], 0) + r.translational(s[1], 1);
   });
   add_three(all, "spin_energy",
-            [](const auto& r, const State* s) { return r.rotational(s[0], 0) + r.rotational(s[1], 1); });
+      [](const auto& r, const State* s) { return r.rotational(s[0], 0) + r.rotational(s[1], 1); });
   add_three(all, "energy", [](const auto& r, const State* s) { return r.energy(s); });
   const auto add_velocity = [&](const std::string& name,
                                 std::function<Vector(const Recomputed&, const State*)> of) {
-    add_three(all, name + "_speed", [of](const auto& r, const State* s) { return of(r, s).norm(); });
+    add_three(
+        all, name + "_speed", [of](const auto& r, const State* s) { return of(r, s).norm(); });
     add_three(all, name + "_normal_speed",
-              [of](const auto& r, const State* s) { return fabsl(r.normal_part(of(r, s))); });
+        [of](const auto& r, const State* s) { return fabsl(r.normal_part(of(r, s))); });
     add_three(all, name + "_tangential_speed",
-              [of](const auto& r, const State* s) { return r.tangential_size(of(r, s)); });
-    add_three(all, name + "_angle", [of](const auto& r, const State* s) { return r.angle(of(r, s)); });
+        [of](const auto& r, const State* s) { return r.tangential_size(of(r, s)); });
+    add_three(
+        all, name + "_angle", [of](const auto& r, const State* s) { return r.angle(of(r, s)); });
   };
   add_velocity("relative", [](const Recomputed& r, const State* s) { return r.relative(s); });
   add_velocity("contact", [](const Recomputed& r, const State* s) { return r.at_contact(s); });
@@ -156,19 +170,23 @@ Formulas formulas() {
   all["time_previous"] = [](const Recomputed& r) { return r.previous; };
   all["time_since_previous"] = [](const Recomputed& r) { return r.time - r.previous; };
   all["impact_energy"] = [](const Recomputed& r) {
-    return r.effective_mass() / 2 * powl(std::max<Number>(0, -r.normal_part(r.relative(r.before))), 2);
+    return r.effective_mass() / 2 *
+        powl(std::max<Number>(0, -r.normal_part(r.relative(r.before))), 2);
   };
   all["milling_dose"] = [](const Recomputed& r) { return r.dose(); };
   all["dose_normal"] = [](const Recomputed& r) { return r.dose_normal(); };
   all["dose_tangential"] = [](const Recomputed& r) { return r.dose() - r.dose_normal(); };
   all["supplied_energy"] = [](const Recomputed& r) { return r.supplied(); };
   all["wall_work"] = [](const Recomputed& r) { return r.wall_work(); };
-  all["energy_balance"] = [](const Recomputed& r) { return r.energy(r.after) - r.energy(r.before); };
+  all["energy_balance"] = [](const Recomputed& r) {
+    return r.energy(r.after) - r.energy(r.before);
+  };
   const auto pushed = [](const Recomputed& r) {
     return Vector(r.mass[0] * (r.after[0].velocity - r.before[0].velocity));
   };
   all["normal_impulse"] = [pushed](const Recomputed& r) { return r.normal_part(pushed(r)); };
-  all["tangential_impulse"] = [pushed](const Recomputed& r) { return r.tangential_size(pushed(r)); };
+  all["tangential_impulse"] = [pushed](
+                                  const Recomputed& r) { return r.tangential_size(pushed(r)); };
   all["restitution_normal"] = [](const Recomputed& r) {
     return -r.normal_part(r.relative(r.after)) / r.normal_part(r.relative(r.before));
   };
@@ -189,10 +207,12 @@ class Follower : public engine::Observer<double> {
   explicit Follower(const engine::Simulation<double>& simulation) {
     for (int i = 0; i < simulation.ball_count(); ++i) states_.push_back(seen(simulation, i, 0));
     for (const auto& v : model::impact_variables)
-      EXPECT_TRUE(v.kind != model::VariableKind::number || formulas_.count(std::string(v.name))) << v.name;
+      EXPECT_TRUE(v.kind != model::VariableKind::number || formulas_.count(std::string(v.name)))
+          << v.name;
   }
 
-  void on_impact(const engine::Impact<double>& impact, engine::Simulation<double>& simulation) override {
+  void on_impact(
+      const engine::Impact<double>& impact, engine::Simulation<double>& simulation) override {
     const ImpactFacts<double> facts{impact, simulation, static_cast<double>(previous_), 3};
     const Recomputed r = recompute(impact, simulation);
     for (int k = 0; k < static_cast<int>(model::impact_variables.size()); ++k) {
@@ -202,19 +222,21 @@ class Follower : public engine::Observer<double> {
       const Number ours = variable_formula<double>(k)(facts), theirs = formulas_.at(name)(r);
       // Coefficients and angles of very slow motion amplify the rounding of the states.
       const bool slow = fabsl(r.normal_part(r.relative(r.before))) < 1e-3L ||
-                        r.tangential(r.at_contact(r.before)).norm() < 1e-3L ||
-                        r.at_contact(r.after).norm() < 1e-3L;
+          r.tangential(r.at_contact(r.before)).norm() < 1e-3L ||
+          r.at_contact(r.after).norm() < 1e-3L;
       if (slow && (v.unit == "rad" || v.unit == "1")) continue;
-      const Number size = v.unit == "J"     ? 1e-3L
-                          : v.unit == "m"   ? 0.1L
-                          : v.unit == "N s" ? 1e-2L
-                          : v.unit == "s"   ? 1
-                                            : 10;
+      const Number size = v.unit == "J" ? 1e-3L
+          : v.unit == "m"               ? 0.1L
+          : v.unit == "N s"             ? 1e-2L
+          : v.unit == "s"               ? 1
+                                        : 10;
       worst_ = std::max(worst_, fabsl(ours - theirs) / size);
-      EXPECT_NEAR(static_cast<double>(ours), static_cast<double>(theirs), static_cast<double>(size) * 1e-9)
+      EXPECT_NEAR(
+          static_cast<double>(ours), static_cast<double>(theirs), static_cast<double>(size) * 1e-9)
           << name << " at impact " << impact.index;
     }
-    EXPECT_EQ(variable_formula<double>(*model::find_variable("ball_ball"))(facts), impact.with_wall ? 0 : 1);
+    EXPECT_EQ(variable_formula<double>(*model::find_variable("ball_ball"))(facts),
+        impact.with_wall ? 0 : 1);
     const Number rebound = -restitution * r.normal_part(r.relative(r.before)), least = 0.01L;
     if (fabsl(rebound - least) > 1e-9L) {
       EXPECT_EQ(facts.outcome.least_separation, rebound < least);
@@ -229,16 +251,15 @@ class Follower : public engine::Observer<double> {
   Number worst() const { return worst_; }
   int touched() const { return touched_; }
   const std::array<int, 4>& impacts() const { return impacts_; }
-
  private:
   static State seen(const engine::Simulation<double>& simulation, int i, Number time) {
     const auto& f = simulation.flight(i);
     return {vector_cast<Number>(f.position), vector_cast<Number>(f.velocity),
-            vector_cast<Number>(simulation.spin(i)), time};
+        vector_cast<Number>(simulation.spin(i)), time};
   }
 
-  Recomputed recompute(const engine::Impact<double>& impact,
-                       const engine::Simulation<double>& simulation) const {
+  Recomputed recompute(
+      const engine::Impact<double>& impact, const engine::Simulation<double>& simulation) const {
     Recomputed r;
     r.time = static_cast<Number>(impact.time.period) * (60 / Number(1054)) + impact.time.offset;
     r.previous = previous_;
@@ -250,7 +271,7 @@ class Follower : public engine::Observer<double> {
       const Number dt = r.time - old.time;
       r.flight_time[k] = dt;
       r.before[k] = {old.position + old.velocity * dt + r.gravity * (dt * dt / 2),
-                     old.velocity + r.gravity * dt, old.spin, r.time};
+          old.velocity + r.gravity * dt, old.spin, r.time};
       r.after[k] = seen(simulation, ids[k], r.time);
       const auto& ball = simulation.properties(ids[k]);
       r.radius[k] = ball.radius;
@@ -263,10 +284,10 @@ class Follower : public engine::Observer<double> {
       // From the nearest point of the wall to the ball, in the vessel's frame.
       const Vector own = vessel_.own_point(r.before[0].position, r.time),
                    centre = vessel_.place({0, 0, 0}, r.time);
-      const Vector inward =
-          ids[1] == 0   ? Vector{0, 1, 0}
-          : ids[1] == 1 ? Vector{0, -1, 0}
-                        : Vector{-own[0] / hypotl(own[0], own[2]), 0, -own[2] / hypotl(own[0], own[2])};
+      const Vector inward = ids[1] == 0 ? Vector{0, 1, 0}
+          : ids[1] == 1
+          ? Vector{0, -1, 0}
+          : Vector{-own[0] / hypotl(own[0], own[2]), 0, -own[2] / hypotl(own[0], own[2])};
       r.normal = vessel_.place(inward, r.time) - centre;
     }
     r.contact = r.before[0].position - r.radius[0] * r.normal;
@@ -290,20 +311,22 @@ class Follower : public engine::Observer<double> {
 TEST(Variables, AreWhatOtherFormulasGive) {
   const auto spec =
       casefile::parse_case(testing::spex_text("max_collisions = 2000", "restitution = 0.8",
-                                              testing::batch(6, "9.52 mm", "diameter_spread = \"3 mm\"\n")),
-                           "variables.toml");
+                               testing::batch(6, "9.52 mm", "diameter_spread = \"3 mm\"\n")),
+          "variables.toml");
   const auto built = casefile::build_case<double>(spec);
   engine::Simulation<double> simulation(built.the_case, built.states, built.start);
   Follower follower(simulation);
   struct Stop : engine::Observer<double> {
-    void on_impact(const engine::Impact<double>& impact, engine::Simulation<double>& simulation) override {
+    void on_impact(
+        const engine::Impact<double>& impact, engine::Simulation<double>& simulation) override {
       if (impact.index + 1 == 2000) simulation.request_stop(engine::EndReason::stopped);
     }
   } stop;
   simulation.attach(follower);
   simulation.attach(stop);
   simulation.run_until(simulation.clock().at(60));
-  for (int partner = 0; partner < 4; ++partner) EXPECT_GT(follower.impacts()[partner], 50) << partner;
+  for (int partner = 0; partner < 4; ++partner)
+    EXPECT_GT(follower.impacts()[partner], 50) << partner;
   EXPECT_GT(follower.touched(), 50);
   std::cout << "worst difference of any variable, of its size: " << follower.worst() << "\n";
 }
@@ -319,23 +342,27 @@ TEST(Variables, HaveNamesOfTheirOwnAndAllOfTheThesis) {
   EXPECT_EQ(thesis.size(), 3u + 5u + 82u);  // tables D.3, D.4 and D.5
 }
 
-/// A body thrown up, at its top, falling straight, with and without gravity: against Simpson's rule.
+/// A body thrown up, at its top, falling straight, with and without gravity: against Simpson's
+/// rule.
 TEST(PathLength, OfParabolas) {
   const Vec3<double> gravity{0, -9.8, 0};
-  for (const Vec3<double>& v : {Vec3<double>{1, 2, 3}, Vec3<double>{0, -3, 0}, Vec3<double>{0, 3, 0},
-                                Vec3<double>{1e-9, -0.5, 0}, Vec3<double>{2, 0, 0}, Vec3<double>{0, 0, 0}})
+  for (const Vec3<double>& v :
+      {Vec3<double>{1, 2, 3}, Vec3<double>{0, -3, 0}, Vec3<double>{0, 3, 0},
+          Vec3<double>{1e-9, -0.5, 0}, Vec3<double>{2, 0, 0}, Vec3<double>{0, 0, 0}})
     for (const double time : {0.0, 1e-9, 1e-3, 0.3}) {
       Recomputed r;
       r.mass[0] = 1, r.gravity = vector_cast<Number>(gravity), r.flight_time[0] = time;
       r.before[0].velocity = vector_cast<Number>(v);
       const auto expected = static_cast<double>(r.path(0));
       // A kink of the speed, where the ball stops for an instant, costs Simpson's rule digits.
-      EXPECT_NEAR(path_length<double>(v, gravity, time), expected, 1e-6 * expected + 1e-18) << v << "\n"
-                                                                                            << time;
+      EXPECT_NEAR(path_length<double>(v, gravity, time), expected, 1e-6 * expected + 1e-18)
+          << v << "\n"
+          << time;
       EXPECT_NEAR(path_length<double>(v, Vec3<double>{0, 0, 0}, time), v.norm() * time, 1e-15);
     }
   // Straight up 3 m/s, back after 0.6 s with 2.88 m/s: two legs v^2 / 2g.
-  EXPECT_NEAR(path_length<double>({0, -2.88, 0}, gravity, 0.6), (3 * 3 + 2.88 * 2.88) / 19.6, 1e-15);
+  EXPECT_NEAR(
+      path_length<double>({0, -2.88, 0}, gravity, 0.6), (3 * 3 + 2.88 * 2.88) / 19.6, 1e-15);
 }
 
 }  // namespace

@@ -10,7 +10,11 @@ using run::Event;
 using run::Number;
 
 Event event(int ball, bool with_wall, int partner, const Number& time, const Number& speed) {
-  return {.ball = ball, .with_wall = with_wall, .partner = partner, .time = time, .approach_speed = speed};
+  return {.ball = ball,
+      .with_wall = with_wall,
+      .partner = partner,
+      .time = time,
+      .approach_speed = speed};
 }
 
 TEST(Agreement, DigitsAreOfTheLargestDifferenceOverTheLargestSize) {
@@ -18,7 +22,7 @@ TEST(Agreement, DigitsAreOfTheLargestDifferenceOverTheLargestSize) {
   EXPECT_TRUE(agreement.take(event(0, true, 2, 1, 4), event(0, true, 2, 1, 4)));
   EXPECT_EQ(agreement.least_digits(), Agreement::most);
   EXPECT_TRUE(agreement.take(event(1, false, 3, Number(2), Number("1e-3")),
-                             event(1, false, 3, Number(2) + Number("2e-40"), Number("1.004e-3"))));
+      event(1, false, 3, Number(2) + Number("2e-40"), Number("1.004e-3"))));
   EXPECT_NEAR(agreement.digits(model::time), 40, 1e-9);           // 2e-40 of 2 s
   EXPECT_NEAR(agreement.digits(model::approach_speed), 6, 1e-9);  // 4e-6 of 4 m/s
   EXPECT_NEAR(agreement.least_digits(), 6, 1e-9);

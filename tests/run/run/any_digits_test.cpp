@@ -7,8 +7,7 @@
 namespace edmill {
 namespace {
 
-template <class Real>
-std::vector<Real> end_of(const Case& the_case) {
+template <class Real> std::vector<Real> end_of(const Case& the_case) {
   Run<Real> run(the_case);
   run.finish();
   std::vector<Real> numbers{run.time()};
@@ -18,8 +17,8 @@ std::vector<Real> end_of(const Case& the_case) {
 }
 
 TEST(RunInAnyDigits, HasTheMotionOfOneInMore) {
-  const auto the_case = Case::parse(
-      testing::spex_text("end_time = \"0.03 s\"", "restitution = 0.53", testing::batch(28, "4.76 mm")),
+  const auto the_case = Case::parse(testing::spex_text("end_time = \"0.03 s\"",
+                                        "restitution = 0.53", testing::batch(28, "4.76 mm")),
       "demo.toml");
   std::vector<mpfr> chosen, more;
   {

@@ -26,12 +26,13 @@ class CertifyTest : public ProgramTest {
     const auto expected = events(reference(name + ".events.csv"));
     ASSERT_EQ(expected.size(), static_cast<std::size_t>(count) + 1);
     const auto made = edmill("certify '" + reference(name + ".toml").string() + "' --collisions " +
-                             std::to_string(count) + " --out events.csv");
+        std::to_string(count) + " --out events.csv");
     ASSERT_EQ(made.code, 0) << made.err;
     std::cout << "claim certified events, " << name << ": " << made.out;
     const auto found = events(scratch / "events.csv");
     ASSERT_EQ(found.size(), expected.size());
-    for (std::size_t k = 0; k < expected.size(); ++k) ASSERT_EQ(found[k], expected[k]) << "line " << k;
+    for (std::size_t k = 0; k < expected.size(); ++k)
+      ASSERT_EQ(found[k], expected[k]) << "line " << k;
   }
 };
 
@@ -44,9 +45,10 @@ TEST_F(CertifyTest, StirredTank) { is_made_again("stirred", 500); }
 
 TEST_F(CertifyTest, GoesOnWhereTheWidestScalarOfFixedDigitsDoesNotSuffice) {
   const auto outcome = edmill("certify '" + reference("balls_28.toml").string() +
-                              "' --collisions 6000 --digits 90 --out events.csv");
+      "' --collisions 6000 --digits 90 --out events.csv");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("mpfr100 and mpfr200: 6000 events in common"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("mpfr100 and mpfr200: 6000 events in common"), std::string::npos)
+      << outcome.out;
   EXPECT_NE(outcome.out.find("\nmpfr:"), std::string::npos) << outcome.out;
   EXPECT_TRUE(std::filesystem::exists(scratch / "events.csv"));
 }
@@ -54,32 +56,36 @@ TEST_F(CertifyTest, GoesOnWhereTheWidestScalarOfFixedDigitsDoesNotSuffice) {
 /// Three walls at one time: a rule orders them, in every scalar.
 TEST_F(CertifyTest, WhatTheEquationsDoNotOrderIsNotWritten) {
   std::ofstream(scratch / "corner.toml")
-      << "[run]\nend_time = \"1 s\"\n[mill]\ntype = \"still\"\n[vessel]\ntype = \"box\"\nsize = [\"40 mm\", "
+      << "[run]\nend_time = \"1 s\"\n[mill]\ntype = \"still\"\n[vessel]\ntype = \"box\"\nsize = "
+         "[\"40 mm\", "
          "\"40 mm\", "
-         "\"40 mm\"]\n[contact]\nrestitution = 0.5\nfriction = 0\n[[ball]]\ndiameter = \"10 mm\"\nposition = "
+         "\"40 mm\"]\n[contact]\nrestitution = 0.5\nfriction = 0\n[[ball]]\ndiameter = \"10 "
+         "mm\"\nposition = "
          "[0, 0, "
          "0]\nvelocity = [\"1 m/s\", \"1 m/s\", \"1 m/s\"]\n";
   const auto outcome = edmill("certify corner.toml --collisions 3 --out events.csv");
   EXPECT_EQ(outcome.code, 4);
-  EXPECT_NE(outcome.err.find("a rule and not the equations orders them"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("a rule and not the equations orders them"), std::string::npos)
+      << outcome.err;
   EXPECT_FALSE(std::filesystem::exists(scratch / "events.csv"));
 }
 
 TEST_F(CertifyTest, AnotherCaseHasOtherEvents) {
   const auto outcome = edmill("certify '" + reference("one_ball.toml").string() +
-                              "' --set contact.friction=0.41 --collisions 500 --out events.csv --quiet");
+      "' --set contact.friction=0.41 --collisions 500 --out events.csv --quiet");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_NE(events(scratch / "events.csv"), events(reference("one_ball.events.csv")));
 }
 
 TEST_F(CertifyTest, ShadowTellsWhereTheRunsPart) {
   const auto outcome = edmill("run '" + reference("balls_28.toml").string() +
-                              "' --set 'run.end_time=\"0.2 s\"' --shadow float128 --quiet --out out");
+      "' --set 'run.end_time=\"0.2 s\"' --shadow float128 --quiet --out out");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_TRUE(std::filesystem::exists(scratch / "out/summary.json"));
   int common = 0;
-  ASSERT_EQ(std::sscanf(outcome.out.c_str(), "Shadow run: float128 and double, %d events in common", &common),
-            1)
+  ASSERT_EQ(std::sscanf(outcome.out.c_str(), "Shadow run: float128 and double, %d events in common",
+                &common),
+      1)
       << outcome.out;
   // 16 digits, of which each ball loses about 0.1 per collision.
   EXPECT_GT(common, 500);
@@ -91,10 +97,11 @@ TEST_F(CertifyTest, ShadowTellsWhereTheRunsPart) {
 
 TEST_F(CertifyTest, AShadowMustBeWider) {
   const auto outcome = edmill("run '" + reference("balls_28.toml").string() +
-                              "' --precision float128 --shadow double --out out");
+      "' --precision float128 --shadow double --out out");
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_NE(outcome.err.find("option '--shadow': found \"double\", expected a scalar wider than float128"),
-            std::string::npos)
+  EXPECT_NE(outcome.err.find(
+                "option '--shadow': found \"double\", expected a scalar wider than float128"),
+      std::string::npos)
       << outcome.err;
   EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
 }

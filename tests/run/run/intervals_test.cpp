@@ -38,20 +38,20 @@ TEST(Batches, AreWholePeriodsJoinedInPairs) {
     ASSERT_EQ(amounts.size(), batches.count());
     EXPECT_LT(batches.count(), Batches<double>::most);
     EXPECT_GE(batches.count(),
-              std::min<std::size_t>(static_cast<std::size_t>(periods), Batches<double>::most / 2));
+        std::min<std::size_t>(static_cast<std::size_t>(periods), Batches<double>::most / 2));
     const auto length = batches.periods();
     EXPECT_EQ(static_cast<Periods>(batches.count()), periods / length);
     for (std::size_t b = 0; b < amounts.size(); ++b) {
       const auto first = static_cast<double>(static_cast<Periods>(b) * length),
                  n = static_cast<double>(length);
-      EXPECT_EQ(amounts[b], n * first + n * (n - 1) / 2) << b << " of " << periods;  // an arithmetic series
+      EXPECT_EQ(amounts[b], n * first + n * (n - 1) / 2)
+          << b << " of " << periods;  // an arithmetic series
     }
   }
 }
 
 casefile::CaseSpec case_with(const std::string& more, const std::string& powder = "") {
-  return casefile::parse_case(
-      "[run]\nend_time = \"3 s\"\nstart_time = \"0.5 s\"\n" + more +
+  return casefile::parse_case("[run]\nend_time = \"3 s\"\nstart_time = \"0.5 s\"\n" + more +
           "[mill]\ntype = \"spex8000\"\n[vessel]\ndiameter = \"38 mm\"\nheight = \"57 mm\"\n"
           "[contact]\nrestitution = 0.53\nfriction = 0.4\n[powder]\nmass = \"5 g\"\n" +
           powder + "[[balls]]\ncount = 7\ndiameter = \"6.35 mm\"\n",
@@ -85,8 +85,8 @@ TEST(Intervals, AreThoseOfTheDosesBetweenTheEndsOfBatches) {
   EXPECT_GT(end_effect, 0);
   EXPECT_NEAR(s.intervals.dose_rate.half_width / (*e.half_width + end_effect), 1, 1e-3);
   EXPECT_NEAR(*s.milling_time(), 10e6 * 0.005 / rate, 1e-6);
-  EXPECT_NEAR(*s.milling_time_half_width() / *s.milling_time(), s.intervals.dose_rate.half_width / rate,
-              1e-12);
+  EXPECT_NEAR(*s.milling_time_half_width() / *s.milling_time(),
+      s.intervals.dose_rate.half_width / rate, 1e-12);
 }
 
 TEST(Intervals, WhatCountsTowardTheTargetIsSummedByImpact) {
@@ -116,12 +116,15 @@ TEST(Intervals, NothingThatCountsGivesNoMillingTime) {
   EXPECT_NE(io::summary_json(s).find("\"milling_time\": null"), std::string::npos);
 }
 
-/// The evidence of several states in 24 periods after the first 10. @param vessel  diameter and height [mm]
-std::string states_of(const std::string& mill, double period, std::array<double, 2> vessel, int balls,
-                      double diameter, int seed) {
+/// The evidence of several states in 24 periods after the first 10. @param vessel  diameter and
+/// height [mm]
+std::string states_of(const std::string& mill, double period, std::array<double, 2> vessel,
+    int balls, double diameter, int seed) {
   const auto text = fmt::format(
-      "[run]\nstart_time = \"{} s\"\nend_time = \"{} s\"\ngravity = \"9.81 m/s2\"\nseed = {}\n[mill]\n{}\n"
-      "[vessel]\ndiameter = \"{} mm\"\nheight = \"{} mm\"\n[contact]\nrestitution = 0.8\nfriction = 0.4\n"
+      "[run]\nstart_time = \"{} s\"\nend_time = \"{} s\"\ngravity = \"9.81 m/s2\"\nseed = "
+      "{}\n[mill]\n{}\n"
+      "[vessel]\ndiameter = \"{} mm\"\nheight = \"{} mm\"\n[contact]\nrestitution = 0.8\nfriction "
+      "= 0.4\n"
       "[[balls]]\ncount = {}\ndiameter = \"{} mm\"\n",
       10 * period, 34 * period, seed, mill, vessel[0], vessel[1], balls, diameter);
   return summary_of(casefile::parse_case(text, "test.toml")).intervals.several_states;
@@ -129,19 +132,22 @@ std::string states_of(const std::string& mill, double period, std::array<double,
 
 TEST(Intervals, ChargesThatDoNotMixAreOfSeveralStates) {
   const auto in_spex = [](int balls, int seed) {
-    return states_of("type = \"spex8000\"\nspeed = \"1054 rpm\"", 60.0 / 1054, {38, 57}, balls, 6, seed);
+    return states_of(
+        "type = \"spex8000\"\nspeed = \"1054 rpm\"", 60.0 / 1054, {38, 57}, balls, 6, seed);
   };
   for (const int seed : {1, 2, 3}) {
     for (const int balls : {3, 7, 28}) EXPECT_EQ(in_spex(balls, seed), "") << balls << " " << seed;
     EXPECT_NE(in_spex(1, seed).find("one or two balls"), std::string::npos) << seed;
     // Large balls in a slow drum lie side by side, each in its place.
-    const auto in_drum = states_of("type = \"drum\"\nspeed = \"100 rpm\"", 0.6, {100, 60}, 14, 12.7, seed);
+    const auto in_drum =
+        states_of("type = \"drum\"\nspeed = \"100 rpm\"", 0.6, {100, 60}, 14, 12.7, seed);
     EXPECT_NE(in_drum, "") << seed;
   }
 }
 
 TEST(Intervals, StandInTheSummaryWithTheWarnings) {
-  const auto short_run = nlohmann::json::parse(io::summary_json(summary_of(ending_at(0.6, case_with("")))));
+  const auto short_run =
+      nlohmann::json::parse(io::summary_json(summary_of(ending_at(0.6, case_with("")))));
   EXPECT_TRUE(short_run.at("warnings").contains("too_short"));
   EXPECT_FALSE(short_run.at("intervals").contains("milling_dose_rate"));
   const auto long_run = nlohmann::json::parse(io::summary_json(summary_of(case_with(""))));
@@ -149,7 +155,8 @@ TEST(Intervals, StandInTheSummaryWithTheWarnings) {
   for (const char* rate : {"milling_dose_rate", "inverse_milling_dose_rate", "wall_work_rate"})
     EXPECT_GT(widths.at(rate).get<double>(), 0) << rate;
   EXPECT_GT(widths.at("impact_rate").at("wall_2").get<double>(), 0);
-  EXPECT_EQ(widths.at("milling_dose_rate_of_batches").size(), widths.at("batches").get<std::size_t>());
+  EXPECT_EQ(
+      widths.at("milling_dose_rate_of_batches").size(), widths.at("batches").get<std::size_t>());
 }
 
 TEST(Precision, ARunEndsWhenItsDoseRateIsKnownSoWell) {

@@ -10,21 +10,23 @@
 namespace edmill {
 namespace {
 
-template <class Real>
-struct Given : CustomLaw<Real> {
+template <class Real> struct Given : CustomLaw<Real> {
   double e_n, e_t;
   Given(double normal, double tangential) : e_n(normal), e_t(tangential) {}
   Real restitution(const Real&) const override { return Real(e_n); }
-  Real restitution_of_slip(const Real&, const Real&, const Real&) const override { return Real(e_t); }
+  Real restitution_of_slip(const Real&, const Real&, const Real&) const override {
+    return Real(e_t);
+  }
 };
 
 /// What a run with the law is refused with, or nothing.
-template <class Real>
-std::string refusal(double e_n, double e_t) {
+template <class Real> std::string refusal(double e_n, double e_t) {
   const auto the_case = Case::parse(
-      "[run]\nend_time = \"0.2 s\"\ngravity = \"9.8 m/s2\"\n[mill]\ntype = \"spex8000\"\nspeed = \"1054 "
+      "[run]\nend_time = \"0.2 s\"\ngravity = \"9.8 m/s2\"\n[mill]\ntype = \"spex8000\"\nspeed = "
+      "\"1054 "
       "rpm\"\n"
-      "[vessel]\ndiameter = \"38 mm\"\nheight = \"57 mm\"\n[contact]\nrestitution = 0.5\nfriction = 0.4\n"
+      "[vessel]\ndiameter = \"38 mm\"\nheight = \"57 mm\"\n[contact]\nrestitution = 0.5\nfriction "
+      "= 0.4\n"
       "[[balls]]\ncount = 5\ndiameter = \"8 mm\"\n");
   const auto law = std::make_shared<Given<Real>>(e_n, e_t);
   try {

@@ -1,4 +1,5 @@
-// Vessels and motions of a program: those that a case can name, said by polynomials and joints, and others.
+// Vessels and motions of a program: those that a case can name, said by polynomials and joints, and
+// others.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,15 +17,15 @@ namespace {
 
 Case case_of(const std::string& mill, const std::string& outputs = "") {
   return Case::parse("[run]\nend_time = \"0.3 s\"\ngravity = \"9.8 m/s2\"\n[mill]\n" + mill +
-                     "\n[vessel]\ndiameter = \"38 mm\"\nheight = \"57 mm\"\n[contact]\nrestitution = 0.5\n"
-                     "friction = 0.4\n[[balls]]\ncount = 8\ndiameter = \"6 mm\"\n" +
-                     outputs);
+      "\n[vessel]\ndiameter = \"38 mm\"\nheight = \"57 mm\"\n[contact]\nrestitution = 0.5\n"
+      "friction = 0.4\n[[balls]]\ncount = 8\ndiameter = \"6 mm\"\n" +
+      outputs);
 }
 const char* const spex = "type = \"spex8000\"\nspeed = \"1054 rpm\"";
-const char* const planetary = "type = \"planetary\"\nradius = \"75 mm\"\nspeed = \"400 rpm\"\nratio = -2.18";
+const char* const planetary =
+    "type = \"planetary\"\nradius = \"75 mm\"\nspeed = \"400 rpm\"\nratio = -2.18";
 
-template <class Real>
-struct Seen : Observer<Real> {
+template <class Real> struct Seen : Observer<Real> {
   std::vector<Impact<Real>> impacts;
   std::size_t most;
   explicit Seen(std::size_t count) : most(count) {}
@@ -34,7 +35,8 @@ struct Seen : Observer<Real> {
   }
 };
 template <class Real>
-std::vector<Impact<Real>> impacts_of(const Case& the_case, const OwnParts<Real>& own, std::size_t most) {
+std::vector<Impact<Real>> impacts_of(
+    const Case& the_case, const OwnParts<Real>& own, std::size_t most) {
   Run<Real> run(the_case, own);
   Seen<Real> seen(most);
   run.attach(seen);
@@ -42,29 +44,26 @@ std::vector<Impact<Real>> impacts_of(const Case& the_case, const OwnParts<Real>&
   return seen.impacts;
 }
 
-template <class Real>
-Polynomial<Real> square(const Polynomial<Real>& form) {
-  return form * form;
-}
+template <class Real> Polynomial<Real> square(const Polynomial<Real>& form) { return form * form; }
 /// The case's cylinder; walls in its order.
-template <class Real>
-CurvedVessel<Real> cylinder(const Real& radius, const Real& half_height) {
+template <class Real> CurvedVessel<Real> cylinder(const Real& radius, const Real& half_height) {
   using P = Polynomial<Real>;
   return {{half_height + P::y() - P::r(), half_height - P::y() - P::r(),
-           square<Real>(radius - P::r()) - square<Real>(P::x()) - square<Real>(P::z())},
-          {radius, half_height, radius}};
+              square<Real>(radius - P::r()) - square<Real>(P::x()) - square<Real>(P::z())},
+      {radius, half_height, radius}};
 }
 /// A jar that narrows upwards by a fifth.
 CurvedVessel<double> cone() {
   using P = Polynomial<double>;
-  return {{square<double>(0.2 * (0.095 - P::y()) - std::sqrt(1.04) * P::r()) - square<double>(P::x()) -
-               square<double>(P::z()),
-           0.025 + P::y() - P::r(), 0.025 - P::y() - P::r()},
-          {0.0241, 0.0251, 0.0241}};
+  return {{square<double>(0.2 * (0.095 - P::y()) - std::sqrt(1.04) * P::r()) -
+                  square<double>(P::x()) - square<double>(P::z()),
+              0.025 + P::y() - P::r(), 0.025 - P::y() - P::r()},
+      {0.0241, 0.0251, 0.0241}};
 }
 
 template <class Real>
-void expect_alike(const std::vector<Impact<Real>>& one, const std::vector<Impact<Real>>& other, double to) {
+void expect_alike(
+    const std::vector<Impact<Real>>& one, const std::vector<Impact<Real>>& other, double to) {
   ASSERT_EQ(one.size(), other.size());
   for (std::size_t k = 0; k < one.size(); ++k) {
     ASSERT_EQ(one[k].ball, other[k].ball) << k;
@@ -73,8 +72,8 @@ void expect_alike(const std::vector<Impact<Real>>& one, const std::vector<Impact
   }
 }
 
-/// Rounding alone tells a cylinder of polynomials from that of the case: errors grow by 0.01 digits an
-/// impact.
+/// Rounding alone tells a cylinder of polynomials from that of the case: errors grow by 0.01 digits
+/// an impact.
 TEST(OwnMill, ACylinderOfPolynomialsIsThatOfTheCase) {
   const auto the_case = case_of(spex);
   OwnParts<double> own;
@@ -96,10 +95,11 @@ TEST(OwnMill, JointsMoveAsTheMillOfTheCase) {
   expect_alike(impacts_of<double>(the_case, {}, 150), impacts_of<double>(the_case, own, 150), 1e-9);
 }
 
-/// A paddle on the vessel and a bar on the ground, with a law of their own, in a cylinder of polynomials on
-/// joints of the program.
+/// A paddle on the vessel and a bar on the ground, with a law of their own, in a cylinder of
+/// polynomials on joints of the program.
 TEST(OwnMill, BodiesAreThoseOfTheCase) {
-  const auto the_case = case_of("type = \"chain\"\njoint = [{ rotate = \"y\", speed = \"300 rpm\" }]", R"(
+  const auto the_case =
+      case_of("type = \"chain\"\njoint = [{ rotate = \"y\", speed = \"300 rpm\" }]", R"(
 [[material]]
 name = "rubber"
 [[body]]
@@ -138,12 +138,15 @@ TEST(OwnMill, ABallInAConeStaysInIt) {
   EXPECT_EQ(s.partners.size(), 4u);
   EXPECT_LT(std::abs(s.energy_closure), 1e-12 * s.milling_dose);
   const double period = 60.0 / 1054, pi = std::acos(-1.0), size = std::sqrt(0.09 + 1 + 0.04);
-  const double moved =
-      0.008 * std::sin(2 * pi * (0.3 / period + 0.1)) + 0.003 * std::sin(2 * pi * (2.0 / 3 * 0.3 / period));
+  const double moved = 0.008 * std::sin(2 * pi * (0.3 / period + 0.1)) +
+      0.003 * std::sin(2 * pi * (2.0 / 3 * 0.3 / period));
   for (int k = 0; k < run.ball_count(); ++k) {
     const auto p = run.ball(k).position;
-    const double x = p[0] - 0.3 / size * moved, y = p[1] - moved / size, z = p[2] + 0.2 / size * moved;
-    EXPECT_GE(0.2 * (0.095 - y) / std::sqrt(1.04) - std::hypot(x, z) / std::sqrt(1.04), 0.003 - 1e-12) << k;
+    const double x = p[0] - 0.3 / size * moved, y = p[1] - moved / size,
+                 z = p[2] + 0.2 / size * moved;
+    EXPECT_GE(
+        0.2 * (0.095 - y) / std::sqrt(1.04) - std::hypot(x, z) / std::sqrt(1.04), 0.003 - 1e-12)
+        << k;
     EXPECT_LE(std::abs(y), 0.022 + 1e-12) << k;
   }
 }
@@ -187,14 +190,16 @@ TEST(OwnMill, WhatIsNoVesselOrMotionIsRefused) {
 /// The squares of a cone and a cylinder are positive again for balls that are wider than they are.
 TEST(OwnMill, LargeBallsArePlacedWhereTheyFitOrRefused) {
   const auto with_ball = [](double diameter, int seed) {
-    return Case::parse("[run]\nend_time = \"0.1 s\"\ngravity = \"9.8 m/s2\"\nseed = " + std::to_string(seed) +
-                       "\n[mill]\ntype = \"still\"\n[vessel]\ndiameter = \"80 mm\"\nheight = \"80 mm\"\n"
-                       "[contact]\nrestitution = 0.5\nfriction = 0.4\n[[balls]]\ncount = 1\ndiameter = \"" +
-                       std::to_string(diameter) + " m\"\n");
+    return Case::parse(
+        "[run]\nend_time = \"0.1 s\"\ngravity = \"9.8 m/s2\"\nseed = " + std::to_string(seed) +
+        "\n[mill]\ntype = \"still\"\n[vessel]\ndiameter = \"80 mm\"\nheight = \"80 mm\"\n"
+        "[contact]\nrestitution = 0.5\nfriction = 0.4\n[[balls]]\ncount = 1\ndiameter = \"" +
+        std::to_string(diameter) + " m\"\n");
   };
   OwnParts<double> own;
   own.vessel = cone();
-  own.joints = {Joint<double>{false, {0, 1, 0}}};         // at rest, with its axes along those of the ground
+  own.joints = {
+      Joint<double>{false, {0, 1, 0}}};  // at rest, with its axes along those of the ground
   const double radius = 0.019, secant = std::sqrt(1.04);  // the largest ball has 19.7 mm
   for (int seed = 1; seed <= 20; ++seed) {
     edmill::Run<double> run(with_ball(2 * radius, seed), own);
@@ -219,7 +224,8 @@ TEST(OwnMill, LargeBallsArePlacedWhereTheyFitOrRefused) {
   own.vessel = cylinder<double>(0.01, 0.06);
   own.vessel->half_sizes = {0.03, 0.07, 0.03};
   EXPECT_FALSE(refuses(0.019));
-  for (const double diameter : {0.0201, 0.03, 0.04, 0.05}) EXPECT_TRUE(refuses(diameter)) << diameter;
+  for (const double diameter : {0.0201, 0.03, 0.04, 0.05})
+    EXPECT_TRUE(refuses(diameter)) << diameter;
 }
 
 /// What a case says of its own walls has no meaning for others.
@@ -229,10 +235,11 @@ TEST(OwnMill, CasesWhoseWallsMoveOrHaveMaterialsAreRefused) {
       "[[material]]\nname = \"steel\"\ndensity = \"7.8 g/cm3\"\n[[material]]\nname = \"rubber\"\n";
   const auto pair = [](const std::string& other) {
     return "[[contact.pair]]\nmaterials = [\"steel\", \"" + other +
-           "\"]\nrestitution = 0.2\nfriction = 0.3\n";
+        "\"]\nrestitution = 0.2\nfriction = 0.3\n";
   };
   const std::string lid = "[vessel.materials]\n\"cap +y\" = \"rubber\"\n";
-  const std::string steel_ball = "[[balls]]\ncount = 1\ndiameter = \"7 mm\"\nmaterial = \"steel\"\n";
+  const std::string steel_ball =
+      "[[balls]]\ncount = 1\ndiameter = \"7 mm\"\nmaterial = \"steel\"\n";
   OwnParts<double> own;
   own.vessel = cone();
   const auto refusal = [&](const std::string& text) -> std::string {

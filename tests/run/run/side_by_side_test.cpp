@@ -11,8 +11,8 @@ namespace {
 
 casefile::CaseSpec example(const std::string& name, const std::string& end) {
   const auto place = std::filesystem::path(EDMILL_SOURCE_DIR) / "docs/examples" / (name + ".toml");
-  return casefile::read_case(place.string(),
-                             {"run.start_time=\"0 s\"", "run.end_time=\"" + end + "\"", "output=[]"});
+  return casefile::read_case(
+      place.string(), {"run.start_time=\"0 s\"", "run.end_time=\"" + end + "\"", "output=[]"});
 }
 
 class DroppedDigits : public ::testing::TestWithParam<std::pair<const char*, const char*>> {};
@@ -34,8 +34,9 @@ TEST_P(DroppedDigits, WereLostBefore) {
     }
   }
   const double left = runs.agreement().least_digits();
-  std::cout << name << ": " << wide.events() << " events, " << runs.dropped_digits() << " digits dropped, "
-            << left << " left of 90, " << kept.least_digits() << " without dropping\n";
+  std::cout << name << ": " << wide.events() << " events, " << runs.dropped_digits()
+            << " digits dropped, " << left << " left of 90, " << kept.least_digits()
+            << " without dropping\n";
   EXPECT_FALSE(runs.diverged() || runs.uneven());
   EXPECT_GE(runs.dropped_digits(), 20);
   EXPECT_GT(left, kept.least_digits() - 1);
@@ -45,8 +46,8 @@ TEST_P(DroppedDigits, WereLostBefore) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Mills, DroppedDigits,
-                         ::testing::Values(std::pair{"demo", "0.4 s"}, std::pair{"planetary", "0.1 s"},
-                                           std::pair{"shaken_box", "1 s"}, std::pair{"materials", "0.3 s"}));
+    ::testing::Values(std::pair{"demo", "0.4 s"}, std::pair{"planetary", "0.1 s"},
+        std::pair{"shaken_box", "1 s"}, std::pair{"materials", "0.3 s"}));
 
 }  // namespace
 }  // namespace edmill::app

@@ -28,13 +28,13 @@ Rates steady() {
   return rates;
 }
 
-std::vector<edmill::io::Warning> warnings_of(Facts f, const Rates& rates,
-                                             const std::optional<double>& wanted_precision = {}) {
+std::vector<edmill::io::Warning> warnings_of(
+    Facts f, const Rates& rates, const std::optional<double>& wanted_precision = {}) {
   if (!rates.empty()) f.set("intervals/milling_dose_rate_of_batches", rates);
   return edmill::run::warnings_of(f, wanted_precision);
 }
-std::vector<std::string> kinds(const Facts& f, const Rates& rates,
-                               const std::optional<double>& wanted_precision = {}) {
+std::vector<std::string> kinds(
+    const Facts& f, const Rates& rates, const std::optional<double>& wanted_precision = {}) {
   std::vector<std::string> list;
   for (const auto& warning : warnings_of(f, rates, wanted_precision)) list.push_back(warning.kind);
   return list;
@@ -75,7 +75,8 @@ edmill::io::Summary<double> elastic(std::uint64_t touched, double supplied) {
   edmill::io::Summary<double> s;
   s.end_reason = model::EndReason::end_time, s.end_time = 10;
   s.collisions[0] = 10000, s.touched_impacts = touched;
-  s.energy_at_start.kinetic = 1, s.energy_at_end.kinetic = 1 + supplied, s.supplied_energy = supplied;
+  s.energy_at_start.kinetic = 1, s.energy_at_end.kinetic = 1 + supplied,
+  s.supplied_energy = supplied;
   return s;
 }
 Kinds kinds(const edmill::io::Summary<double>& s) { return kinds(facts_of(s), steady()); }
@@ -83,8 +84,9 @@ Kinds kinds(const edmill::io::Summary<double>& s) { return kinds(facts_of(s), st
 TEST(Warnings, EnergyThatIsSuppliedWithoutADoseIsTold) {
   EXPECT_EQ(kinds(elastic(400, 0.009)), Kinds{});
   EXPECT_EQ(kinds(elastic(400, 9.5)), Kinds{"supplied_energy"});
-  EXPECT_NE(warnings_of(facts_of(elastic(400, 9.5)), steady())[0].text.find("90 % of the kinetic energy"),
-            std::string::npos);
+  EXPECT_NE(
+      warnings_of(facts_of(elastic(400, 9.5)), steady())[0].text.find("90 % of the kinetic energy"),
+      std::string::npos);
 }
 
 TEST(Warnings, EnergyThatDoesNotCloseIsToldWithoutADose) {
@@ -141,7 +143,8 @@ TEST(Warnings, AWideIntervalIsTold) {
 
 TEST(Warnings, APrecisionThatWasNotReachedIsToldWithTheTimeThatIsLeft) {
   auto f = good_facts();
-  EXPECT_EQ(kinds(f, steady(), 0.002), Kinds{"precision"});  // t 2.09 * 0.05 / sqrt(20) = 0.5 % of 5
+  EXPECT_EQ(
+      kinds(f, steady(), 0.002), Kinds{"precision"});  // t 2.09 * 0.05 / sqrt(20) = 0.5 % of 5
   EXPECT_EQ(kinds(f, steady(), 0.01), Kinds{});
 }
 

@@ -68,7 +68,8 @@ TEST(Forecast, IsNearTheTruthForJobsOfAllSizes) {
     }
     const auto found = forecast.wall_time(jobs, 1);
     ASSERT_TRUE(found);
-    EXPECT_NEAR(std::log(*found / all), 0, std::log(1.5)) << "trial " << trial << ", " << count << " runs";
+    EXPECT_NEAR(std::log(*found / all), 0, std::log(1.5))
+        << "trial " << trial << ", " << count << " runs";
     EXPECT_GE(*forecast.wall_time(jobs, 64), *found / 64);
   }
 }

@@ -27,13 +27,14 @@ class Optimizer : public ProgramTest {
     return casefile::read_optimize(scratch / "o.toml");
   }
 
-  /// Specific dose rate 100 - (d - peak)^2 + noise, d in mm; noise of a seed and a diameter is always the
-  /// same.
+  /// Specific dose rate 100 - (d - peak)^2 + noise, d in mm; noise of a seed and a diameter is
+  /// always the same.
   static study::RunRecord made_up(const study::Job& job, double peak, double noise) {
     double d = 0;
     for (const auto& o : job.overrides)
       if (o.starts_with("balls.0.diameter=")) d = std::stod(o.substr(17));
-    const double chance = static_cast<double>(std::hash<std::string>{}(job.digest) % 1000) / 1000 - 0.5;
+    const double chance =
+        static_cast<double>(std::hash<std::string>{}(job.digest) % 1000) / 1000 - 0.5;
     io::Summary<double> s;
     s.provenance.case_digest = job.digest;
     s.end_time = 1;
@@ -51,7 +52,8 @@ class Optimizer : public ProgramTest {
     std::atomic<bool> interrupt{false};
     study::Ranks ranks;
     study::Executor executor(
-        ranks, threads, [=](const study::Job& job) { return made_up(job, peak, noise); }, interrupt);
+        ranks, threads, [=](const study::Job& job) { return made_up(job, peak, noise); },
+        interrupt);
     const fs::path out = scratch / "out";
     fs::remove_all(out);
     study::Study study(spec, out, "optimize", executor, false);
@@ -74,11 +76,13 @@ TEST_F(Optimizer, FindsThePeakBetweenThePointsOfTheFirstGrid) {
 }
 
 TEST_F(Optimizer, EndsOfRangesAreExact) {
-  for (const auto& [low, high] : {std::pair{"0.06", "0.9"}, {"0.1", "0.7"}, {"0.123456789", "0.987654321"}})
+  for (const auto& [low, high] :
+      {std::pair{"0.06", "0.9"}, {"0.1", "0.7"}, {"0.123456789", "0.987654321"}})
     for (const auto* points : {"2", "3", "8"}) {
       const auto s =
-          spec(std::string("runs_max = 100\nreplicas_first = 2\nrefinements = 0\npoints = ") + points +
-               "\n[[optimize.variable]]\nkey = \"contact.restitution\"\nlow = " + low + "\nhigh = " + high);
+          spec(std::string("runs_max = 100\nreplicas_first = 2\nrefinements = 0\npoints = ") +
+              points + "\n[[optimize.variable]]\nkey = \"contact.restitution\"\nlow = " + low +
+              "\nhigh = " + high);
       const auto found = search(s, 5, 5, 1).points;
       EXPECT_EQ(found.front().settings[0].second, low) << points;
       EXPECT_EQ(found.back().settings[0].second, high) << points;
@@ -86,7 +90,8 @@ TEST_F(Optimizer, EndsOfRangesAreExact) {
 }
 
 TEST_F(Optimizer, PointsThatNoiseHidesAreContendersAndGetMoreRuns) {
-  const auto s = spec("runs_max = 200\npoints = 4\nrefinements = 0\nreplicas_max = 12\n" + diameter);
+  const auto s =
+      spec("runs_max = 200\npoints = 4\nrefinements = 0\nreplicas_max = 12\n" + diameter);
   const auto found = search(s, 5.0, 20, 2);  // 4 mm and 6 mm are equal
   ASSERT_TRUE(found.optimum.best);
   const auto best = *found.optimum.best;
@@ -94,7 +99,7 @@ TEST_F(Optimizer, PointsThatNoiseHidesAreContendersAndGetMoreRuns) {
   const std::size_t twin = best == 1 ? 2 : 1;
   EXPECT_TRUE(best == 1 || best == 2);
   EXPECT_NE(std::find(found.optimum.contenders.begin(), found.optimum.contenders.end(), twin),
-            found.optimum.contenders.end());
+      found.optimum.contenders.end());
 }
 
 TEST_F(Optimizer, ThreadsDoNotChangeTheSearch) {
@@ -119,9 +124,9 @@ TEST_F(Optimizer, TheBudgetIsNeverExceeded) {
 
 TEST_F(Optimizer, TellsALargeChargeFromASmallOneInARealMill) {
   write("o.toml",
-        "[optimize]\ncase = \"demo.toml\"\nruns_max = 20\n"
-        "[[optimize.variable]]\nkey = \"charge_ratio\"\nvalues = [1, 3]\n"
-        "[[optimize.variable]]\nkey = \"run.end_time\"\nvalues = [\"1.5 s\"]\n");
+      "[optimize]\ncase = \"demo.toml\"\nruns_max = 20\n"
+      "[[optimize.variable]]\nkey = \"charge_ratio\"\nvalues = [1, 3]\n"
+      "[[optimize.variable]]\nkey = \"run.end_time\"\nvalues = [\"1.5 s\"]\n");
   const auto one = edmill("optimize o.toml --out one --jobs 1"),
              two = edmill("optimize o.toml --out two --jobs 2");
   EXPECT_EQ(one.code, 0) << one.err;

@@ -21,7 +21,8 @@ RunRecord record_with(const std::vector<std::uint64_t>& collisions) {
 
 std::optional<double> value(const RunRecord& record, const std::string& name, int walls) {
   const auto all = quantities(walls);
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Quantity& q) { return q.name == name; });
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Quantity& q) { return q.name == name; });
   EXPECT_NE(found, all.end()) << name;
   return found->of(record);
 }
@@ -45,17 +46,19 @@ TEST(RunRecords, ARunThatCouldNotStartHasNoValues) {
 }
 
 TEST(RunRecords, JsonKeepsTheCollisionsWithEveryPartner) {
-  for (const auto& collisions : {std::vector<std::uint64_t>{5}, {1, 2, 3, 4}, {1, 2, 3, 4, 5, 6, 7}}) {
+  for (const auto& collisions :
+      {std::vector<std::uint64_t>{5}, {1, 2, 3, 4}, {1, 2, 3, 4, 5, 6, 7}}) {
     const auto record = record_with(collisions);
     const auto read = from_json(to_json(record));
     ASSERT_TRUE(read);
     EXPECT_EQ(read->status, "done");
     for (const auto& list : {amounts(), quantities(6)})
-      for (const auto& quantity : list) EXPECT_EQ(quantity.of(*read), quantity.of(record)) << quantity.name;
+      for (const auto& quantity : list)
+        EXPECT_EQ(quantity.of(*read), quantity.of(record)) << quantity.name;
     for (std::size_t k = 0; k < collisions.size(); ++k)
       EXPECT_EQ(
-          read->facts.number("collisions/" + model::partner_key(static_cast<int>(k),
-                                                                static_cast<int>(collisions.size()) - 1)),
+          read->facts.number("collisions/" +
+              model::partner_key(static_cast<int>(k), static_cast<int>(collisions.size()) - 1)),
           static_cast<double>(collisions[k]));
   }
   const auto failed = from_json(to_json(failed_run("digest", "error", "why")));

@@ -23,21 +23,24 @@ class Sweep : public ProgramTest {
   }
   void write_sweep(const std::string& counts, const std::string& end_time) const {
     write("a.sweep.toml",
-          "[sweep]\ncase = \"demo.toml\"\nreplicas = 2\n[sweep.grid]\n\"run.end_time\" = [\"" + end_time +
-              "\"]\n\"contact.restitution\" = [0.5, 0.6]\n\"balls.0.count\" = " + counts + "\n");
+        "[sweep]\ncase = \"demo.toml\"\nreplicas = 2\n[sweep.grid]\n\"run.end_time\" = [\"" +
+            end_time + "\"]\n\"contact.restitution\" = [0.5, 0.6]\n\"balls.0.count\" = " + counts +
+            "\n");
   }
   void expect_same_tables(const std::string& one, const std::string& two) const {
     for (const auto* name : {"sweep.csv", "runs.csv", "sweep.h5"}) {
       const auto bytes = contents(scratch / one / name);
       EXPECT_FALSE(bytes.empty()) << name;
-      EXPECT_TRUE(bytes == contents(scratch / two / name)) << name << " of " << one << " and " << two;
+      EXPECT_TRUE(bytes == contents(scratch / two / name))
+          << name << " of " << one << " and " << two;
     }
   }
   std::map<fs::path, fs::file_time_type> records(const std::string& folder) const {
     std::map<fs::path, fs::file_time_type> found;
     std::error_code absent;
     for (const auto& entry : fs::directory_iterator(scratch / folder / "runs", absent))
-      if (entry.path().extension() == ".json") found[entry.path().filename()] = fs::last_write_time(entry);
+      if (entry.path().extension() == ".json")
+        found[entry.path().filename()] = fs::last_write_time(entry);
     return found;
   }
   /// Starts a sweep, signals it when two of its runs have ended, and waits for its end.
@@ -47,8 +50,8 @@ class Sweep : public ProgramTest {
       const int null = ::open("/dev/null", O_RDWR);
       for (const int stream : {0, 1, 2}) ::dup2(null, stream);
       const std::string file = scratch / "a.sweep.toml", out = scratch / folder;
-      ::execl(EDMILL_BINARY, EDMILL_BINARY, "sweep", file.c_str(), "--out", out.c_str(), "--jobs", "1",
-              static_cast<char*>(nullptr));
+      ::execl(EDMILL_BINARY, EDMILL_BINARY, "sweep", file.c_str(), "--out", out.c_str(), "--jobs",
+          "1", static_cast<char*>(nullptr));
       ::_exit(127);
     }
     for (int k = 0; k < 60000 && records(folder).size() < 2; ++k)
@@ -69,10 +72,11 @@ class Sweep : public ProgramTest {
     const auto outcome = edmill("sweep a.sweep.toml --out part");
     EXPECT_EQ(outcome.code, code) << outcome.err;
     const std::string told = "12 runs: " + std::to_string(before.size()) + " reused, " +
-                             std::to_string(12 - before.size()) + " run now";
+        std::to_string(12 - before.size()) + " run now";
     EXPECT_NE(outcome.out.find(told), std::string::npos) << outcome.out;
     const auto after = records("part");
-    for (const auto& [name, time] : before) EXPECT_EQ(after.at(name), time) << name << " was run again";
+    for (const auto& [name, time] : before)
+      EXPECT_EQ(after.at(name), time) << name << " was run again";
     expect_same_tables("whole", "part");
   }
 };
@@ -89,7 +93,7 @@ TEST_F(Sweep, TwoRanksGiveTheSameBytesAsOneProcess) {
   write_sweep("[14, 28]", "1 s");
   EXPECT_EQ(edmill("sweep a.sweep.toml --out one").code, 0);
   const auto outcome = edmill("sweep a.sweep.toml --out ranks --jobs 1",
-                              EDMILL_MPIEXEC " -n 2 --allow-run-as-root --oversubscribe");
+      EDMILL_MPIEXEC " -n 2 --allow-run-as-root --oversubscribe");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   expect_same_tables("one", "ranks");
 #else
@@ -99,8 +103,8 @@ TEST_F(Sweep, TwoRanksGiveTheSameBytesAsOneProcess) {
 
 TEST_F(Sweep, RanksEndWithTheExitCodeOfBadInput) {
 #ifdef EDMILL_MPIEXEC
-  const auto outcome =
-      edmill("sweep nowhere.toml --out ranks", EDMILL_MPIEXEC " -n 2 --allow-run-as-root --oversubscribe");
+  const auto outcome = edmill(
+      "sweep nowhere.toml --out ranks", EDMILL_MPIEXEC " -n 2 --allow-run-as-root --oversubscribe");
   EXPECT_EQ(outcome.code, 2);
   EXPECT_NE(outcome.err.find("nowhere.toml: no readable file"), std::string::npos) << outcome.err;
 #else
@@ -110,7 +114,9 @@ TEST_F(Sweep, RanksEndWithTheExitCodeOfBadInput) {
 
 TEST_F(Sweep, ASweepThatWasKilledGoesOnWhereItWas) { expect_resumption_after(SIGKILL, -SIGKILL); }
 
-TEST_F(Sweep, ASweepThatWasInterruptedGoesOnWhereItWas) { expect_resumption_after(SIGTERM, 128 + SIGTERM); }
+TEST_F(Sweep, ASweepThatWasInterruptedGoesOnWhereItWas) {
+  expect_resumption_after(SIGTERM, 128 + SIGTERM);
+}
 
 TEST_F(Sweep, ABrokenRecordIsRunAgain) {
   write_sweep("[14]", "1 s");
@@ -140,10 +146,12 @@ TEST_F(Sweep, AFailingPointIsToldAndTheOthersEnd) {
 TEST_F(Sweep, ARunOfASweepIsTheRunOfItsCase) {
   write_sweep("[14]", "1 s");
   ASSERT_EQ(edmill("sweep a.sweep.toml --out out").code, 0);
-  ASSERT_EQ(edmill("run demo.toml --out run --quiet --set 'run.end_time=1 s' --set contact.restitution=0.5 "
-                   "--set balls.0.count=14 --set run.seed=2")
-                .code,
-            0);
+  ASSERT_EQ(
+      edmill(
+          "run demo.toml --out run --quiet --set 'run.end_time=1 s' --set contact.restitution=0.5 "
+          "--set balls.0.count=14 --set run.seed=2")
+          .code,
+      0);
   const auto summary = contents(scratch / "run/summary.json");
   const auto at = summary.find("\"inverse_milling_dose_rate\": ") + 29;
   const auto value = summary.substr(at, summary.find(',', at) - at);
@@ -159,7 +167,8 @@ TEST_F(Sweep, ChargeRatiosOfTheThesisGiveItsNumbersOfBalls) {
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with("name = "))
       ratio = line.substr(line.find(", ") + 2, line.rfind(", ") - line.find(", ") - 2), ++points;
-    if (const auto at = line.find("\"balls.0.count\" = "); line.starts_with("set") && at != std::string::npos)
+    if (const auto at = line.find("\"balls.0.count\" = ");
+        line.starts_with("set") && at != std::string::npos)
       line.replace(at, line.find(',', at) - at, "\"charge_ratio\" = " + ratio);
     by_ratio += line + "\n";
   }
@@ -167,7 +176,8 @@ TEST_F(Sweep, ChargeRatiosOfTheThesisGiveItsNumbersOfBalls) {
   const auto digests = [&](const std::string& name, std::string text) {
     // So short that its cost is negligible.
     const auto after = text.find("replicas = 1\n") + 13;
-    text.insert(after, "grid = { \"run.start_time\" = [\"0 s\"], \"run.end_time\" = [\"1 us\"] }\n");
+    text.insert(
+        after, "grid = { \"run.start_time\" = [\"0 s\"], \"run.end_time\" = [\"1 us\"] }\n");
     write(name + ".toml", text);
     EXPECT_EQ(edmill("sweep " + name + ".toml --out " + name).code, 0);
     std::set<fs::path> found;

@@ -1,4 +1,5 @@
-"""Cases, everything that a run depends on; commercial mills, new cases for them, and the variables of outputs."""
+"""Cases, everything that a run depends on; commercial mills, new cases for them, and the variables
+of outputs."""
 from __future__ import annotations
 
 import html
@@ -45,13 +46,15 @@ def _key(key: str) -> str:
 
 
 def _toml(tree: Mapping[str, Any], path: str = "") -> str:
-    """A dictionary as a TOML document: a section for each dictionary in it, a list of sections for a list of them."""
+    """A dictionary as a TOML document: a section for each dictionary in it, a list of sections for
+    a list of them."""
     lines, sections = [], []
     for key, value in tree.items():
         name = f"{path}.{_key(key)}" if path else _key(key)
         if isinstance(value, Mapping):
             sections.append(f"\n[{name}]\n{_toml(value, name)}")
-        elif isinstance(value, (list, tuple)) and value and all(isinstance(v, Mapping) for v in value):
+        elif isinstance(value,
+                        (list, tuple)) and value and all(isinstance(v, Mapping) for v in value):
             sections += [f"\n[[{name}]]\n{_toml(v, name)}" for v in value]
         else:
             lines.append(f"{_key(key)} = {_text_of(value, name)}\n")
@@ -74,7 +77,8 @@ class Case:
 
         Case({"run": {"end_time": "2 s"}, "mill": {"type": "spex8000"}, "vessel": {...}, ...})
 
-    `settings` are "section.key=value" over it, as `edmill run --set`. Raises `InputError` with every problem.
+    `settings` are "section.key=value" over it, as `edmill run --set`. Raises `InputError` with
+    every problem.
     """
 
     def __init__(self, source: Mapping[str, Any] | str | os.PathLike, settings: Sequence[str] = ()):
@@ -96,22 +100,25 @@ class Case:
         return made
 
     @classmethod
-    def spex8000(cls, balls: int = 28, diameter: str = "4.76 mm", *, density: str = "8 g/cm3", speed: str = "1054 rpm",
-                 vessel_diameter: str = "38 mm", vessel_height: str = "57 mm", restitution: float | Mapping = 0.53,
-                 friction: float = 0.4, gravity: Any = "9.8 m/s2", end_time: str = "10 s", start_time: str = "0.5 s",
-                 seed: int = 1, **sections: Any) -> Case:
-        """Equal balls in the vial of a SPEX 8000. `sections` are further ones of the case file, such as `output`."""
+    def spex8000(cls, balls: int = 28, diameter: str = "4.76 mm", *, density: str = "8 g/cm3",
+                 speed: str = "1054 rpm", vessel_diameter: str = "38 mm",
+                 vessel_height: str = "57 mm", restitution: float | Mapping = 0.53,
+                 friction: float = 0.4, gravity: Any = "9.8 m/s2", end_time: str = "10 s",
+                 start_time: str = "0.5 s", seed: int = 1, **sections: Any) -> Case:
+        """Equal balls in the vial of a SPEX 8000. `sections` are further ones of the case file,
+        such as `output`."""
         return cls({
-            "run": {"seed": seed, "start_time": start_time, "end_time": end_time, "gravity": gravity},
-            "mill": {"type": "spex8000", "speed": speed},
+            "run": {
+                "seed": seed, "start_time": start_time, "end_time": end_time, "gravity": gravity
+            }, "mill": {"type": "spex8000", "speed": speed},
             "vessel": {"type": "cylinder", "diameter": vessel_diameter, "height": vessel_height},
             "contact": {"restitution": restitution, "friction": friction},
-            "balls": [{"count": balls, "diameter": diameter, "density": density}],
-            **sections,
+            "balls": [{"count": balls, "diameter": diameter, "density": density}], **sections,
         })
 
     def _set(self, text: str, name: str, settings: Sequence[str]) -> None:
-        self._text, self._name, self._settings = text, name, tuple(texts("settings", settings, '"section.key=value"'))
+        self._text, self._name, self._settings = text, name, tuple(
+            texts("settings", settings, '"section.key=value"'))
         try:
             self._case = _edmill.Case.parse(text, name, list(self._settings))
         except _edmill.InputError as error:
@@ -122,11 +129,13 @@ class Case:
         return Case.parse(self._text, self._name, [*self._settings, *settings])
 
     def edit(self, changes: Mapping[str, Any] | None = None, **keys: Any) -> Case:
-        """The case with other values: `case.edit({"mill.speed": "1000 rpm"}, balls=[{"count": 10, "diameter": "12.7 mm"}])`. Raises
-        `EditError`, whose `problems` name each key, what was found and what was expected."""
+        """The case with other values: `case.edit({"mill.speed": "1000 rpm"}, balls=[{"count": 10,
+        "diameter": "12.7 mm"}])`. Raises `EditError`, whose `problems` name each key, what was
+        found and what was expected."""
         settings = []
         for key, value in {**(changes or {}), **keys}.items():
-            require("key", key, isinstance(key, str) and "=" not in key, "a text such as \"mill.speed\"")
+            require("key", key,
+                    isinstance(key, str) and "=" not in key, "a text such as \"mill.speed\"")
             settings.append(f"{key}={value if isinstance(value, str) else _text_of(value, key)}")
         try:
             return self.with_settings(*settings)
@@ -139,10 +148,13 @@ class Case:
     __iter__ = None  # the keys of a case are those of its file: not listed here
 
     def __getitem__(self, key: str) -> str:
-        """The text of a number as the case gives it, with its unit: `case["mill.speed"]` is "1054 rpm"."""
+        """The text of a number as the case gives it, with its unit: `case["mill.speed"]` is "1054
+        rpm"."""
         value = self._case.text_of(key)
         if value is None:
-            raise KeyError(f"{key}: the case gives no such number; keys are as in its file, \"mill.speed\", \"balls.0.diameter\"")
+            raise KeyError(
+                f"{key}: the case gives no such number; keys are as in its file, \"mill.speed\", \"balls.0.diameter\""
+            )
         return value
 
     @property
@@ -156,7 +168,8 @@ class Case:
 
     @property
     def digest(self) -> str:
-        """SHA-256 of the canonical text: in one precision, cases with the same digest give the same bits."""
+        """SHA-256 of the canonical text: in one precision, cases with the same digest give the same
+        bits."""
         return self._case.digest
 
     @property
@@ -184,8 +197,9 @@ class Case:
         return self._case.end_time
 
     def _repr_html_(self) -> str:
-        rows = "".join(f"<tr><th style='text-align:left'>{html.escape(name)}</th><td style='text-align:left'>{html.escape(value)}</td></tr>"
-                       for name, value in _edmill.check(self._case))
+        rows = "".join(
+            f"<tr><th style='text-align:left'>{html.escape(name)}</th><td style='text-align:left'>{html.escape(value)}</td></tr>"
+            for name, value in _edmill.check(self._case))
         return f"<table>{rows}</table>"
 
     def __repr__(self) -> str:
@@ -208,19 +222,35 @@ def case_of(given: Case | Mapping[str, Any] | str | os.PathLike) -> Case:
 
 def machines() -> dict[str, dict[str, tuple[str, str]]]:
     """Mills by name, each with the keys of its case, their values and sources."""
-    return {name: {key: (value, source) for key, value, source in rows} for name, rows in _edmill.machines()}
+    return {
+        name: {key: (value, source) for key, value, source in rows
+              } for name, rows in _edmill.machines()
+    }
 
 
-def new(mill: str = "spex8000", balls: Sequence[str] = (), *, jar: str = "", fill: str = "", powder: str = "", bpr: float | str = "",
-        target_dose: str = "", speed: str = "", restitution: float | str = "", friction: float | str = "", time: str = "10 s") -> Case:
-    """A case of a mill, as `edmill new`: `balls` are "10x12.7mm", or "10x12.7mm:zirconia" (10 of 10 mm where nothing is given), or
-    "12.7mm" where `fill`, "30%" of the jar, or `powder` and `bpr`, their mass over its, say how many."""
-    wanted = [checked_text("mill", mill), texts("balls", balls, '"10x12.7mm"'), checked_text("powder", powder), checked_text("speed", speed),
-              str(restitution), str(friction), checked_text("target_dose", target_dose), checked_text("time", time), checked_text("jar", jar),
-              checked_text("fill", fill), str(bpr)]
+def new(mill: str = "spex8000", balls: Sequence[str] = (), *, jar: str = "", fill: str = "",
+        powder: str = "", bpr: float | str = "", target_dose: str = "", speed: str = "",
+        restitution: float | str = "", friction: float | str = "", time: str = "10 s") -> Case:
+    """A case of a mill, as `edmill new`: `balls` are "10x12.7mm", or "10x12.7mm:zirconia" (10 of 10
+    mm where nothing is given), or "12.7mm" where `fill`, "30%" of the jar, or `powder` and `bpr`,
+    their mass over its, say how many."""
+    wanted = [
+        checked_text("mill", mill),
+        texts("balls", balls, '"10x12.7mm"'),
+        checked_text("powder", powder),
+        checked_text("speed", speed),
+        str(restitution),
+        str(friction),
+        checked_text("target_dose", target_dose),
+        checked_text("time", time),
+        checked_text("jar", jar),
+        checked_text("fill", fill),
+        str(bpr)
+    ]
     return Case.parse(_edmill.new_case(*wanted), f"{mill}.toml")
 
 
 def variables() -> list[dict[str, str]]:
     """The variables of an impact that outputs can show: name, unit and meaning."""
-    return [{"name": name, "unit": unit, "meaning": meaning} for name, unit, meaning in _edmill.variables()]
+    return [{"name": name, "unit": unit, "meaning": meaning}
+            for name, unit, meaning in _edmill.variables()]

@@ -40,12 +40,14 @@ def place(name: str, value: Any, expected: str = "a path") -> str:
 
 
 def flag(name: str, value: Any) -> bool:
-    require(name, value, isinstance(value, bool) or type(value).__name__ in ("bool_", "bool"), "True or False")
+    require(name, value,
+            isinstance(value, bool) or type(value).__name__ in ("bool_", "bool"), "True or False")
     return bool(value)
 
 
 def whole(name: str, value: Any, low: int, high: int) -> int:
-    good = not isinstance(value, bool) and hasattr(type(value), "__index__") and low <= operator.index(value) <= high
+    good = not isinstance(value, bool) and hasattr(
+        type(value), "__index__") and low <= operator.index(value) <= high
     require(name, value, good, f"a whole number from {low} to {high}")
     return operator.index(value)
 
@@ -63,5 +65,7 @@ def is_number(value: Any) -> bool:
 
 def scalar(name: str, value: Any) -> str:
     """The name of a scalar."""
-    require(name, value, isinstance(value, str) and _edmill.is_precision(value), f"{', '.join(_edmill.precisions)} or mpfr:DIGITS")
+    require(name, value,
+            isinstance(value, str) and _edmill.is_precision(value),
+            f"{', '.join(_edmill.precisions)} or mpfr:DIGITS")
     return value

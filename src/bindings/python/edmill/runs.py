@@ -1,4 +1,5 @@
-"""Runs of a case and their results, with the types of observers and laws, and progress on a terminal or in a notebook."""
+"""Runs of a case and their results, with the types of observers and laws, and progress on a
+terminal or in a notebook."""
 from __future__ import annotations
 
 import csv
@@ -20,12 +21,14 @@ from .checks import require
 from .tables import Records, Tables
 from .values import Value
 
-Number = Union[float, decimal.Decimal]  #: float in double, with all digits a Decimal in the wider precisions
+#: float in double, with all digits a Decimal in the wider precisions
+Number = Union[float, decimal.Decimal]
 Vector = tuple[Number, Number, Number]
 
 
 class Impact(Protocol):
-    """The impact that an observer receives, in SI units. The normal points from the partner to the ball."""
+    """The impact that an observer receives, in SI units. The normal points from the partner to the
+    ball."""
     index: int  #: from 0
     time: Number
     ball: int
@@ -49,7 +52,8 @@ class Running(Protocol):
     ball_count: int
 
     def ball(self, k: int) -> tuple[Vector, Vector, Vector]:
-        """Position [m], velocity [m/s] and spin [rad/s] of a ball, inertial. Raises IndexError when there is no such ball."""
+        """Position [m], velocity [m/s] and spin [rad/s] of a ball, inertial. Raises IndexError when
+        there is no such ball."""
 
     def stop(self) -> None:
         """Ends the run after this impact."""
@@ -58,21 +62,26 @@ class Running(Protocol):
 class RestitutionLaw:
     """A law of one function of the approach speed [m/s], with Coulomb friction as in (2.24')."""
 
-    def __init__(self, restitution: Callable[[Number], Number], friction: str, min_tangential: str = "-1"):
+    def __init__(self, restitution: Callable[[Number], Number], friction: str,
+                 min_tangential: str = "-1"):
         self.restitution, self._friction, self._least = restitution, friction, min_tangential
 
-    def restitution_of_slip(self, normal_change: Number, slip_speed: Number, compliance: Number) -> Number:
+    def restitution_of_slip(self, normal_change: Number, slip_speed: Number,
+                            compliance: Number) -> Number:
         kind = type(slip_speed)
-        return max(kind(self._least), 1 - kind(self._friction) * compliance * normal_change / slip_speed) if slip_speed > 0 else kind(0)
+        return max(kind(self._least), 1 - kind(self._friction) * compliance * normal_change /
+                   slip_speed) if slip_speed > 0 else kind(0)
 
 
 class ContactLaw(Protocol):
-    """A contact law written in Python. Both functions are called for every impact to which the law applies."""
+    """A contact law written in Python. Both functions are called for every impact to which the law
+    applies."""
 
     def restitution(self, approach_speed: Number) -> Number:
         """Normal restitution, from 0 to 1, for an approach speed in m/s."""
 
-    def restitution_of_slip(self, normal_change: Number, slip_speed: Number, compliance: Number) -> Number:
+    def restitution_of_slip(self, normal_change: Number, slip_speed: Number,
+                            compliance: Number) -> Number:
         """e_t, the fraction of the slip that remains after the impact, from -1 to 1. (2.24')
 
         normal_change  |g_n| + g_n' [m/s]: the normal impulse over the effective mass
@@ -86,16 +95,19 @@ def _line(total: float | None, unit: str):
 
     def show(done: float, collisions: int | None) -> None:
         more = "" if collisions is None else f", {collisions} collisions"
-        print(f"\r{done:.3f}".removesuffix(".000") + f"{of} {unit}{more}", end="", file=sys.stderr, flush=True)
+        print(f"\r{done:.3f}".removesuffix(".000") + f"{of} {unit}{more}", end="", file=sys.stderr,
+              flush=True)
 
     return show, lambda: print(file=sys.stderr)
 
 
 def _bar(module: str, total: float | None, unit: str):
-    """Two functions that show and end a bar of tqdm: a widget in a notebook (tqdm.auto), or text (tqdm)."""
+    """Two functions that show and end a bar of tqdm: a widget in a notebook (tqdm.auto), or text
+    (tqdm)."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of notebooks without widgets
-        bar = importlib.import_module(module).tqdm(total=total, unit=unit, unit_scale=True, desc="done")
+        bar = importlib.import_module(module).tqdm(total=total, unit=unit, unit_scale=True,
+                                                   desc="done")
 
     def show(done: float, collisions: int | None) -> None:
         bar.n = done
@@ -105,10 +117,14 @@ def _bar(module: str, total: float | None, unit: str):
 
 
 class Progress:
-    """Shows what is done of a total, in the first way that works. A way that fails is replaced by the next; none ends the work."""
+    """Shows what is done of a total, in the first way that works. A way that fails is replaced by
+    the next; none ends the work."""
 
     def __init__(self, total: float | None, unit: str):
-        self._ways = [lambda: _bar("tqdm.auto", total, unit), lambda: _bar("tqdm", total, unit), lambda: _line(total, unit)]
+        self._ways = [
+            lambda: _bar("tqdm.auto", total, unit), lambda: _bar("tqdm", total, unit),
+            lambda: _line(total, unit)
+        ]
         self._shown: Any = None
         self._do(lambda show, close: None)
 
@@ -141,9 +157,11 @@ class Interrupted(KeyboardInterrupt):
 
 
 class Run:
-    """The result of a run. The numbers of summary.json are attributes: `run.milling_dose_rate` and so on.
+    """The result of a run. The numbers of summary.json are attributes: `run.milling_dose_rate` and
+    so on.
 
-    In precisions wider than double, numbers of events and states are `decimal.Decimal` with all digits."""
+    In precisions wider than double, numbers of events and states are `decimal.Decimal` with all
+    digits."""
 
     case: Case
     precision: str
@@ -154,7 +172,8 @@ class Run:
     folder: pathlib.Path | None  #: of its files
     right_digits: int | None  #: of all events and of the state at the end, where digits were asked for
 
-    def __init__(self, case: Case, precision: str, folder: pathlib.Path | None, result: Mapping[str, Any]):
+    def __init__(self, case: Case, precision: str, folder: pathlib.Path | None,
+                 result: Mapping[str, Any]):
         self.case, self.precision, self.folder = case, precision, folder
         number = float if precision == "double" else decimal.Decimal
         self.summary = json.loads(result["summary"], parse_float=number)
@@ -184,7 +203,8 @@ class Run:
 
     @property
     def dose_rate(self) -> Value | None:
-        """Milling dose rate with its 95 % interval [W]; None of a run that ended before its start_time."""
+        """Milling dose rate with its 95 % interval [W]; None of a run that ended before its
+        start_time."""
         return self._value("milling_dose_rate")
 
     @property
@@ -204,21 +224,27 @@ class Run:
 
     @property
     def impact_energy(self) -> float | None:
-        """Energy of the approach, M/2 v_n^2, below which impacts other than contacts at rest give half of their dose [J]; None without any."""
+        """Energy of the approach, M/2 v_n^2, below which impacts other than contacts at rest give
+        half of their dose [J]; None without any."""
         return self.summary.get("impact_energy_by_dose", {}).get("median")
 
     def _rates(self, kind: str) -> dict[str, Value]:
         widths = self.summary["intervals"].get(kind, {})
-        return {name: Value(rate, widths.get(name)) for name, rate in self.summary[kind].items() if rate is not None}
+        return {
+            name: Value(rate, widths.get(name)) for name, rate in self.summary[kind].items()
+            if rate is not None
+        }
 
     @property
     def collision_rates(self) -> dict[str, Value]:
-        """Collisions per second with each partner, and of all: "total". They have no intervals: contacts at rest come in bursts."""
+        """Collisions per second with each partner, and of all: "total". They have no intervals:
+        contacts at rest come in bursts."""
         return self._rates("collision_rate")
 
     @property
     def impact_rates(self) -> dict[str, Value]:
-        """Collisions per second that the least separation speed does not decide, with each partner and of all, with 95 % intervals."""
+        """Collisions per second that the least separation speed does not decide, with each partner
+        and of all, with 95 % intervals."""
         return self._rates("impact_rate")
 
     @property
@@ -235,19 +261,23 @@ class Run:
 
     def _simulate_again(self, folder: str, report: bool) -> None:
         if self._laws is None:
-            raise _edmill.InputError("a pickled run with laws of Python is not simulated again: give run() a folder")
+            raise _edmill.InputError(
+                "a pickled run with laws of Python is not simulated again: give run() a folder")
         case = self.case
         if self.summary["end_reason"] in ("stopped", "interrupted"):
             impacts = self.summary["impacts_since_start"]
             if impacts == 0:
-                raise _edmill.InputError("the run was ended before its first impact: it has no tables and no report")
+                raise _edmill.InputError(
+                    "the run was ended before its first impact: it has no tables and no report")
             case = case.with_settings(f"run.max_collisions={impacts}")
-        run(case, precision=self.precision, folder=folder, report=report, events=False, **self._laws)
+        run(case, precision=self.precision, folder=folder, report=report, events=False,
+            **self._laws)
 
     @property
     def series(self) -> Mapping[str, np.ndarray]:
-        """Tables of the case's outputs by the names of their files, as NumPy structured arrays. A run without a folder is
-        simulated again, to the end that it had, when they are first asked for."""
+        """Tables of the case's outputs by the names of their files, as NumPy structured arrays. A
+        run without a folder is simulated again, to the end that it had, when they are first asked
+        for."""
         if self.folder is not None:
             return Tables(self.folder)
         if self._series is None:
@@ -257,7 +287,8 @@ class Run:
         return self._series
 
     def report(self) -> str:
-        """The run's report, a page of HTML. A run without one is simulated again, to the end that it had."""
+        """The run's report, a page of HTML. A run without one is simulated again, to the end that
+        it had."""
         if self._page is None:
             with tempfile.TemporaryDirectory() as folder:
                 self._simulate_again(folder, True)
@@ -272,67 +303,84 @@ class Run:
     def __repr__(self) -> str:
         s = self.summary
         rate = s["milling_dose_rate"]
-        counted = ("ended before its start_time" if rate is None else f"{s['collisions']['total']} collisions, {self.dose_rate!r} W")
+        counted = ("ended before its start_time" if rate is None else
+                   f"{s['collisions']['total']} collisions, {self.dose_rate!r} W")
         return f"<edmill.Run of {self.case!r} in {self.precision} to {self.time} s ({s['end_reason']}): {counted}>"
 
 
 def _array(rows: Any, dtype: np.dtype, number: type) -> np.ndarray:
-    """An array of events or states. In double the rows are an array already; wide numbers become objects."""
+    """An array of events or states. In double the rows are an array already; wide numbers become
+    objects."""
     if isinstance(rows, np.ndarray):
         return rows
     if number is not float:
-        dtype = np.dtype([(name, object if dtype[name].base.kind == "f" else dtype[name].base, dtype[name].shape) for name in dtype.names])
+        dtype = np.dtype([(name, object if dtype[name].base.kind == "f" else dtype[name].base,
+                           dtype[name].shape) for name in dtype.names])
     return np.array(rows, dtype=dtype)
 
 
 def _law_of(name: str, law: Any, case: Case) -> ContactLaw | None:
-    """Returns a law unchanged, or makes one from a function that gives the restitution, with the friction of the case."""
-    if law is None or all(callable(getattr(law, method, None)) for method in ("restitution", "restitution_of_slip")):
+    """Returns a law unchanged, or makes one from a function that gives the restitution, with the
+    friction of the case."""
+    if law is None or all(
+            callable(getattr(law, method, None))
+            for method in ("restitution", "restitution_of_slip")):
         return law
-    require(name, law, callable(law), "a function of the approach speed, or an object with restitution(approach_speed) and "
-            "restitution_of_slip(normal_change, slip_speed, compliance)")
+    require(
+        name, law, callable(law),
+        "a function of the approach speed, or an object with restitution(approach_speed) and "
+        "restitution_of_slip(normal_change, slip_speed, compliance)")
 
     def own(key: str) -> str | None:
-        return case._case.text_of(f"contact.{name.removesuffix('_law')}.{key}") or case._case.text_of(f"contact.{key}")
+        return case._case.text_of(
+            f"contact.{name.removesuffix('_law')}.{key}") or case._case.text_of(f"contact.{key}")
 
     friction = own("friction")
-    require(name, law, friction is not None, "a whole law: the case has no friction for all of these contacts")
+    require(name, law, friction is not None,
+            "a whole law: the case has no friction for all of these contacts")
     return RestitutionLaw(law, friction, own("min_tangential") or "-1")
 
 
-def run(case: Case | Mapping | str, precision: str | None = None, until: str | float | decimal.Decimal | None = None, *,
-        digits: int | None = None, folder: str | pathlib.Path | None = None, events: bool = True, report: bool = False,
-        observers: Iterable[Callable[[Impact, Running], object]] = (), ball_ball_law: ContactLaw | Callable[[Any], Any] | None = None,
-        ball_wall_law: ContactLaw | Callable[[Any], Any] | None = None, until_precision: float | str | None = None, checkpoint: str | None = None,
+def run(case: Case | Mapping | str, precision: str | None = None,
+        until: str | float | decimal.Decimal | None = None, *, digits: int | None = None,
+        folder: str | pathlib.Path | None = None, events: bool = True, report: bool = False,
+        observers: Iterable[Callable[[Impact, Running], object]] = (),
+        ball_ball_law: ContactLaw | Callable[[Any], Any] | None = None,
+        ball_wall_law: ContactLaw | Callable[[Any], Any] | None = None,
+        until_precision: float | str | None = None, checkpoint: str | None = None,
         progress: bool | Callable[[float, int], Any] = False) -> Run:
     """Simulates a case, without Python's lock.
 
-    precision      double, float128, mpfr50, mpfr100, mpfr200, or mpfr:DIGITS with any number of digits (default: that of
-                   the case)
+    precision      double, float128, mpfr50, mpfr100, mpfr200, or mpfr:DIGITS with any number of
+                   digits (default: that of the case)
     until          where the run ends, in place of the case's `end_time`: "2 s", or a number [s]
-    folder         where the outputs of the case, summary.json and final_state.csv are written (default: nowhere)
-    events         whether to keep each impact: 128 bytes each in double
-    report         writes report.html into `folder`, with the outputs that it shows
-    observers      callables of an impact and the run, called after each impact: 1 us each, where the engine takes as long
-                   for a whole impact. `run.stop()` ends the run.
+    folder         where the outputs of the case, summary.json and final_state.csv are written
+    (default: nowhere) events         whether to keep each impact: 128 bytes each in double
+    report         writes report.html into `folder`, with the outputs that it shows observers
+    callables of an impact and the run, called after each impact: 1 us each, where the engine takes
+    as long for a whole impact. `run.stop()` ends the run.
     ball_ball_law, ball_wall_law
-                   a function, the restitution of an approach speed, with the friction of the case; or objects with
-                   `restitution(approach_speed)` and `restitution_of_slip(normal_change, slip_speed, compliance)`. In
-                   place of the case's laws; slow, unlike the laws that a case names
-    until_precision
-                   ends the run when the 95 % interval of the dose rate is this part of it, 0.01 or "1%"; `until` is the limit
-                   (default: 100 times the case's end_time)
-    digits         every event and number correct to this many digits: the precision is chosen for it, and verified by a wider run
-    checkpoint     how often to save the state in `folder`, "10 min" or "2 s simulated", so that `resume(folder)` can go on; such
-                   a run has no events, observers or laws of Python
-    progress       True for a bar of tqdm, or a line of text without it; or a callable of time [s] and number of collisions,
-                   ten times a second
+                   a function, the restitution of an approach speed, with the friction of the case;
+                   or objects with `restitution(approach_speed)` and
+                   `restitution_of_slip(normal_change, slip_speed, compliance)`. In place of the
+                   case's laws; slow, unlike the laws that a case names until_precision
+                   ends the run when the 95 % interval of the dose rate is this part of it, 0.01 or
+                   "1%"; `until` is the limit (default: 100 times the case's end_time)
+    digits         every event and number correct to this many digits: the precision is chosen for
+    it, and verified by a wider run checkpoint     how often to save the state in `folder`, "10 min"
+    or "2 s simulated", so that `resume(folder)` can go on; such a run has no events, observers or
+    laws of Python
+    progress       True for a bar of tqdm, or a line of text without it; or a callable of time [s]
+                   and number of collisions, ten times a second
 
     Raises `InputError`, `UndecidedError` when no precision decides, and `Interrupted` on Ctrl-C."""
     case = case_of(case)
     if until is not None:
-        require("until", until, isinstance(until, str) or checks.is_number(until), 'a time such as "2 s", or a number of seconds')
-        case = case.with_settings(f"run.end_time={json.dumps(until if isinstance(until, str) else f'{until} s')}")
+        require("until", until,
+                isinstance(until, str) or checks.is_number(until),
+                'a time such as "2 s", or a number of seconds')
+        case = case.with_settings(
+            f"run.end_time={json.dumps(until if isinstance(until, str) else f'{until} s')}")
     if until_precision is not None:
         case = _until_precision(case, until_precision, until is not None)
     if digits is not None:
@@ -349,18 +397,21 @@ def run(case: Case | Mapping | str, precision: str | None = None, until: str | f
     observers = list(observers)
     for observer in observers:
         require("observers", observer, callable(observer), "callables of an impact and the run")
-    ball_ball_law, ball_wall_law = _law_of("ball_ball_law", ball_ball_law, case), _law_of("ball_wall_law", ball_wall_law, case)
-    require("progress", progress, isinstance(progress, bool) or callable(progress), "True, False or a callable")
+    ball_ball_law, ball_wall_law = _law_of("ball_ball_law", ball_ball_law,
+                                           case), _law_of("ball_wall_law", ball_wall_law, case)
+    require("progress", progress,
+            isinstance(progress, bool) or callable(progress), "True, False or a callable")
     if checkpoint is not None:
         require("checkpoint", checkpoint, isinstance(checkpoint, str), 'a text such as "10 min"')
         require("folder", folder, folder is not None, "one for the checkpoints")
-        require("observers", observers, not observers and ball_ball_law is None and ball_wall_law is None,
-                "none, and no laws of Python, in a run with checkpoints")
+        require("observers", observers, not observers and ball_ball_law is None and
+                ball_wall_law is None, "none, and no laws of Python, in a run with checkpoints")
         _edmill.run_with_checkpoints(the_case, precision, folder, report, checkpoint)
         return read_run(folder)
     show = Progress(case.end_time, "s") if progress is True else progress or None
     try:
-        result = _edmill.run(the_case, precision, folder or "", events, report, observers, ball_ball_law, ball_wall_law, show)
+        result = _edmill.run(the_case, precision, folder or "", events, report, observers,
+                             ball_ball_law, ball_wall_law, show)
     finally:
         if isinstance(show, Progress):
             show.close()
@@ -375,7 +426,8 @@ def run(case: Case | Mapping | str, precision: str | None = None, until: str | f
 def _until_precision(case: Case, wanted: float | str, limited: bool) -> Case:
     expected = "a part of the dose rate above 0 and below 1, 0.01 or \"1%\""
     try:
-        part = float(wanted[:-1]) / 100 if isinstance(wanted, str) and wanted.rstrip().endswith("%") else float(wanted)
+        part = float(wanted[:-1]) / 100 if isinstance(
+            wanted, str) and wanted.rstrip().endswith("%") else float(wanted)
     except ValueError:
         part = 0.0
     require("until_precision", wanted, not isinstance(wanted, bool) and 0 < part < 1, expected)
@@ -386,33 +438,45 @@ def _until_precision(case: Case, wanted: float | str, limited: bool) -> Case:
 
 
 def read_run(folder: str | pathlib.Path) -> Run:
-    """A run from the folder that it was written into, by this module or by `edmill run`; without events."""
+    """A run from the folder that it was written into, by this module or by `edmill run`; without
+    events."""
     place = pathlib.Path(checks.place("folder", folder))
     files = [place / name for name in ("summary.json", "case.toml", "final_state.csv")]
     try:
         summary, case, table = (file.read_text(encoding="utf-8") for file in files)
     except OSError as error:
-        raise _edmill.InputError(f"{error.filename}: no readable file, expected one of a run's folder") from None
+        raise _edmill.InputError(
+            f"{error.filename}: no readable file, expected one of a run's folder") from None
     facts = json.loads(summary)
     number = float if facts["precision"] == "double" else decimal.Decimal
     states = list(csv.DictReader(table.splitlines()))
-    rows = [tuple([number(state[f"{field}_{axis}"]) for axis in "xyz"] for field in _edmill.state_dtype.names) for state in states]
+    rows = [
+        tuple([number(state[f"{field}_{axis}"]) for axis in "xyz"]
+              for field in _edmill.state_dtype.names) for state in states
+    ]
     made = Case.parse(case, str(files[1]), facts["settings"])
     time = number(json.loads(summary, parse_float=str)["end_time"])
-    return Run(made, facts["precision"], place,
-               {"summary": summary, "time": time, "events": np.empty(0, dtype=_edmill.event_dtype), "states": rows})
+    return Run(
+        made, facts["precision"], place, {
+            "summary": summary, "time": time, "events": np.empty(0, dtype=_edmill.event_dtype),
+            "states": rows
+        })
 
 
 def resume(folder: str | pathlib.Path, checkpoint: str | None = None) -> Run:
-    """Continues a run from its checkpoint, as `edmill resume`. `checkpoint`: how often to save (default: as before)."""
+    """Continues a run from its checkpoint, as `edmill resume`. `checkpoint`: how often to save
+    (default: as before)."""
     place = checks.place("folder", folder)
-    require("checkpoint", checkpoint, checkpoint is None or isinstance(checkpoint, str), 'a text such as "10 min"')
+    require("checkpoint", checkpoint, checkpoint is None or isinstance(checkpoint, str),
+            'a text such as "10 min"')
     _edmill.resume(place, checkpoint or "")
     return read_run(place)
 
 
-def report(folder: str | pathlib.Path, *others: str | pathlib.Path, out: str | pathlib.Path = "comparison.html") -> pathlib.Path:
-    """As `edmill report`: makes the page of a run's folder; of several, the page `out` that compares them. Returns its path."""
+def report(folder: str | pathlib.Path, *others: str | pathlib.Path,
+           out: str | pathlib.Path = "comparison.html") -> pathlib.Path:
+    """As `edmill report`: makes the page of a run's folder; of several, the page `out` that
+    compares them. Returns its path."""
     places = [checks.place("folder", one) for one in (folder, *others)]
     if len(places) == 1:
         return pathlib.Path(_edmill.report(places[0]))

@@ -1,10 +1,12 @@
-"""Frames of DEM codes in VTK's formats, of LIGGGHTS and Lethe, as the table that `edmill import` reads.
+"""Frames of DEM codes in VTK's formats, of LIGGGHTS and Lethe, as the table that `edmill import`
+reads.
 
     python3 -m edmill.vtk_frames post/box_*.vtk --timestep 1e-6 | edmill import - --case box.toml
     python3 -m edmill.vtk_frames out.pvd | edmill import - --case box.toml
 
-A frame is one file (`.vtk`, `.vtp`, `.vtu`, `.pvtu`, `.pvtp`), or what a `.pvd` lists under one time. Its time is that of the `.pvd`, or the
-field TimeValue or TIME of the file, or the last number in its name times the time step. VTK itself reads them (Debian: python3-vtk9).
+A frame is one file (`.vtk`, `.vtp`, `.vtu`, `.pvtu`, `.pvtp`), or what a `.pvd` lists under one
+time. Its time is that of the `.pvd`, or the field TimeValue or TIME of the file, or the last number
+in its name times the time step. VTK itself reads them (Debian: python3-vtk9).
 """
 from __future__ import annotations
 
@@ -33,10 +35,15 @@ def _read(file: pathlib.Path):
     """The points and arrays of a file, by VTK."""
     import vtkmodules.all as vtk
     from vtkmodules.util.numpy_support import vtk_to_numpy
-    readers = {".vtk": vtk.vtkGenericDataObjectReader, ".vtp": vtk.vtkXMLPolyDataReader, ".vtu": vtk.vtkXMLUnstructuredGridReader,
-               ".pvtp": vtk.vtkXMLPPolyDataReader, ".pvtu": vtk.vtkXMLPUnstructuredGridReader}
+    readers = {
+        ".vtk": vtk.vtkGenericDataObjectReader, ".vtp": vtk.vtkXMLPolyDataReader,
+        ".vtu": vtk.vtkXMLUnstructuredGridReader, ".pvtp": vtk.vtkXMLPPolyDataReader,
+        ".pvtu": vtk.vtkXMLPUnstructuredGridReader
+    }
     if file.suffix not in readers:
-        raise BadFrame(f"{file}: found a name that ends in '{file.suffix}', expected {', '.join(readers)} or .pvd")
+        raise BadFrame(
+            f"{file}: found a name that ends in '{file.suffix}', expected {', '.join(readers)} or .pvd"
+        )
     if not file.is_file():
         raise BadFrame(f"{file}: cannot be read")
     vtk.vtkObject.GlobalWarningDisplayOff()
@@ -51,9 +58,15 @@ def _read(file: pathlib.Path):
     if data is None or not hasattr(data, "GetPoints") or data.GetPoints() is None:
         raise BadFrame(f"{file}: no points, expected a file of VTK with a point for each ball")
     points = data.GetPointData()
-    arrays = {points.GetArrayName(k): vtk_to_numpy(points.GetArray(k)) for k in range(points.GetNumberOfArrays()) if points.GetArray(k)}
+    arrays = {
+        points.GetArrayName(k): vtk_to_numpy(points.GetArray(k))
+        for k in range(points.GetNumberOfArrays()) if points.GetArray(k)
+    }
     fields = data.GetFieldData()
-    times = [fields.GetArray(name).GetTuple1(0) for name in ("TimeValue", "TIME") if fields.GetArray(name)]
+    times = [
+        fields.GetArray(name).GetTuple1(0) for name in ("TimeValue", "TIME")
+        if fields.GetArray(name)
+    ]
     return vtk_to_numpy(data.GetPoints().GetData()), arrays, times[0] if times else None
 
 
@@ -66,7 +79,9 @@ def table_of(file: pathlib.Path) -> tuple[numpy.ndarray, float | None, list[str]
     places, arrays, time = _read(file)
     missing = [what for what in ("id", "velocity", "spin") if _find(arrays, what) is None]
     if missing:
-        raise BadFrame(f"{file}: found the arrays {', '.join(sorted(arrays)) or 'none'}, expected one of {', '.join(NAMES[missing[0]])} as well")
+        raise BadFrame(
+            f"{file}: found the arrays {', '.join(sorted(arrays)) or 'none'}, expected one of {', '.join(NAMES[missing[0]])} as well"
+        )
     columns = ["id", "x", "y", "z", "vx", "vy", "vz", "omegax", "omegay", "omegaz"]
     parts = [_find(arrays, "id"), places, _find(arrays, "velocity"), _find(arrays, "spin")]
     for what in ("mass", "radius", "diameter"):
@@ -75,7 +90,9 @@ def table_of(file: pathlib.Path) -> tuple[numpy.ndarray, float | None, list[str]
             columns.append(what)
     rows = numpy.column_stack([numpy.asarray(part, dtype=float) for part in parts])
     if rows.shape[1] != len(columns):
-        raise BadFrame(f"{file}: found arrays of other shapes, expected three numbers for each velocity and spin")
+        raise BadFrame(
+            f"{file}: found arrays of other shapes, expected three numbers for each velocity and spin"
+        )
     return rows, time, columns
 
 
@@ -84,7 +101,8 @@ def _time_of(file: pathlib.Path, said: float | None, timestep: float | None) -> 
         return said
     numbers = re.findall(r"\d+", file.stem)
     if timestep is None or not numbers:
-        raise BadFrame(f"{file}: no time: add a field TimeValue, or a number to the name and give --timestep")
+        raise BadFrame(
+            f"{file}: no time: add a field TimeValue, or a number to the name and give --timestep")
     return int(numbers[-1]) * timestep
 
 
@@ -93,19 +111,24 @@ def _in_order(file: pathlib.Path):
     return [int(part) if part.isdigit() else part for part in re.split(r"(\d+)", str(file))]
 
 
-def frames_of(files: Iterable[str | os.PathLike], timestep: float | None = None) -> Iterator[tuple[float, numpy.ndarray, list[str]]]:
+def frames_of(files: Iterable[str | os.PathLike],
+              timestep: float | None = None) -> Iterator[tuple[float, numpy.ndarray, list[str]]]:
     """Time [s], rows and names of columns of each frame, in order of time. Raises BadFrame."""
     paths = [pathlib.Path(file) for file in files]
     if len(paths) == 1 and paths[0].suffix == ".pvd":
         try:
             sets = xml.etree.ElementTree.parse(paths[0]).iter("DataSet")
-            listed = [(float(part.attrib["timestep"]), paths[0].parent / part.attrib["file"]) for part in sets]
+            listed = [(float(part.attrib["timestep"]), paths[0].parent / part.attrib["file"])
+                      for part in sets]
         except (xml.etree.ElementTree.ParseError, KeyError, ValueError, OSError) as problem:
-            raise BadFrame(f"{paths[0]}: found {problem}, expected a .pvd with a file and a timestep in each DataSet") from problem
+            raise BadFrame(
+                f"{paths[0]}: found {problem}, expected a .pvd with a file and a timestep in each DataSet"
+            ) from problem
     else:
         listed = [(None, file) for file in sorted(paths, key=_in_order)]
     tables = ((table_of(file), said, file) for said, file in listed)
-    parts = ((_time_of(file, own if said is None else said, timestep), columns, rows) for (rows, own, columns), said, file in tables)
+    parts = ((_time_of(file, own if said is None else said, timestep), columns, rows)
+             for (rows, own, columns), said, file in tables)
     for (time, columns), of_frame in itertools.groupby(parts, key=lambda part: part[:2]):
         yield time, numpy.vstack([rows for _, _, rows in of_frame]), columns
 
@@ -114,7 +137,8 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python3 -m edmill.vtk_frames", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("files", nargs="+", metavar="FILE")
-    parser.add_argument("--timestep", type=float, metavar="SECONDS", help="of names that hold the step")
+    parser.add_argument("--timestep", type=float, metavar="SECONDS",
+                        help="of names that hold the step")
     given = parser.parse_args(arguments)
     first = None
     try:
@@ -123,9 +147,13 @@ def main(arguments: list[str] | None = None) -> int:
                 first = columns
                 print(",".join(["time", *columns]))
             if columns != first:
-                raise BadFrame(f"frame at {time} s: found the columns {', '.join(columns)}, expected {', '.join(first)}")
+                raise BadFrame(
+                    f"frame at {time} s: found the columns {', '.join(columns)}, expected {', '.join(first)}"
+                )
             for row in rows:
-                print(",".join([repr(time), str(int(row[0])), *(repr(float(value)) for value in row[1:])]))
+                print(",".join(
+                    [repr(time),
+                     str(int(row[0])), *(repr(float(value)) for value in row[1:])]))
         sys.stdout.flush()
     except BadFrame as problem:
         print(f"error: {problem}", file=sys.stderr)
@@ -134,7 +162,8 @@ def main(arguments: list[str] | None = None) -> int:
         print("error: needs VTK for Python (Debian: apt-get install python3-vtk9)", file=sys.stderr)
         return 1
     except OSError as problem:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is left in the buffer goes nowhere
+        os.dup2(os.open(os.devnull, os.O_WRONLY),
+                sys.stdout.fileno())  # what is left in the buffer goes nowhere
         if not isinstance(problem, BrokenPipeError):
             print(f"error: standard output: {problem.strerror}", file=sys.stderr)
         return 1

@@ -1,4 +1,5 @@
-// Convex bodies inside the vessel: boxes and cylinders whose edges may be rounded, seen from outside.
+// Convex bodies inside the vessel: boxes and cylinders whose edges may be rounded, seen from
+// outside.
 #pragma once
 
 #include <algorithm>
@@ -10,34 +11,32 @@
 
 namespace edmill::model {
 
-/// All points within `rounding` of a core: a box, or a cylinder about y, whose half edges may be zero. The
-/// space around the body is a vessel (vessel.hpp) with one wall: its gap is |u|^2 - (rounding + R)^2, with
-/// the vector u from the nearest point of the core to the ball's centre. It is smooth in the region of the
-/// points with the same coordinates outside of the core's: `enter` chooses the region of a ball, and the
-/// functions after the gap are its borders, a little beyond its ends, as in RoundedVessel. theory.md, section
+/// All points within `rounding` of a core: a box, or a cylinder about y, whose half edges may be
+/// zero. The space around the body is a vessel (vessel.hpp) with one wall: its gap is |u|^2 -
+/// (rounding + R)^2, with the vector u from the nearest point of the core to the ball's centre. It
+/// is smooth in the region of the points with the same coordinates outside of the core's: `enter`
+/// chooses the region of a ball, and the functions after the gap are its borders, a little beyond
+/// its ends, as in RoundedVessel. theory.md, section
 /// 2
-template <class Real>
-class RoundedBody {
+template <class Real> class RoundedBody {
  public:
   using Scalar = Real;
   static constexpr std::size_t functions = 7;
-  template <class Value>
-  using PerWall = std::array<Value, functions>;
-  template <class Value>
-  using PerKind = std::array<Value, functions + 2>;
+  template <class Value> using PerWall = std::array<Value, functions>;
+  template <class Value> using PerKind = std::array<Value, functions + 2>;
 
   RoundedBody() = default;
   /// @param is_round  whether the core is a cylinder of radius half[0] = half[2] > 0 about y
   /// @param half, rounding  half edges of the core [m], [m]
   RoundedBody(bool is_round, const Vec3<Real>& half, const Real& rounding)
       : is_round_(is_round), half_(half), rounding_(rounding), distance_(rounding) {}
-  template <class To>
-  RoundedBody<To> cast() const {
+  template <class To> RoundedBody<To> cast() const {
     RoundedBody<To> to(is_round_, vector_cast<To>(half_), static_cast<To>(rounding_));
-    return to.among(static_cast<To>(largest_ball_), static_cast<To>(domain_ * (1 + rounding_margin<Real>())));
+    return to.among(
+        static_cast<To>(largest_ball_), static_cast<To>(domain_ * (1 + rounding_margin<Real>())));
   }
-  /// The body with bounds for the balls of a case: the largest radius [m], and a distance from the body's
-  /// origin that no ball's centre exceeds [m].
+  /// The body with bounds for the balls of a case: the largest radius [m], and a distance from the
+  /// body's origin that no ball's centre exceeds [m].
   RoundedBody among(const Real& largest_ball, const Real& domain) const {
     using std::sqrt;
     RoundedBody body(*this);
@@ -52,12 +51,15 @@ class RoundedBody {
   const Vec3<Real>& half() const { return half_; }
   const Real& rounding() const { return rounding_; }
   /// An upper bound on the distance of the body's points from its origin [m].
-  Real size() const { return (is_round_ ? half_[0] : Real(half_[0] + half_[2])) + half_[1] + rounding_; }
+  Real size() const {
+    return (is_round_ ? half_[0] : Real(half_[0] + half_[2])) + half_[1] + rounding_;
+  }
   /// The volume, by Steiner's formula [m3].
   Real solid_volume() const {
     const Real pi = numerics::pi<Real>(), r = rounding_;
     const Real &a = half_[0], &b = half_[1], &c = half_[2], ball = 4 * pi * r * r * r / 3;
-    if (is_round_) return 2 * pi * (a + r) * (a + r) * b + 2 * pi * a * a * r + pi * pi * a * r * r + ball;
+    if (is_round_)
+      return 2 * pi * (a + r) * (a + r) * b + 2 * pi * a * a * r + pi * pi * a * r * r + ball;
     return 8 * (a * b * c + r * (a * b + b * c + c * a)) + 2 * pi * r * r * (a + b + c) + ball;
   }
 
@@ -80,8 +82,8 @@ class RoundedBody {
   static int wall_count() { return 1; }
   static int function_count() { return static_cast<int>(functions); }
   static std::vector<WallInfo> walls() { return {{"body", "the body"}}; }
-  /// Of a box the faces x-, x+, y-, y+, z-, z+ and all of its rounded edges; of a cylinder the lower and the
-  /// upper edge, the side, the lower and the upper end. Parts may have no area.
+  /// Of a box the faces x-, x+, y-, y+, z-, z+ and all of its rounded edges; of a cylinder the
+  /// lower and the upper edge, the side, the lower and the upper end. Parts may have no area.
   std::vector<WallSurface<Real>> surfaces() const {
     const Real &a = half_[0], &b = half_[1], &c = half_[2], &r = rounding_;
     if (!is_round_) {
@@ -101,10 +103,11 @@ class RoundedBody {
       return Frame<Real>{place * Real(up), middle.x, middle.y * Real(up), middle.z * Real(up)};
     };
     return {Edge<Real>{{at(top, -1)}, a, r}, Edge<Real>{{at(top, 1)}, a, r},
-            Tube<Real>{{middle}, Real(a + r), b}, Disc<Real>{{at(end, -1)}, a}, Disc<Real>{{at(end, 1)}, a}};
+        Tube<Real>{{middle}, Real(a + r), b}, Disc<Real>{{at(end, -1)}, a},
+        Disc<Real>{{at(end, 1)}, a}};
   }
-  /// The number among `surfaces()` of the part that a ball at p touches; a sharp edge belongs to the part
-  /// that the ball is farther beyond.
+  /// The number among `surfaces()` of the part that a ball at p touches; a sharp edge belongs to
+  /// the part that the ball is farther beyond.
   std::size_t part_at(const Vec3<Real>& p) const {
     const Vec3<Real> d = from_core(p);
     const auto beyond = [&](int i) { return i == 0 && is_round_ ? across(d) : magnitude(d[i]); };
@@ -116,8 +119,8 @@ class RoundedBody {
     }
     const std::size_t up = d[1] > 0 ? 1 : 0;
     // A part without area is a line or a point of the rounded edges.
-    const bool has_area =
-        is_round_ ? first != 0 || half_[1] > 0 : half_[(first + 1) % 3] * half_[(first + 2) % 3] > 0;
+    const bool has_area = is_round_ ? first != 0 || half_[1] > 0
+                                    : half_[(first + 1) % 3] * half_[(first + 2) % 3] > 0;
     const bool on_edge = rounding_ > 0 && (outside > 1 || !has_area);
     if (is_round_) return on_edge ? up : first == 0 ? 2 : 3 + up;
     return on_edge ? 6 : static_cast<std::size_t>(2 * first + (d[first] > 0 ? 1 : 0));
@@ -203,11 +206,13 @@ class RoundedBody {
     const Real near = distance_ + way;
     if (squared_norm<Real>(from_core(p)) > near * near) return {};
     auto on = active(p);
-    for (int f = is_round_ ? 3 : 1; f < function_count(); ++f) on[f] = on[f] && !(border(f, p) > way);
+    for (int f = is_round_ ? 3 : 1; f < function_count(); ++f)
+      on[f] = on[f] && !(border(f, p) > way);
     return on;
   }
 
-  /// The gap has other bounds where it contains a root, the square of the distance from the axis, or y alone.
+  /// The gap has other bounds where it contains a root, the square of the distance from the axis,
+  /// or y alone.
   int kind_of(int f) const {
     if (f > 0 || !is_round_ || (outside_[0] != 0 && outside_[1] != 0)) return f;
     return is_side() ? function_count() : function_count() + 1;
@@ -216,14 +221,14 @@ class RoundedBody {
   PerKind<Real> derivative_bounds(const CoordinateBounds<Real>& c, int k) const {
     const Real square = product_bound(c.x, 0, c.x, k) + product_bound(c.z, 0, c.z, k);
     const Real most = rounding_ + largest_ball_ + 3 * (c.x[0] - domain_);  // of the excess
-    const Real least = half_[0] * 74 / 100;                                // of the distance from the axis
+    const Real least = half_[0] * 74 / 100;  // of the distance from the axis
     Majorant<Real> x = c.x, y = c.y, z = c.z;
     x[0] = y[0] = z[0] = most;
     Real bound = product_bound(y, 0, y, k);
     if (is_round_) {
       const auto r = distance_bound(c, Real(most + half_[0] / 4), least, k);
-      return {
-          bound + product_bound(r, 0, r, k), square, square, c.y[k], c.y[k], c.z[k], c.z[k], square, bound};
+      return {bound + product_bound(r, 0, r, k), square, square, c.y[k], c.y[k], c.z[k], c.z[k],
+          square, bound};
     }
     bound += product_bound(x, 0, x, k) + product_bound(z, 0, z, k);
     return {bound, c.x[k], c.x[k], c.y[k], c.y[k], c.z[k], c.z[k], bound, bound};
@@ -231,8 +236,7 @@ class RoundedBody {
   bool is_flat(int f) const { return f >= (is_round_ ? 3 : 1); }
   /// The region is unknown here: the largest bounds of all.
   ErrorBounds<Real> curved_errors(int f, const ErrorBounds<Real>& coordinate, const Real& u,
-                                  const Real& frame_speed, const Real& acceleration,
-                                  const Real& beyond) const {
+      const Real& frame_speed, const Real& acceleration, const Real& beyond) const {
     const Real &v = frame_speed, &a = acceleration;
     const Real most = rounding_ + largest_ball_ + 3 * beyond, slack = 4 * slack_ * slack_;
     const Real inside = half_[0] + half_[1] + half_[2];
@@ -256,17 +260,16 @@ class RoundedBody {
     const Real size = norm<Real>(from_core(p));
     return size > 0 ? Real(distance_ - size) : Real(distance_ + way_out(p).second);
   }
-
  private:
-  template <class>
-  friend class RoundedBody;
+  template <class> friend class RoundedBody;
 
   /// On which side of the core's edges a coordinate is: -1, 1, or 0 between them.
   int side(int i, const Vec3<Real>& p) const {
     return !(half_[i] > 0) ? 1 : p[i] > half_[i] ? 1 : p[i] < -half_[i] ? -1 : 0;
   }
   bool is_side() const { return is_round_ && outside_[0] != 0 && outside_[1] == 0; }
-  /// True if an excess is part of the gap. The excess of a cylinder across its axis takes the place of x.
+  /// True if an excess is part of the gap. The excess of a cylinder across its axis takes the place
+  /// of x.
   bool counts(int i) const { return outside_[i] != 0; }
   Real excess(int i, const Vec3<Real>& p) const {
     if (is_round_ && i == 0) return across(p) - half_[0];
@@ -279,15 +282,17 @@ class RoundedBody {
 
   /// Of the gap, as twice the given one, and of the borders.
   /// @param across, along  of (x^2 + z^2) / 2 and of the coordinates
-  PerWall<Real> derivatives(const Real& half_of_gap, const Real& across, const Vec3<Real>& along) const {
+  PerWall<Real> derivatives(
+      const Real& half_of_gap, const Real& across, const Vec3<Real>& along) const {
     PerWall<Real> all{Real(2 * half_of_gap)};
     for (int f = 1; f < function_count(); ++f)
-      if (is_border(f)) all[f] = is_round_ && f < 3 ? sign(f) * 2 * across : sign(f) * along[axis(f)];
+      if (is_border(f))
+        all[f] = is_round_ && f < 3 ? sign(f) * 2 * across : sign(f) * along[axis(f)];
     return all;
   }
 
-  // Borders: functions 2 i + 1 and 2 i + 2 belong to axis i. A region outside has the first of them, one
-  // between the edges both; an edge of length zero has none.
+  // Borders: functions 2 i + 1 and 2 i + 2 belong to axis i. A region outside has the first of
+  // them, one between the edges both; an edge of length zero has none.
   static int axis(int f) { return (f - 1) / 2; }
   bool is_border(int f) const {
     const int i = axis(f);
@@ -330,7 +335,8 @@ class RoundedBody {
     const auto shorter = [](const Way& a, const Way& b) { return b.second < a.second ? b : a; };
     if (!is_round_) return shorter(shorter(to_face(1), to_face(0)), to_face(2));
     const Real r = across(p);
-    const Vec3<Real> outwards = r > 0 ? Vec3<Real>(p[0] / r, Real(0), p[2] / r) : Vec3<Real>(1, 0, 0);
+    const Vec3<Real> outwards =
+        r > 0 ? Vec3<Real>(p[0] / r, Real(0), p[2] / r) : Vec3<Real>(1, 0, 0);
     return shorter(to_face(1), Way(outwards, half_[0] - r));
   }
 
@@ -338,12 +344,13 @@ class RoundedBody {
     const auto more = [](const Real& x, const Real& y) { return x > y ? x : y; };
     return {more(a.value, b.value), more(a.rate, b.rate), more(a.second, b.second)};
   }
-  /// Errors of the sum of the squares of three numbers below `far` with errors e, and of its derivatives.
-  static ErrorBounds<Real> squares(const ErrorBounds<Real>& e, const Real& u, const Real& v, const Real& a,
-                                   const Real& far, const Real& slack) {
+  /// Errors of the sum of the squares of three numbers below `far` with errors e, and of its
+  /// derivatives.
+  static ErrorBounds<Real> squares(const ErrorBounds<Real>& e, const Real& u, const Real& v,
+      const Real& a, const Real& far, const Real& slack) {
     return {7 * far * e.value + 16 * u * far * far + slack,
-            7 * (far * e.rate + v * e.value) + 32 * u * far * v,
-            7 * (2 * v * e.rate + far * e.second + a * e.value) + 32 * u * (v * v + far * a)};
+        7 * (far * e.rate + v * e.value) + 32 * u * far * v,
+        7 * (2 * v * e.rate + far * e.second + a * e.value) + 32 * u * (v * v + far * a)};
   }
 
   bool is_round_ = false;
@@ -355,10 +362,10 @@ class RoundedBody {
 };
 
 /// Rings around y from below to above, for pictures.
-template <class Real>
-Mesh mesh_of(const RoundedBody<Real>& body) {
+template <class Real> Mesh mesh_of(const RoundedBody<Real>& body) {
   const Vec3<double> half = vector_cast<double>(body.half());
-  const double rounding = static_cast<double>(body.rounding()), quarter = numerics::pi<double>() / 2;
+  const double rounding = static_cast<double>(body.rounding()),
+               quarter = numerics::pi<double>() / 2;
   const bool round = body.is_round();
   const int steps = rounding > 0 ? 4 : 0, columns = round ? 12 : steps + 1;  // of a quarter
   Mesh mesh;
@@ -375,8 +382,8 @@ Mesh mesh_of(const RoundedBody<Real>& body) {
         const double a = half[0] * (round ? x : q == 0 || q == 3 ? 1 : -1);
         const double c = half[2] * (round ? z : q < 2 ? 1 : -1);
         next.push_back(static_cast<int>(mesh.points.size()));
-        mesh.points.emplace_back(a + out * x, (above ? half[1] : -half[1]) + rounding * std::sin(up),
-                                 c + out * z);
+        mesh.points.emplace_back(
+            a + out * x, (above ? half[1] : -half[1]) + rounding * std::sin(up), c + out * z);
       }
     for (std::size_t k = 0; k < ring.size(); ++k) {
       const auto after = (k + 1) % ring.size();

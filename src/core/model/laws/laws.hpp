@@ -16,8 +16,7 @@ inline constexpr Parameter normal_restitution{
 inline constexpr Parameter tangential_restitution{
     "restitution_tangential", "tangential coefficient of restitution, e_t", {-1, 1}};
 
-template <class Number>
-struct ConstantRestitution {
+template <class Number> struct ConstantRestitution {
   static constexpr const char* name = "constant";
 
   Number normal{1};      ///< e_n
@@ -32,20 +31,22 @@ struct ConstantRestitution {
   const Number& restitution_of_slip(const auto&...) const { return tangential; }
 };
 
-/// The tangential part of laws that define only the normal restitution: e_t = max(beta, 1 - mu c (|g_n| +
-/// g_n') / |g_t|). The contact slides throughout, or its slip is reversed by the factor beta. (2.24')
-template <class Number>
-struct CoulombSlip {
+/// The tangential part of laws that define only the normal restitution: e_t = max(beta, 1 - mu c
+/// (|g_n| + g_n') / |g_t|). The contact slides throughout, or its slip is reversed by the factor
+/// beta. (2.24')
+template <class Number> struct CoulombSlip {
   Number friction{0};         ///< mu
   Number min_tangential{-1};  ///< beta, the lowest e_t
 
   static void parameters(auto& slip, auto&& visit) {
     visit(Parameter{"friction", "coefficient of friction, mu", {0, 1000000}}, slip.friction);
-    visit(Parameter{"min_tangential", "smallest tangential coefficient of restitution, e_t", {-1, 1}, "-1"},
-          slip.min_tangential);
+    visit(Parameter{"min_tangential", "smallest tangential coefficient of restitution, e_t",
+              {-1, 1}, "-1"},
+        slip.min_tangential);
   }
 
-  Number restitution_of_slip(const Number& normal_change, const Number& slip, const Number& c) const {
+  Number restitution_of_slip(
+      const Number& normal_change, const Number& slip, const Number& c) const {
     const Number sliding = friction * c * normal_change;
     // 1 - sliding / slip >= min_tangential, without dividing by a vanishing slip.
     if (sliding >= (1 - min_tangential) * slip) return slip > 0 ? min_tangential : Number(1);
@@ -53,10 +54,9 @@ struct CoulombSlip {
   }
 };
 
-/// Coulomb friction while sliding, a lowest tangential restitution while sticking. Source: Walton and Braun
-/// 1986; Barahona 2011, (2.24), for balls of any mass as in theory.md, section 5.
-template <class Number>
-struct WaltonBraun {
+/// Coulomb friction while sliding, a lowest tangential restitution while sticking. Source: Walton
+/// and Braun 1986; Barahona 2011, (2.24), for balls of any mass as in theory.md, section 5.
+template <class Number> struct WaltonBraun {
   static constexpr const char* name = "walton-braun";
 
   Number normal{1};           ///< e_n
@@ -69,19 +69,19 @@ struct WaltonBraun {
   }
 
   const Number& restitution(const Number&) const { return normal; }
-  Number restitution_of_slip(const Number& normal_change, const Number& slip, const Number& c) const {
-    return CoulombSlip<Number>{friction, min_tangential}.restitution_of_slip(normal_change, slip, c);
+  Number restitution_of_slip(
+      const Number& normal_change, const Number& slip, const Number& c) const {
+    return CoulombSlip<Number>{friction, min_tangential}.restitution_of_slip(
+        normal_change, slip, c);
   }
 };
 
 /// Points by ascending argument, and their values.
-template <class Number>
-using LawTable = std::vector<std::array<Number, 2>>;
+template <class Number> using LawTable = std::vector<std::array<Number, 2>>;
 
 /// Linear interpolation between the points, constant below the first and above the last one.
 /// @pre there are points
-template <class Number>
-Number value_at(const LawTable<Number>& points, const Number& argument) {
+template <class Number> Number value_at(const LawTable<Number>& points, const Number& argument) {
   std::size_t k = 0;
   while (k < points.size() && points[k][0] < argument) ++k;
   if (k == 0) return points.front()[1];
@@ -91,13 +91,13 @@ Number value_at(const LawTable<Number>& points, const Number& argument) {
   return low[1] * (1 - share) + high[1] * share;
 }
 
-/// Normal restitution by approach speed, linear between the points of a table: monotonic where the table is.
-template <class Number>
-struct RestitutionBySpeed : CoulombSlip<Number> {
+/// Normal restitution by approach speed, linear between the points of a table: monotonic where the
+/// table is.
+template <class Number> struct RestitutionBySpeed : CoulombSlip<Number> {
   static constexpr const char* name = "restitution-by-speed";
   static constexpr Parameter table{"restitution_by_speed", Dimension::none,
-                                   "points of approach speed and e_n, `[[\"0.1 m/s\", 0.9], [\"3 m/s\", "
-                                   "0.6]]`; linear between them, constant beyond"};
+      "points of approach speed and e_n, `[[\"0.1 m/s\", 0.9], [\"3 m/s\", "
+      "0.6]]`; linear between them, constant beyond"};
   static constexpr Parameter table_rows[] = {
       {"speed", Dimension::speed, "of the approach", Range::not_negative},
       {"restitution", Dimension::none, "e_n of a point", {0, 1}}};
@@ -116,14 +116,13 @@ struct RestitutionBySpeed : CoulombSlip<Number> {
   Number restitution(const Number& speed) const { return value_at(points, speed); }
 };
 
-/// A constant normal restitution, and a tangential one as a function of slip over approach speed, as for the
-/// contacts of DEM codes, which stick for a part of their duration and slip for the rest (docs/dem.md).
-/// Beyond the last point a contact slides throughout: its tangential impulse remains that at this point.
-template <class Number>
-struct RestitutionBySlip {
+/// A constant normal restitution, and a tangential one as a function of slip over approach speed,
+/// as for the contacts of DEM codes, which stick for a part of their duration and slip for the rest
+/// (docs/dem.md). Beyond the last point a contact slides throughout: its tangential impulse remains
+/// that at this point.
+template <class Number> struct RestitutionBySlip {
   static constexpr const char* name = "restitution-by-slip";
-  static constexpr Parameter table{
-      "tangential_by_slip", Dimension::none,
+  static constexpr Parameter table{"tangential_by_slip", Dimension::none,
       "points of the ratio of slip speed to approach speed and e_t, `[[0, -0.4], [3, 0.1]]`; "
       "linear between them, constant below the first, sliding beyond the last"};
   static constexpr Parameter table_rows[] = {
@@ -143,7 +142,8 @@ struct RestitutionBySlip {
   void take_shape(const auto& from) { points.resize(from.points.size()); }
 
   const Number& restitution(const Number&) const { return normal; }
-  Number restitution_of_slip(const Number& normal_change, const Number& slip_speed, const Number&) const {
+  Number restitution_of_slip(
+      const Number& normal_change, const Number& slip_speed, const Number&) const {
     const auto& last = points.back();
     // The slip over the approach, without a division by an approach of zero.
     const Number slip = slip_speed * (1 + normal);
@@ -152,10 +152,10 @@ struct RestitutionBySlip {
   }
 };
 
-/// Balls of steel that are coated with powder, Al-Fe2O3: table 5.3 of Barahona 2011 after Ward et al. 2005.
-/// Between its points e_n is linear in the charge ratio and in the diameter, or the mean of two.
-template <class Number>
-struct PowderLoad : CoulombSlip<Number> {
+/// Balls of steel that are coated with powder, Al-Fe2O3: table 5.3 of Barahona 2011 after Ward et
+/// al. 2005. Between its points e_n is linear in the charge ratio and in the diameter, or the mean
+/// of two.
+template <class Number> struct PowderLoad : CoulombSlip<Number> {
   static constexpr const char* name = "powder-load";
   static constexpr std::array charge_ratios{25, 50, 100};         ///< [1/10]
   static constexpr std::array diameters{2360, 3160, 4760, 9520};  ///< [um]
@@ -164,9 +164,9 @@ struct PowderLoad : CoulombSlip<Number> {
   Number charge_ratio{5};  ///< mass of the balls over that of the powder
 
   static void parameters(auto& law, auto&& visit) {
-    visit(Parameter{"charge_ratio", "mass of the balls divided by that of the powder", Range(2.5, 10),
-                    nullptr, "that of the case"},
-          law.charge_ratio);
+    visit(Parameter{"charge_ratio", "mass of the balls divided by that of the powder",
+              Range(2.5, 10), nullptr, "that of the case"},
+        law.charge_ratio);
     CoulombSlip<Number>::parameters(law, visit);
   }
 
@@ -179,7 +179,6 @@ struct PowderLoad : CoulombSlip<Number> {
     };
     return (of_row(load.below) * (1 - load.share) + of_row(load.below + 1) * load.share) / 100;
   }
-
  private:
   struct Place {
     std::size_t below;
@@ -194,15 +193,14 @@ struct PowderLoad : CoulombSlip<Number> {
   }
 };
 
-inline constexpr Parameter effective_modulus{
-    "effective_modulus", Dimension::pressure,
+inline constexpr Parameter effective_modulus{"effective_modulus", Dimension::pressure,
     "effective modulus E*, with 1/E* = (1 - nu_i^2)/E_i + (1 - nu_j^2)/E_j", Range::positive};
 
-/// Viscoelastic spheres: M x" + k (x^(3/2) + 3/2 A x^(1/2) x') = 0 with k = 4/3 E* R^(1/2), until the force
-/// vanishes. e_n depends only on v* = (3/2 A)^(1/2) ((k/M)^2 v)^(1/10). Sources: Ramirez, Poeschel,
-/// Brilliantov and Schwager 1999; the rational approximation by Mueller and Poeschel 2011.
-template <class Number>
-struct Viscoelastic : CoulombSlip<Number> {
+/// Viscoelastic spheres: M x" + k (x^(3/2) + 3/2 A x^(1/2) x') = 0 with k = 4/3 E* R^(1/2), until
+/// the force vanishes. e_n depends only on v* = (3/2 A)^(1/2) ((k/M)^2 v)^(1/10). Sources: Ramirez,
+/// Poeschel, Brilliantov and Schwager 1999; the rational approximation by Mueller and Poeschel
+/// 2011.
+template <class Number> struct Viscoelastic : CoulombSlip<Number> {
   static constexpr const char* name = "viscoelastic";
 
   Number modulus{1};           ///< E* [Pa]
@@ -210,14 +208,16 @@ struct Viscoelastic : CoulombSlip<Number> {
 
   static void parameters(auto& law, auto&& visit) {
     visit(effective_modulus, law.modulus);
-    visit(Parameter{"dissipative_time", Dimension::time, "time A of the dissipative force", Range::positive},
-          law.dissipative_time);
+    visit(Parameter{"dissipative_time", Dimension::time, "time A of the dissipative force",
+              Range::positive},
+        law.dissipative_time);
     CoulombSlip<Number>::parameters(law, visit);
   }
 
   Number restitution(const Number& approach_speed, const ContactBodies<Number>& bodies) const {
     using std::sqrt;
-    const Number by_mass = 4 * modulus * sqrt(bodies.effective_radius()) / 3 / bodies.effective_mass;
+    const Number by_mass =
+        4 * modulus * sqrt(bodies.effective_radius()) / 3 / bodies.effective_mass;
     const Number root = numerics::fifth_root(Number(by_mass * by_mass * approach_speed));
     return by_scaled_speed(Number(sqrt(3 * dissipative_time / 2) * sqrt(root)));
   }
@@ -229,10 +229,10 @@ struct Viscoelastic : CoulombSlip<Number> {
   }
 };
 
-/// Elastic, perfectly plastic: Hertz's force up to a contact pressure, a constant pressure beyond, elastic
-/// unloading. e_n is 1 below the yield speed, and falls as v^(-1/4). Source: Thornton 1997, (40) and (33).
-template <class Number>
-struct ElasticPlastic : CoulombSlip<Number> {
+/// Elastic, perfectly plastic: Hertz's force up to a contact pressure, a constant pressure beyond,
+/// elastic unloading. e_n is 1 below the yield speed, and falls as v^(-1/4). Source: Thornton 1997,
+/// (40) and (33).
+template <class Number> struct ElasticPlastic : CoulombSlip<Number> {
   static constexpr const char* name = "elastic-plastic";
 
   Number modulus{1};         ///< E* [Pa]
@@ -241,12 +241,13 @@ struct ElasticPlastic : CoulombSlip<Number> {
   static void parameters(auto& law, auto&& visit) {
     visit(effective_modulus, law.modulus);
     constexpr const char* meaning = "contact pressure at which yielding begins";
-    visit(Parameter{"yield_pressure", Dimension::pressure, meaning, Range::positive}, law.yield_pressure);
+    visit(Parameter{"yield_pressure", Dimension::pressure, meaning, Range::positive},
+        law.yield_pressure);
     CoulombSlip<Number>::parameters(law, visit);
   }
 
-  /// Yield speed v_y [m/s], at which the energy of the approach raises Hertz's pressure to p_y: M v_y^2 =
-  /// 16/15 E* a^5 / R^2, a = pi p_y R / (2 E*).
+  /// Yield speed v_y [m/s], at which the energy of the approach raises Hertz's pressure to p_y: M
+  /// v_y^2 = 16/15 E* a^5 / R^2, a = pi p_y R / (2 E*).
   Number yield_speed(const ContactBodies<Number>& bodies) const {
     using std::sqrt;
     const Number radius = bodies.effective_radius();

@@ -1,5 +1,5 @@
-// A vessel on a chain of joints: turns and shifts, constant, at constant speed or swinging. docs/theory.md,
-// section 1.
+// A vessel on a chain of joints: turns and shifts, constant, at constant speed or swinging.
+// docs/theory.md, section 1.
 #pragma once
 
 #include <cmath>
@@ -13,22 +13,24 @@ namespace edmill::model {
 
 /// Rotates a vector about an axis. (Rodrigues)
 template <class Real>
-Vec3<Real> turned_about(const Vec3<Real>& v, const Vec3<Real>& axis, const numerics::SinCos<Real>& angle) {
-  return v * angle.cos + cross<Real>(axis, v) * angle.sin + axis * Real(dot<Real>(axis, v) * (1 - angle.cos));
+Vec3<Real> turned_about(
+    const Vec3<Real>& v, const Vec3<Real>& axis, const numerics::SinCos<Real>& angle) {
+  return v * angle.cos + cross<Real>(axis, v) * angle.sin +
+      axis * Real(dot<Real>(axis, v) * (1 - angle.cos));
 }
 
-/// Bounds on a chain's motion that are valid at all times (docs/theory.md, section 3): on the norms, as
-/// observed in the moving frame, of the angular velocity and the acceleration of the origin, and of their
-/// derivatives.
-template <class Real>
-struct ChainBounds {
+/// Bounds on a chain's motion that are valid at all times (docs/theory.md, section 3): on the
+/// norms, as observed in the moving frame, of the angular velocity and the acceleration of the
+/// origin, and of their derivatives.
+template <class Real> struct ChainBounds {
   std::array<Real, 4> turning{};       ///< [rad/s], [rad/s^2], ...
   std::array<Real, 3> acceleration{};  ///< [m/s^2], ...
   Real speed{0};                       ///< of the origin [m/s]
   Real distance{0};                    ///< of the origin from that of the ground [m]
-  Real errors{20};                     ///< bound on the relative rounding errors of all of these [u]
+  Real errors{20};  ///< bound on the relative rounding errors of all of these [u]
 
-  /// @param apart  the magnitudes of constant speeds are added, as rounding errors require; otherwise those
+  /// @param apart  the magnitudes of constant speeds are added, as rounding errors require;
+  /// otherwise those
   ///               about parallel axes count with their signs: a jar may turn against its disc
   ChainBounds(const Joints<Real>& joints, bool apart) {
     std::optional<Vec3<Real>> common;  // direction of all axes so far, in the present frame
@@ -41,7 +43,8 @@ struct ChainBounds {
       if (!joint.rotates) {
         shift(rates);
       } else if (!(rates[1] > 0)) {
-        if (common) *common = turned_about<Real>(*common, axis, numerics::sin_cos_turns<Real>(-joint.angle));
+        if (common)
+          *common = turned_about<Real>(*common, axis, numerics::sin_cos_turns<Real>(-joint.angle));
       } else {
         parallel = parallel && (!common || are_parallel(*common, axis));
         if (common && dot<Real>(*common, axis) < 0) sum = -sum;
@@ -63,7 +66,9 @@ struct ChainBounds {
   }
 
   /// Bounds on a ball in the frame, as in the concept Motion.
-  Real speed_in_vessel(const FlightBounds<Real>& f) const { return f.speed + speed + turning[0] * f.reach; }
+  Real speed_in_vessel(const FlightBounds<Real>& f) const {
+    return f.speed + speed + turning[0] * f.reach;
+  }
   Real acceleration_in_vessel(const FlightBounds<Real>& f) const {
     return f.gravity + acceleration[0] + 2 * turning[0] * speed_in_vessel(f) + bend() * f.reach;
   }
@@ -74,13 +79,13 @@ struct ChainBounds {
     const Real size = norm<Real>(axis);
     return size > 0 ? Vec3<Real>(axis / size) : axis;
   }
-
  private:
   /// Bounds on the joint's angle [rad] or shift [m] and its first four derivatives.
   static Majorant<Real> rates_of(const Joint<Real>& joint, const std::array<Real, 2>& times) {
     const Real turn = 2 * numerics::pi<Real>();
     const Real unit = joint.rotates ? turn : Real(1);
-    Majorant<Real> rates{norm<Real>(Vec3<Real>(joint.shift.data())), magnitude<Real>(unit * joint.speed)};
+    Majorant<Real> rates{
+        norm<Real>(Vec3<Real>(joint.shift.data())), magnitude<Real>(unit * joint.speed)};
     if (!joint.rotates) {
       const Real first = magnitude(times[0]), last = magnitude(times[1]);
       rates[0] += rates[1] * (first > last ? first : last);
@@ -94,9 +99,9 @@ struct ChainBounds {
     }
     return rates;
   }
-  /// Rounding errors of a joint in units of u: of a phase, a few roundings of its number of turns, 2 pi
-  /// times as large in radians; then of a sine, and of products with a matrix and the vectors of the
-  /// following frames.
+  /// Rounding errors of a joint in units of u: of a phase, a few roundings of its number of turns,
+  /// 2 pi times as large in radians; then of a sine, and of products with a matrix and the vectors
+  /// of the following frames.
   static Real error_of(const Joint<Real>& joint, const Real& period) {
     const auto of_phase = [&](const Real& frequency) {
       return Real(7 * (4 + 3 * magnitude<Real>(frequency * period)));
@@ -117,8 +122,9 @@ struct ChainBounds {
     return squared_norm<Real>(cross<Real>(a, b)) < 64 * epsilon<Real>() * epsilon<Real>();
   }
 
-  /// The frame behind the joint turns about an axis: its angular velocity is E w + axis angle', E b the
-  /// acceleration; the derivatives of the matrix E follow from those of the angle. (Faa di Bruno)
+  /// The frame behind the joint turns about an axis: its angular velocity is E w + axis angle', E b
+  /// the acceleration; the derivatives of the matrix E follow from those of the angle. (Faa di
+  /// Bruno)
   void rotate(const Majorant<Real>& angle, bool parallel) {
     const Real &a = angle[1], &b = angle[2], &c = angle[3];
     const std::array<Real, 4> matrix{Real(1), a, a * a + b, a * a * a + 3 * a * b + c};
@@ -133,15 +139,15 @@ struct ChainBounds {
     std::array<Real, 3> square;
     for (int k = 0; k < 3; ++k) square[k] = product_bound(turning, 0, turning, k);
     for (int k = 0; k < 3; ++k)
-      acceleration[k] += d[k + 2] + 2 * product_bound(turning, 0, d, k, 1) + product_bound(turning, 1, d, k) +
-                         product_bound(square, 0, d, k);
+      acceleration[k] += d[k + 2] + 2 * product_bound(turning, 0, d, k, 1) +
+          product_bound(turning, 1, d, k) + product_bound(square, 0, d, k);
     speed += d[1] + turning[0] * d[0];
     distance += d[0];
   }
 };
 
-/// The box that a vessel of these half sizes sweeps: from the vessel to the ground, each joint turns or
-/// shifts the bounding box of the later joints.
+/// The box that a vessel of these half sizes sweeps: from the vessel to the ground, each joint
+/// turns or shifts the bounding box of the later joints.
 template <class Real>
 SweptBox<Real> swept_box(const Joints<Real>& joints, const Vec3<Real>& sizes) {
   using std::sqrt;
@@ -154,14 +160,16 @@ SweptBox<Real> swept_box(const Joints<Real>& joints, const Vec3<Real>& sizes) {
       const Vec3<Real> shift(joint->shift.data()), way = axis.cwiseAbs() * swing;
       const Vec3<Real> first = axis * Real(joint->speed * joints.times[0]),
                        last = axis * Real(joint->speed * joints.times[1]);
-      box = {box.low + shift - way + first.cwiseMin(last), box.high + shift + way + first.cwiseMax(last)};
+      box = {box.low + shift - way + first.cwiseMin(last),
+          box.high + shift + way + first.cwiseMax(last)};
       continue;
     }
     const Vec3<Real> middle = (box.low + box.high) / Real(2), half = (box.high - box.low) / Real(2);
     const Real farthest = norm<Real>(Vec3<Real>(middle.cwiseAbs() + half));
     // Rotated by the constant angle, and by at most the sum of the swings; or by a full turn.
     const auto angle = numerics::sin_cos_turns<Real>(joint->angle);
-    const Real more = joint->speed == 0 ? Real(2 * numerics::pi<Real>() * swing * farthest) : 2 * farthest;
+    const Real more =
+        joint->speed == 0 ? Real(2 * numerics::pi<Real>() * swing * farthest) : 2 * farthest;
     Vec3<Real> reach = Vec3<Real>::Constant(more);
     for (int k = 0; k < 3; ++k)
       reach += turned_about<Real>(Vec3<Real>::Unit(k), axis, angle).cwiseAbs() * half[k];
@@ -189,21 +197,20 @@ SweptBox<Real> swept_box(const Joints<Real>& joints, const Vec3<Real>& sizes) {
 }
 
 /// Position, orientation and motion of the vessel frame, in inertial coordinates.
-template <class Real>
-struct ChainPose {
+template <class Real> struct ChainPose {
   Vec3<Real> x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};  ///< axes of the vessel frame
   /// Of its origin [m], [m/s], [m/s^2].
   Vec3<Real> centre{0, 0, 0}, velocity{0, 0, 0}, acceleration{0, 0, 0};
-  Vec3<Real> omega{0, 0, 0}, omega_rate{0, 0, 0};  ///< angular velocity and its rate [rad/s], [rad/s^2]
+  Vec3<Real> omega{0, 0, 0},
+      omega_rate{0, 0, 0};  ///< angular velocity and its rate [rad/s], [rad/s^2]
 
   void archive(Archive& a) { a(x, y, z, centre, velocity, acceleration, omega, omega_rate); }
 };
 
-/// Motion of a vessel on a chain of joints, from the ground to the vessel; each joint moves all frames that
-/// follow it. The speeds of joints need not have a common period: whole drive periods of the clock are
-/// subtracted from each phase exactly.
-template <class Real>
-class ChainMotion {
+/// Motion of a vessel on a chain of joints, from the ground to the vessel; each joint moves all
+/// frames that follow it. The speeds of joints need not have a common period: whole drive periods
+/// of the clock are subtracted from each phase exactly.
+template <class Real> class ChainMotion {
  public:
   using Scalar = Real;
   using Pose = ChainPose<Real>;
@@ -218,21 +225,20 @@ class ChainMotion {
       const Real turning = joint.rotates ? joint.speed : Real(0);
       const int axis = joint.rotates ? aligned(joint.axis) : -1;
       const Swings<Real> swings(joint.swings);
-      const Step& step =
-          steps_.emplace_back(Step{.rotates = joint.rotates,
-                                   .axis = ChainBounds<Real>::direction(joint),
-                                   .aligned = axis,
-                                   .shift = Vec3<Real>(joint.shift.data()),
-                                   .angle = joint.angle,
-                                   .drive = {turning, 2 * numerics::pi<Real>() * turning, joint.per_period},
-                                   .slide = joint.speed,
-                                   .swings = swings,
-                                   .fixed = numerics::sin_cos_turns<Real>(joint.angle),
-                                   .moves = joint.speed != 0 || !swings.empty(),
-                                   .level = level,
-                                   .turned = turned,
-                                   .parallel = axis >= 0 && axis == common,
-                                   .uneven = uneven});
+      const Step& step = steps_.emplace_back(Step{.rotates = joint.rotates,
+          .axis = ChainBounds<Real>::direction(joint),
+          .aligned = axis,
+          .shift = Vec3<Real>(joint.shift.data()),
+          .angle = joint.angle,
+          .drive = {turning, 2 * numerics::pi<Real>() * turning, joint.per_period},
+          .slide = joint.speed,
+          .swings = swings,
+          .fixed = numerics::sin_cos_turns<Real>(joint.angle),
+          .moves = joint.speed != 0 || !swings.empty(),
+          .level = level,
+          .turned = turned,
+          .parallel = axis >= 0 && axis == common,
+          .uneven = uneven});
       if (!step.rotates) continue;
       level = false;
       if (step.moves) uneven = uneven || !swings.empty() || (turned && !step.parallel);
@@ -241,9 +247,9 @@ class ChainMotion {
     }
     moment_ = moment();
   }
-  template <class To>
-  ChainMotion<To> cast() const {
-    return ChainMotion<To>(converted_joints<To>(joints_, [](const Real& x) { return static_cast<To>(x); }));
+  template <class To> ChainMotion<To> cast() const {
+    return ChainMotion<To>(
+        converted_joints<To>(joints_, [](const Real& x) { return static_cast<To>(x); }));
   }
 
   const Joints<Real>& joints() const { return joints_; }
@@ -253,11 +259,14 @@ class ChainMotion {
   /// The pose without its rates.
   Pose place(const Instant<Real>& when) const { return made<false>(when); }
   /// Computed without the known pose, whose rates would need derivatives beyond those that it has.
-  Pose pose_nearby(const Instant<Real>& when, const Pose&, const Instant<Real>&) const { return pose(when); }
-  /// In the period of `known`. With R and C the orientation and the centre, R' = [w] R and R'' = [w'] R +
-  /// [w]^2 R: for at most `moment_` their Taylor polynomials are as accurate as the scalar.
-  Vec3<Real> position_nearby(const Instant<Real>& when, const Pose& pose, const Instant<Real>& known,
-                             const Vec3<Real>& position) const {
+  Pose pose_nearby(const Instant<Real>& when, const Pose&, const Instant<Real>&) const {
+    return pose(when);
+  }
+  /// In the period of `known`. With R and C the orientation and the centre, R' = [w] R and R'' =
+  /// [w'] R + [w]^2 R: for at most `moment_` their Taylor polynomials are as accurate as the
+  /// scalar.
+  Vec3<Real> position_nearby(const Instant<Real>& when, const Pose& pose,
+      const Instant<Real>& known, const Vec3<Real>& position) const {
     const Real dt = when.offset - known.offset;
     const auto short_dt = static_cast<Hint<Real>>(dt);
     if (!(short_dt <= moment_ && short_dt >= -moment_)) [[unlikely]]
@@ -283,13 +292,13 @@ class ChainMotion {
   static Vec3<Real> position_in_vessel(const Pose& pose, const Vec3<Real>& position) {
     return to_vessel(pose, position - pose.centre);
   }
-  static VesselFrameState<Real> to_vessel_frame(const Pose& p, const Vec3<Real>& position,
-                                                const Vec3<Real>& velocity) {
+  static VesselFrameState<Real> to_vessel_frame(
+      const Pose& p, const Vec3<Real>& position, const Vec3<Real>& velocity) {
     const Vec3<Real> d = position - p.centre;
     return {to_vessel(p, d), to_vessel(p, velocity - (p.velocity + cross<Real>(p.omega, d)))};
   }
   static Vec3<Real> vessel_frame_acceleration(const Pose& p, const VesselFrameState<Real>& state,
-                                              const Vec3<Real>&, const Vec3<Real>& gravity) {
+      const Vec3<Real>&, const Vec3<Real>& gravity) {
     const Vec3<Real> d = direction_to_inertial(p, state.position);
     const Vec3<Real> v = direction_to_inertial(p, state.velocity);
     return to_vessel(p, gravity - (acceleration_at(p, d) + cross<Real>(p.omega, v) * Real(2)));
@@ -315,31 +324,40 @@ class ChainMotion {
     return bounds_.acceleration[0] + bounds_.bend() * (distance + bounds_.distance);
   }
   Real longest_window() const { return window_of(period(), bounds_.turning[0]); }
-  SweptBox<Real> swept(const Vec3<Real>& sizes, const Real&) const { return swept_box<Real>(joints_, sizes); }
+  SweptBox<Real> swept(const Vec3<Real>& sizes, const Real&) const {
+    return swept_box<Real>(joints_, sizes);
+  }
 
-  /// With p the place in the frame, R its rotation, b the acceleration of its origin: p'' = R g - b - 2 w x
-  /// p' - w' x p - w x (w x p), and its derivatives by Leibniz' rule.
+  /// With p the place in the frame, R its rotation, b the acceleration of its origin: p'' = R g - b
+  /// - 2 w x p' - w' x p - w x (w x p), and its derivatives by Leibniz' rule.
   CoordinateBounds<Real> coordinate_bounds(const Vec3<Real>& sizes, const Real& vessel_reach,
-                                           const Real& gravity, const Real& speed, const Real& length) const {
+      const Real& gravity, const Real& speed, const Real& length) const {
     const auto& w = bounds_.turning;
     const auto& b = bounds_.acceleration;
     const Real p0 = vessel_reach + (speed + bounds_.speed) * length;
     const Real p1 = speed + bounds_.speed + w[0] * p0;
-    const Real square = w[0] * w[0], square1 = 2 * w[0] * w[1], square2 = 2 * (w[1] * w[1] + w[0] * w[2]);
+    const Real square = w[0] * w[0], square1 = 2 * w[0] * w[1],
+               square2 = 2 * (w[1] * w[1] + w[0] * w[2]);
     const Real p2 = gravity + b[0] + 2 * w[0] * p1 + (w[1] + square) * p0;
-    const Real p3 = gravity * w[0] + b[1] + 2 * w[0] * p2 + (3 * w[1] + square) * p1 + (w[2] + square1) * p0;
+    const Real p3 =
+        gravity * w[0] + b[1] + 2 * w[0] * p2 + (3 * w[1] + square) * p1 + (w[2] + square1) * p0;
     const Real p4 = gravity * (w[1] + square) + b[2] + 2 * w[0] * p3 + (5 * w[1] + square) * p2 +
-                    (4 * w[2] + 2 * square1) * p1 + (w[3] + square2) * p0;
-    const auto along = [&](int axis) { return Majorant<Real>{sizes[axis] + p1 * length, p1, p2, p3, p4}; };
+        (4 * w[2] + 2 * square1) * p1 + (w[3] + square2) * p0;
+    const auto along = [&](int axis) {
+      return Majorant<Real>{sizes[axis] + p1 * length, p1, p2, p3, p4};
+    };
     return {along(0), along(1), along(2)};
   }
 
   Real speed_in_vessel(const FlightBounds<Real>& f) const { return bounds_.speed_in_vessel(f); }
-  Real acceleration_in_vessel(const FlightBounds<Real>& f) const { return bounds_.acceleration_in_vessel(f); }
+  Real acceleration_in_vessel(const FlightBounds<Real>& f) const {
+    return bounds_.acceleration_in_vessel(f);
+  }
   /// Errors of the flight and, by ChainBounds::errors, of all parts of the pose.
   ErrorBounds<Real> coordinate_errors(const Real& u, const FlightBounds<Real>& f) const {
     const Real fallen = f.gravity * f.elapsed;
-    const Real position = 12 * f.reach + 8 * (fallen * f.elapsed) + 2 * (f.speed * (f.elapsed + 3 * f.lag));
+    const Real position =
+        12 * f.reach + 8 * (fallen * f.elapsed) + 2 * (f.speed * (f.elapsed + 3 * f.lag));
     return through_pose(u, f, position, 8 * f.speed + 4 * fallen);
   }
   ErrorBounds<Real> state_errors(const Real& u, const FlightBounds<Real>& f) const {
@@ -348,7 +366,6 @@ class ChainMotion {
         3 * f.reach + f.speed * (f.elapsed + time) + 2 * (f.gravity * f.elapsed * f.elapsed);
     return through_pose(u, f, position, 2 * f.speed + f.gravity * (2 * f.elapsed + time));
   }
-
  private:
   struct Step {
     bool rotates;
@@ -368,8 +385,7 @@ class ChainMotion {
     bool uneven;    ///< the angular velocity varies
   };
 
-  template <bool with_rates>
-  Pose made(const Instant<Real>& when) const {
+  template <bool with_rates> Pose made(const Instant<Real>& when) const {
     Pose p;
     for (const auto& step : steps_) {
       if (step.rotates)
@@ -379,8 +395,8 @@ class ChainMotion {
     }
     return p;
   }
-  /// Frequencies from the turns per drive period, which are exact: the pose at the end of a period is that at
-  /// the begin of the next in every scalar.
+  /// Frequencies from the turns per drive period, which are exact: the pose at the end of a period
+  /// is that at the begin of the next in every scalar.
   static Joints<Real> with_frequencies(Joints<Real> joints) {
     for (auto& joint : joints.list) {
       if (joint.rotates) joint.speed = joint.per_period.template value<Real>() / joints.period;
@@ -398,7 +414,8 @@ class ChainMotion {
     return {dot<Real>(p.x, d), dot<Real>(p.y, d), dot<Real>(p.z, d)};
   }
   static Vec3<Real> acceleration_at(const Pose& p, const Vec3<Real>& d) {
-    return p.acceleration + cross<Real>(p.omega_rate, d) + cross<Real>(p.omega, cross<Real>(p.omega, d));
+    return p.acceleration + cross<Real>(p.omega_rate, d) +
+        cross<Real>(p.omega, cross<Real>(p.omega, d));
   }
 
   template <bool with_rates>
@@ -430,14 +447,18 @@ class ChainMotion {
       return;
     }
     const auto made = [&](int k) {
-      const Vec3<Real> unit = Vec3<Real>::Unit(k), along = step.axis * Real(step.axis[k] * (1 - turned.cos));
-      return direction_to_inertial(p, unit * turned.cos + cross<Real>(step.axis, unit) * turned.sin + along);
+      const Vec3<Real> unit = Vec3<Real>::Unit(k),
+                       along = step.axis * Real(step.axis[k] * (1 - turned.cos));
+      return direction_to_inertial(
+          p, unit * turned.cos + cross<Real>(step.axis, unit) * turned.sin + along);
     };
     std::tie(p.x, p.y, p.z) = std::tuple(made(0), made(1), made(2));
   }
   template <bool with_rates>
   void shift(Pose& p, const Step& step, const Instant<Real>& when) const {
-    const auto outside = [&](const Vec3<Real>& v) { return step.level ? v : direction_to_inertial(p, v); };
+    const auto outside = [&](const Vec3<Real>& v) {
+      return step.level ? v : direction_to_inertial(p, v);
+    };
     Vec3<Real> d = outside(step.shift), acceleration = Vec3<Real>::Zero();
     if (step.moves) {
       auto moved = step.swings.at(when);
@@ -467,8 +488,9 @@ class ChainMotion {
   }
   static Vec3<Real>& column(Pose& p, int k) { return k == 0 ? p.x : k == 1 ? p.y : p.z; }
 
-  /// Longest interval [s] for which the Taylor polynomials of second order have an error below u/4 of a turn
-  /// and of the centre's distance: the period over a power of two, the same on every machine.
+  /// Longest interval [s] for which the Taylor polynomials of second order have an error below u/4
+  /// of a turn and of the centre's distance: the period over a power of two, the same on every
+  /// machine.
   Hint<Real> moment() const {
     const auto& w = bounds_.turning;
     const auto& b = bounds_.acceleration;
@@ -477,18 +499,19 @@ class ChainMotion {
     const auto u = static_cast<Hint<Real>>(epsilon<Real>() / 2);
     const double distance = static_cast<double>(bounds_.distance);
     auto t = static_cast<Hint<Real>>(period());
-    while (4 * third_of_turn * (t * t * t) > u || 4 * third_of_centre * (t * t * t) > u * distance) t /= 2;
+    while (4 * third_of_turn * (t * t * t) > u || 4 * third_of_centre * (t * t * t) > u * distance)
+      t /= 2;
     return t;
   }
 
   /// @param position, velocity  errors of the flight's, in units of u
   ErrorBounds<Real> through_pose(const Real& u, const FlightBounds<Real>& f, const Real& position,
-                                 const Real& velocity) const {
+      const Real& velocity) const {
     const Real& w = terms_.turning[0];
     const Real of_pose = terms_.errors * terms_.acceleration_in_vessel(f);
     return {u * (position + terms_.errors * f.reach),
-            u * (velocity + w * position + terms_.errors * terms_.speed_in_vessel(f)),
-            u * (2 * w * velocity + terms_.bend() * position + of_pose)};
+        u * (velocity + w * position + terms_.errors * terms_.speed_in_vessel(f)),
+        u * (2 * w * velocity + terms_.bend() * position + of_pose)};
   }
 
   Joints<Real> joints_;

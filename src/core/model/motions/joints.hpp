@@ -1,5 +1,5 @@
-// The joints of a chain, as a case gives them, and harmonic functions of time whose phases stay as accurate
-// as at the start.
+// The joints of a chain, as a case gives them, and harmonic functions of time whose phases stay as
+// accurate as at the start.
 #pragma once
 
 #include <algorithm>
@@ -16,9 +16,9 @@
 
 namespace edmill::model {
 
-/// A fraction of a turn as a binary fraction of 1024 bits, or more if a scalar needs them. The angle after
-/// many drive periods is reduced to less than a turn in integer arithmetic, so that a phase is as accurate
-/// after 1e9 periods as in the first one.
+/// A fraction of a turn as a binary fraction of 1024 bits, or more if a scalar needs them. The
+/// angle after many drive periods is reduced to less than a turn in integer arithmetic, so that a
+/// phase is as accurate after 1e9 periods as in the first one.
 struct TurnFraction {
   static constexpr std::size_t words = 16;
   /// The most significant word first; [0, 1) turns.
@@ -26,20 +26,20 @@ struct TurnFraction {
   std::int64_t whole = 0;  ///< whole turns, to be added
 
   /// Number of words that `times` uses for a scalar with this many binary digits.
-  static constexpr std::size_t words_for(int digits) { return static_cast<std::size_t>(digits) / 64 + 2; }
+  static constexpr std::size_t words_for(int digits) {
+    return static_cast<std::size_t>(digits) / 64 + 2;
+  }
 
   /// Whole turns and fraction, rounded to the scalar.
-  template <class Real>
-  Real value() const {
+  template <class Real> Real value() const {
     Real sum(0);
     for (std::size_t k = bits.size(); k-- > 0;) sum = (sum + Real(bits[k])) * Real(0x1p-64);
     return Real(whole) + sum;
   }
 
-  /// `count` times the fraction, reduced by whole turns to -1/2 to 1/2. Error: the rounding of the result,
-  /// and |count| units of a bit at least 64 places below the last of the scalar.
-  template <class Real>
-  Real times(std::int64_t count) const {
+  /// `count` times the fraction, reduced by whole turns to -1/2 to 1/2. Error: the rounding of the
+  /// result, and |count| units of a bit at least 64 places below the last of the scalar.
+  template <class Real> Real times(std::int64_t count) const {
     if constexpr (std::numeric_limits<Real>::digits > 0) {
       constexpr std::size_t used = words_for(std::numeric_limits<Real>::digits);
       static_assert(used <= words);
@@ -54,13 +54,12 @@ struct TurnFraction {
     return std::all_of(bits.begin(), bits.end(), [](std::uint64_t word) { return word == 0; });
   }
   bool operator==(const TurnFraction&) const = default;
-
  private:
-  template <class Real, class Words>
-  Real of_product(std::int64_t count, Words product) const {
+  template <class Real, class Words> Real of_product(std::int64_t count, Words product) const {
     const std::size_t used = product.size();
     const bool negative = count < 0;
-    const auto factor = negative ? 0 - static_cast<std::uint64_t>(count) : static_cast<std::uint64_t>(count);
+    const auto factor =
+        negative ? 0 - static_cast<std::uint64_t>(count) : static_cast<std::uint64_t>(count);
     unsigned __int128 carry = 0;
     for (std::size_t k = used; k-- > 0;) {
       carry += static_cast<unsigned __int128>(bits[k]) * factor;
@@ -82,8 +81,7 @@ struct TurnFraction {
 };
 
 /// amplitude sin(2 pi (frequency t + phase)).
-template <class Number>
-struct Swing {
+template <class Number> struct Swing {
   Number amplitude;           ///< [m], or [turns] of a rotation
   Number frequency;           ///< [1/s], of either sign
   Number phase;               ///< [turns]
@@ -92,7 +90,8 @@ struct Swing {
 
 /// The swings with each number converted.
 template <class To, class From, class Convert>
-std::vector<Swing<To>> converted_swings(const std::vector<Swing<From>>& from, const Convert& convert) {
+std::vector<Swing<To>> converted_swings(
+    const std::vector<Swing<From>>& from, const Convert& convert) {
   std::vector<Swing<To>> to;
   for (const auto& s : from)
     to.push_back({convert(s.amplitude), convert(s.frequency), convert(s.phase), s.per_period});
@@ -100,8 +99,7 @@ std::vector<Swing<To>> converted_swings(const std::vector<Swing<From>>& from, co
 }
 
 /// Rotation at constant speed; whole periods of the clock are subtracted from its phase exactly.
-template <class Real>
-struct Drive {
+template <class Real> struct Drive {
   Real frequency{0};  ///< [1/s]
   Real speed{0};      ///< 2 pi frequency [rad/s]
   TurnFraction per_period{};
@@ -114,14 +112,10 @@ struct Drive {
 };
 
 /// Value and two derivatives.
-template <class Real>
-struct Moved {
-  Real value{0}, rate{0}, second{0};
-};
+template <class Real> struct Moved { Real value{0}, rate{0}, second{0}; };
 
 /// A sum of swings, ready to be evaluated.
-template <class Real>
-class Swings {
+template <class Real> class Swings {
  public:
   Swings() = default;
   explicit Swings(const std::vector<Swing<Real>>& given) {
@@ -144,7 +138,6 @@ class Swings {
     }
     return moved;
   }
-
  private:
   struct Driven {
     Drive<Real> drive;
@@ -154,20 +147,18 @@ class Swings {
 };
 
 /// One joint of a chain: it rotates all that follows it about an axis, or translates it.
-template <class Number>
-struct Joint {
+template <class Number> struct Joint {
   bool rotates = true;
-  std::array<Number, 3> axis{};         ///< in the frame of the joint before; of any length
-  std::array<Number, 3> shift{};        ///< of a translation [m]
-  Number angle{};                       ///< of a rotation [turns]
-  Number speed{};                       ///< constant, of either sign: [turns/s], or [m/s] along the axis
-  TurnFraction per_period{};            ///< of the turns in a period of the clock
+  std::array<Number, 3> axis{};   ///< in the frame of the joint before; of any length
+  std::array<Number, 3> shift{};  ///< of a translation [m]
+  Number angle{};                 ///< of a rotation [turns]
+  Number speed{};                 ///< constant, of either sign: [turns/s], or [m/s] along the axis
+  TurnFraction per_period{};      ///< of the turns in a period of the clock
   std::vector<Swing<Number>> swings{};  ///< along the axis, or about it
 };
 
 /// A chain of joints from the ground to the vessel, and the period of the clock.
-template <class Number>
-struct Joints {
+template <class Number> struct Joints {
   std::vector<Joint<Number>> list;
   Number period{};  ///< [s]
   /// Start and end of the run [s], between which translations at constant speed are bounded.
@@ -180,12 +171,12 @@ Joints<To> converted_joints(const Joints<From>& from, const Convert& convert) {
   Joints<To> to{{}, convert(from.period), {convert(from.times[0]), convert(from.times[1])}};
   for (const auto& j : from.list) {
     to.list.push_back({.rotates = j.rotates,
-                       .axis = {convert(j.axis[0]), convert(j.axis[1]), convert(j.axis[2])},
-                       .shift = {convert(j.shift[0]), convert(j.shift[1]), convert(j.shift[2])},
-                       .angle = convert(j.angle),
-                       .speed = convert(j.speed),
-                       .per_period = j.per_period,
-                       .swings = converted_swings<To>(j.swings, convert)});
+        .axis = {convert(j.axis[0]), convert(j.axis[1]), convert(j.axis[2])},
+        .shift = {convert(j.shift[0]), convert(j.shift[1]), convert(j.shift[2])},
+        .angle = convert(j.angle),
+        .speed = convert(j.speed),
+        .per_period = j.per_period,
+        .swings = converted_swings<To>(j.swings, convert)});
   }
   return to;
 }

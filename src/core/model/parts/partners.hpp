@@ -14,7 +14,8 @@ struct WallInfo {
 /// "wall 0" and so on. @param meaning  without the number
 inline std::vector<WallInfo> numbered_walls(int count, const std::string& meaning) {
   std::vector<WallInfo> walls;
-  for (int k = 0; k < count; ++k) walls.push_back({"wall " + std::to_string(k), meaning + std::to_string(k)});
+  for (int k = 0; k < count; ++k)
+    walls.push_back({"wall " + std::to_string(k), meaning + std::to_string(k)});
   return walls;
 }
 
@@ -37,7 +38,7 @@ class Partners {
   explicit Partners(const std::vector<WallInfo>& walls) : walls_(static_cast<int>(walls.size())) {
     for (int id = 0; id < walls_; ++id)
       list_.push_back({partner_key(id, walls_), walls[id].label,
-                       "with wall " + std::to_string(id) + ", " + walls[id].meaning});
+          "with wall " + std::to_string(id) + ", " + walls[id].meaning});
     list_.push_back({partner_key(walls_, walls_), "ball-ball", "between balls"});
   }
 
@@ -45,7 +46,6 @@ class Partners {
   int count() const { return walls_ + 1; }
   int ball_ball() const { return walls_; }
   const PartnerInfo& operator[](int place) const { return list_[place]; }
-
  private:
   int walls_;
   std::vector<PartnerInfo> list_;

@@ -28,10 +28,7 @@ inline constexpr std::array<CoordinateInfo, 5> coordinate_infos = {{
 constexpr const CoordinateInfo& info_of(Coordinate c) { return coordinate_infos[int(c)]; }
 
 /// A position on a wall in coordinates from 0 to 1, equal parts of which have equal areas.
-template <class Real>
-struct WallPlace {
-  Real u, v;
-};
+template <class Real> struct WallPlace { Real u, v; };
 
 /// Number of sides of the polygon that approximates a circle in pictures.
 inline constexpr int picture_sides = 48;
@@ -45,13 +42,11 @@ struct Mesh {
 };
 
 /// Closed polygons: a wall is drawn between them, or inside of a single one.
-template <class Real>
-using Rings = std::vector<std::vector<Vec3<Real>>>;
+template <class Real> using Rings = std::vector<std::vector<Vec3<Real>>>;
 
-/// The angle from x to z in turns, from 0 to 1, with the same bits everywhere: the C library's arc tangent is
-/// not the same on every machine.
-template <class Real>
-Real turns(const Real& x, const Real& z) {
+/// The angle from x to z in turns, from 0 to 1, with the same bits everywhere: the C library's arc
+/// tangent is not the same on every machine.
+template <class Real> Real turns(const Real& x, const Real& z) {
   using std::sqrt;
   const Real size = sqrt(x * x + z * z);
   if (!(size > 0)) return Real(0);
@@ -71,10 +66,9 @@ Real turns(const Real& x, const Real& z) {
   return turn < 0 ? Real(turn + 1) : turn;
 }
 
-/// A surface of revolution about the y axis of its frame: u along the angle from x to z, v along its profile.
-/// Own provides `ring(v)` and its inverse, `share(d)`, for a position d in the frame.
-template <class Real, class Own>
-struct Revolved {
+/// A surface of revolution about the y axis of its frame: u along the angle from x to z, v along
+/// its profile. Own provides `ring(v)` and its inverse, `share(d)`, for a position d in the frame.
+template <class Real, class Own> struct Revolved {
   static constexpr std::array coordinates{Coordinate::angle, Coordinate::height};
 
   Frame<Real> frame;
@@ -91,32 +85,32 @@ struct Revolved {
   Real edge(int axis, std::size_t k, std::size_t n) const {
     if (axis == 0) return 2 * numerics::pi<Real>() * Real(k) / Real(n);
     const auto [radius, height] = own().ring(Real(k) / Real(n));
-    return Own::coordinates[1] == Coordinate::radius ? radius : frame.outside({Real(0), height, Real(0)})[1];
+    return Own::coordinates[1] == Coordinate::radius ? radius
+                                                     : frame.outside({Real(0), height, Real(0)})[1];
   }
   /// Rings at equal steps of v.
   Rings<Real> rings() const {
     Rings<Real> rings;
-    for (int part = 0; part <= Own::parts; ++part) rings.push_back(circle(Real(part) / Real(Own::parts)));
+    for (int part = 0; part <= Own::parts; ++part)
+      rings.push_back(circle(Real(part) / Real(Own::parts)));
     return rings;
   }
-
  protected:
   struct Ring {
     Real radius, height;  ///< in the frame [m]
   };
   std::vector<Vec3<Real>> circle(const Real& v) const {
     std::vector<Vec3<Real>> points;
-    for (int k = 0; k < picture_sides; ++k) points.push_back(point(Real(k) / Real(picture_sides), v));
+    for (int k = 0; k < picture_sides; ++k)
+      points.push_back(point(Real(k) / Real(picture_sides), v));
     return points;
   }
-
  private:
   const Own& own() const { return static_cast<const Own&>(*this); }
 };
 
 /// A flat disc: v along the squared radius.
-template <class Real>
-struct Disc : Revolved<Real, Disc<Real>> {
+template <class Real> struct Disc : Revolved<Real, Disc<Real>> {
   static constexpr const char* name = "caps";
   static constexpr std::array coordinates{Coordinate::angle, Coordinate::radius};
 
@@ -132,8 +126,7 @@ struct Disc : Revolved<Real, Disc<Real>> {
 };
 
 /// A cylinder: v along y.
-template <class Real>
-struct Tube : Revolved<Real, Tube<Real>> {
+template <class Real> struct Tube : Revolved<Real, Tube<Real>> {
   static constexpr const char* name = "the cylinder";
   static constexpr int parts = 1;
 
@@ -144,9 +137,9 @@ struct Tube : Revolved<Real, Tube<Real>> {
   Real area() const { return 2 * numerics::pi<Real>() * radius * 2 * half_height; }
 };
 
-/// A zone of a sphere about the origin of its frame: v along y, which by Archimedes shares the area evenly.
-template <class Real>
-struct Zone : Revolved<Real, Zone<Real>> {
+/// A zone of a sphere about the origin of its frame: v along y, which by Archimedes shares the area
+/// evenly.
+template <class Real> struct Zone : Revolved<Real, Zone<Real>> {
   static constexpr const char* name = "spheres";
   static constexpr int parts = 12;
 
@@ -161,17 +154,18 @@ struct Zone : Revolved<Real, Zone<Real>> {
   Real area() const { return 2 * numerics::pi<Real>() * radius * (high - low); }
 };
 
-/// The quarter of a torus about y that rounds the upper edge of a cylinder: v by area from the cap, where
-/// r = core, down to the cylinder, where r = core + rounding.
-template <class Real>
-struct Edge : Revolved<Real, Edge<Real>> {
+/// The quarter of a torus about y that rounds the upper edge of a cylinder: v by area from the cap,
+/// where r = core, down to the cylinder, where r = core + rounding.
+template <class Real> struct Edge : Revolved<Real, Edge<Real>> {
   static constexpr const char* name = "edges";
   static constexpr int parts = 6;
 
   // The origin of the frame is in the plane of the circle of the torus.
   Real core, rounding;  ///< radii of that circle and of the tube [m]
 
-  Real share(const Vec3<Real>& d) const { return share_to(turns<Real>(d[1], Real(across(d) - core))); }
+  Real share(const Vec3<Real>& d) const {
+    return share_to(turns<Real>(d[1], Real(across(d) - core)));
+  }
   auto ring(const Real& v) const {
     const auto tilt = numerics::sin_cos_turns<Real>(tilt_at(v));
     return typename Edge::Ring{core + rounding * tilt.sin, rounding * tilt.cos};
@@ -180,7 +174,6 @@ struct Edge : Revolved<Real, Edge<Real>> {
     const Real pi = numerics::pi<Real>();
     return 2 * pi * rounding * (core * pi / 2 + rounding);
   }
-
  private:
   /// Share of the area from the cap to the tilt [turns] from y.
   Real share_to(const Real& tilt) const {
@@ -209,8 +202,7 @@ struct Edge : Revolved<Real, Edge<Real>> {
 };
 
 /// A flat rectangle: u and v along its edges.
-template <class Real>
-struct Rectangle {
+template <class Real> struct Rectangle {
   static constexpr const char* name = "rectangles";
   static constexpr std::array coordinates{Coordinate::u, Coordinate::v};
 
@@ -238,8 +230,7 @@ struct Rectangle {
 };
 
 /// A surface with an area but no coordinates, such as the rounded edges of a box.
-template <class Real>
-struct Patch {
+template <class Real> struct Patch {
   static constexpr const char* name = "patches";
   static constexpr std::array coordinates{Coordinate::u, Coordinate::v};
 
@@ -253,15 +244,13 @@ struct Patch {
 };
 
 /// A flat polygon: u and v along the edges of a rectangle around it.
-template <class Real>
-struct Polygon : Rectangle<Real> {
+template <class Real> struct Polygon : Rectangle<Real> {
   static constexpr const char* name = "polygons";
   std::vector<Vec3<Real>> corners;  ///< in turn [m]
 
   Rings<Real> rings() const { return {corners}; }
 };
-template <class Real>
-Polygon<Real> polygon_of(const std::vector<Vec3<Real>>& corners) {
+template <class Real> Polygon<Real> polygon_of(const std::vector<Vec3<Real>>& corners) {
   const Vec3<Real> edge = corners[1] - corners[0], x = edge / norm<Real>(edge);
   const Vec3<Real> side = corners[2] - corners[0];
   const Vec3<Real> across = side - x * dot<Real>(side, x), y = across / norm<Real>(across);
@@ -274,19 +263,18 @@ Polygon<Real> polygon_of(const std::vector<Vec3<Real>>& corners) {
       high[k] = at[k] > high[k] ? at[k] : high[k];
     }
   }
-  const Vec3<Real> centre = corners[0] + x * Real((low[0] + high[0]) / 2) + y * Real((low[1] + high[1]) / 2);
+  const Vec3<Real> centre =
+      corners[0] + x * Real((low[0] + high[0]) / 2) + y * Real((low[1] + high[1]) / 2);
   return {{centre, {x * Real((high[0] - low[0]) / 2), y * Real((high[1] - low[1]) / 2)}}, corners};
 }
 
 /// The surface of one wall, of one of these kinds.
-template <class Real>
-class WallSurface {
+template <class Real> class WallSurface {
  public:
-  using Kind = std::variant<Disc<Real>, Tube<Real>, Zone<Real>, Edge<Real>, Rectangle<Real>, Polygon<Real>,
-                            Patch<Real>>;
+  using Kind = std::variant<Disc<Real>, Tube<Real>, Zone<Real>, Edge<Real>, Rectangle<Real>,
+      Polygon<Real>, Patch<Real>>;
 
-  template <class Surface>
-  WallSurface(const Surface& surface) : kind_(surface) {}
+  template <class Surface> WallSurface(const Surface& surface) : kind_(surface) {}
 
   const Kind& kind() const { return kind_; }
   /// Name of this kind of walls, for readers.
@@ -317,20 +305,19 @@ class WallSurface {
   Rings<Real> rings() const {
     return visit([](const auto& s) { return s.rings(); });
   }
-
  private:
   auto visit(const auto& function) const { return std::visit(function, kind_); }
 
   Kind kind_;
 };
 
-template <class Real>
-Mesh mesh_of(const WallSurface<Real>& surface) {
+template <class Real> Mesh mesh_of(const WallSurface<Real>& surface) {
   Mesh mesh;
   const auto rings = surface.rings();
   for (const auto& ring : rings)
     for (const auto& point : ring) mesh.points.push_back(vector_cast<double>(point));
-  const int corners = static_cast<int>(rings.front().size()), count = static_cast<int>(rings.size());
+  const int corners = static_cast<int>(rings.front().size()),
+            count = static_cast<int>(rings.size());
   if (count == 1) {
     mesh.faces.emplace_back(corners);
     std::iota(mesh.faces[0].begin(), mesh.faces[0].end(), 0);
@@ -345,12 +332,13 @@ Mesh mesh_of(const WallSurface<Real>& surface) {
 
 /// Walls of a box about the origin, by wall id: x-, x+, y-, y+, z-, z+.
 /// @param half_sizes  half of its edges along the axes [m]
-template <class Real>
-std::vector<WallSurface<Real>> box_surfaces(const Vec3<Real>& half_sizes) {
+template <class Real> std::vector<WallSurface<Real>> box_surfaces(const Vec3<Real>& half_sizes) {
   std::vector<WallSurface<Real>> walls;
   for (int axis = 0; axis < 3; ++axis)
     for (const int side : {-1, 1}) {
-      const auto half = [&](int k) { return Vec3<Real>(Vec3<Real>::Unit(k % 3) * half_sizes[k % 3]); };
+      const auto half = [&](int k) {
+        return Vec3<Real>(Vec3<Real>::Unit(k % 3) * half_sizes[k % 3]);
+      };
       walls.push_back(Rectangle<Real>{half(axis) * Real(side), {half(axis + 1), half(axis + 2)}});
     }
   return walls;

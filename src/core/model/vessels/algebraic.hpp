@@ -16,8 +16,7 @@
 namespace edmill::model {
 
 /// A polynomial of a place and of the radius of a ball, to be evaluated.
-template <class Real>
-struct AlgebraicForm {
+template <class Real> struct AlgebraicForm {
   struct Term {
     Real factor;
     Polynomial<double>::Powers powers;
@@ -25,8 +24,7 @@ struct AlgebraicForm {
   };
   std::vector<Term> terms;
 
-  template <class To>
-  AlgebraicForm<To> cast() const {
+  template <class To> AlgebraicForm<To> cast() const {
     AlgebraicForm<To> to;
     for (const auto& t : terms) to.terms.push_back({static_cast<To>(t.factor), t.powers});
     return to;
@@ -52,8 +50,8 @@ struct AlgebraicForm {
     for (const auto& t : terms) sum += product(magnitude(t.factor), t.powers, sizes, r);
     return sum;
   }
-  static Real product(Real factor, const Polynomial<double>::Powers& powers, const Vec3<Real>& p,
-                      const Real& r) {
+  static Real product(
+      Real factor, const Polynomial<double>::Powers& powers, const Vec3<Real>& p, const Real& r) {
     for (int axis = 0; axis < 3; ++axis)
       for (int k = 0; k < powers[axis]; ++k) factor *= p[axis];
     for (int k = 0; k < powers[3]; ++k) factor *= r;
@@ -61,26 +59,25 @@ struct AlgebraicForm {
   }
 };
 
-/// A vessel whose wall k is where the k-th polynomial, the gap, is zero; it need not be a length. The ball's
-/// radius is one of its variables, so that an inset only changes the radius.
-template <class Real>
-class AlgebraicVessel {
+/// A vessel whose wall k is where the k-th polynomial, the gap, is zero; it need not be a length.
+/// The ball's radius is one of its variables, so that an inset only changes the radius.
+template <class Real> class AlgebraicVessel {
  public:
   using Scalar = Real;
   static constexpr std::size_t most_walls = 32;
   static constexpr int most_degree = 8;
-  template <class Value>
-  using PerWall = boost::container::static_vector<Value, most_walls>;
-  template <class Value>
-  using PerKind = PerWall<Value>;
+  template <class Value> using PerWall = boost::container::static_vector<Value, most_walls>;
+  template <class Value> using PerKind = PerWall<Value>;
 
   /// @throws InputError when the walls close no vessel in the box
   AlgebraicVessel(const std::vector<Polynomial<Real>>& walls, const Vec3<Real>& half_sizes) {
     if (walls.empty() || walls.size() > most_walls)
-      throw InputError("vessel: found " + std::to_string(walls.size()) + " walls, expected 1 to 32");
+      throw InputError(
+          "vessel: found " + std::to_string(walls.size()) + " walls, expected 1 to 32");
     if (!(half_sizes.minCoeff() > 0))
       throw InputError(
-          "vessel: found half_sizes that are not positive, expected those of a box around the vessel");
+          "vessel: found half_sizes that are not positive, expected those of a box around the "
+          "vessel");
     auto shape = std::make_shared<Shape>();
     for (const auto& polynomial : walls) {
       AlgebraicForm<Real> gap;
@@ -89,10 +86,11 @@ class AlgebraicVessel {
       for (const auto& t : gap.terms)
         if (t.degree() > most_degree || t.powers[3] > most_degree)
           throw InputError("vessel: found a wall of degree " +
-                           std::to_string(std::max(t.degree(), t.powers[3])) + ", expected at most 8");
+              std::to_string(std::max(t.degree(), t.powers[3])) + ", expected at most 8");
       shape->walls.push_back(Wall(std::move(gap)));
       if (shape->walls.back().by_radius.terms.empty())
-        throw InputError("vessel: found a wall that does not depend on r, expected a ball's radius in it");
+        throw InputError(
+            "vessel: found a wall that does not depend on r, expected a ball's radius in it");
     }
     shape->half_sizes = half_sizes;
     shape_ = shape;
@@ -102,8 +100,7 @@ class AlgebraicVessel {
     shape->widest = widest;
     shape->volume = volume;
   }
-  template <class To>
-  AlgebraicVessel<To> cast() const {
+  template <class To> AlgebraicVessel<To> cast() const {
     auto shape = std::make_shared<typename AlgebraicVessel<To>::Shape>();
     for (const auto& wall : shape_->walls) shape->walls.push_back({wall.gap.template cast<To>()});
     shape->half_sizes = vector_cast<To>(shape_->half_sizes);
@@ -120,7 +117,9 @@ class AlgebraicVessel {
 
   Real reach() const { return norm<Real>(half_sizes()); }
   Real extent() const { return half_sizes().sum(); }
-  Vec3<Real> half_sizes() const { return shape_->half_sizes - Vec3<Real>(radius_, radius_, radius_); }
+  Vec3<Real> half_sizes() const {
+    return shape_->half_sizes - Vec3<Real>(radius_, radius_, radius_);
+  }
   /// Accurate to about a thousandth.
   Real volume() const { return shape_->volume; }
   Real widest_ball() const { return shape_->widest - 2 * radius_; }
@@ -178,10 +177,10 @@ class AlgebraicVessel {
     });
   }
   static constexpr bool is_flat(int) { return false; }
-  /// Error of a coordinate, propagated by the derivatives, and a rounding for each product and sum; a margin
-  /// of one part in sixteen covers the squares of errors.
-  ErrorBounds<Real> curved_errors(int index, const ErrorBounds<Real>& y, const Real& u, const Real& v,
-                                  const Real& a, const Real& beyond) const {
+  /// Error of a coordinate, propagated by the derivatives, and a rounding for each product and sum;
+  /// a margin of one part in sixteen covers the squares of errors.
+  ErrorBounds<Real> curved_errors(int index, const ErrorBounds<Real>& y, const Real& u,
+      const Real& v, const Real& a, const Real& beyond) const {
     const auto& wall = of(index);
     const Vec3<Real> sizes = half_sizes() + Vec3<Real>(beyond, beyond, beyond);
     const Real value = wall.gap.size(sizes, radius_), first = wall.steepest(sizes, radius_),
@@ -189,9 +188,9 @@ class AlgebraicVessel {
     const Real rounding = Real(static_cast<int>(wall.gap.terms.size()) + 2 * most_degree + 16) * u;
     const Real more = Real(17) / 16, bend = a * y.value + 2 * v * y.rate;
     return {more * (first * y.value) + rounding * value,
-            more * (first * y.rate + second * (v * y.value)) + rounding * (first * v),
-            more * (first * y.second + second * bend + third * (v * v * y.value)) +
-                rounding * (first * a + second * (v * v))};
+        more * (first * y.rate + second * (v * y.value)) + rounding * (first * v),
+        more * (first * y.second + second * bend + third * (v * v * y.value)) +
+            rounding * (first * a + second * (v * v))};
   }
 
   Vec3<Real> normal(int wall, const Vec3<Real>& p) const {
@@ -199,10 +198,8 @@ class AlgebraicVessel {
     return slope / norm<Real>(slope);
   }
   Real overlap(int wall, const Vec3<Real>& p) const { return radius_ - touching(wall, p); }
-
  private:
-  template <class>
-  friend class AlgebraicVessel;
+  template <class> friend class AlgebraicVessel;
   using Form = AlgebraicForm<Real>;
 
   /// A gap with its derivatives by the coordinates.
@@ -252,8 +249,9 @@ class AlgebraicVessel {
   AlgebraicVessel(std::shared_ptr<const Shape> shape, const Real& radius)
       : shape_(std::move(shape)), radius_(radius) {}
 
-  /// The radius of the ball about p that touches the wall, by Newton's method: inside, the gap decreases with
-  /// the radius, and more and more slowly. Where it increases, the ball is wider than the vessel.
+  /// The radius of the ball about p that touches the wall, by Newton's method: inside, the gap
+  /// decreases with the radius, and more and more slowly. Where it increases, the ball is wider
+  /// than the vessel.
   Real touching(int index, const Vec3<Real>& p) const {
     const auto& wall = of(index);
     const Real sharp = 8 * epsilon<Real>() * shape_->half_sizes.maxCoeff();
@@ -275,12 +273,12 @@ class AlgebraicVessel {
     return values;
   }
 
-  /// True if the centre of a ball of this radius can be at p. For a much larger ball, a gap such as (R - r)^2
+  /// True if the centre of a ball of this radius can be at p. For a much larger ball, a gap such as
+  /// (R - r)^2
   /// - x^2 - z^2 becomes positive again, but there it increases with the radius.
   bool has_room(const Vec3<Real>& p, const Real& r) const {
-    return std::all_of(shape_->walls.begin(), shape_->walls.end(), [&](const Wall& wall) {
-      return wall.gap.at(p, r) >= 0 && wall.by_radius.at(p, r) < 0;
-    });
+    return std::all_of(shape_->walls.begin(), shape_->walls.end(),
+        [&](const Wall& wall) { return wall.gap.at(p, r) >= 0 && wall.by_radius.at(p, r) < 0; });
   }
   /// True if the vessel reaches a face of the box, tested on a lattice of points.
   bool reaches_out() const {
@@ -309,8 +307,8 @@ class AlgebraicVessel {
     }
     return low;
   }
-  /// Diameter of the largest ball, by hill climbing from the best point of a lattice, and volume, by counting
-  /// points.
+  /// Diameter of the largest ball, by hill climbing from the best point of a lattice, and volume,
+  /// by counting points.
   std::pair<Real, Real> measures() const {
     constexpr int steps = 48;
     const auto& half = shape_->half_sizes;
@@ -320,7 +318,8 @@ class AlgebraicVessel {
     for (int i = 0; i < steps * steps * steps; ++i) {
       const int n[3] = {i % steps, i / steps % steps, i / (steps * steps)};
       Vec3<Real> p;
-      for (int axis = 0; axis < 3; ++axis) p[axis] = half[axis] * Real(2 * n[axis] + 1 - steps) / Real(steps);
+      for (int axis = 0; axis < 3; ++axis)
+        p[axis] = half[axis] * Real(2 * n[axis] + 1 - steps) / Real(steps);
       if (!has_room(p, Real(0))) continue;
       ++inside;
       if (!has_room(p, most)) continue;

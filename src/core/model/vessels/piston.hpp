@@ -11,8 +11,7 @@
 namespace edmill::model {
 
 /// Inward displacement of a wall from its place in the vessel: distance + speed t + swings.
-template <class Number>
-struct Piston {
+template <class Number> struct Piston {
   int wall;         ///< id
   Number distance;  ///< [m]
   Number speed;     ///< [m/s]
@@ -20,18 +19,17 @@ struct Piston {
 };
 
 /// The pistons of a vessel.
-template <class Real>
-class Pistons {
+template <class Real> class Pistons {
  public:
   /// @param period  of the clock [s]
   Pistons(std::vector<Piston<Real>> pistons, const Real& period)
       : given_(std::move(pistons)), period_(period) {
     for (auto& piston : given_)
-      for (auto& swing : piston.swings) swing.frequency = swing.per_period.template value<Real>() / period_;
+      for (auto& swing : piston.swings)
+        swing.frequency = swing.per_period.template value<Real>() / period_;
     for (const auto& piston : given_) swings_.emplace_back(piston.swings);
   }
-  template <class To>
-  Pistons<To> cast() const {
+  template <class To> Pistons<To> cast() const {
     const auto to = [](const Real& x) { return static_cast<To>(x); };
     std::vector<Piston<To>> list;
     for (const auto& p : given_)
@@ -73,7 +71,8 @@ class Pistons {
     }
     return most * (1 + rounding_margin<Real>());
   }
-  /// Longest window [s] for which the derivative bounds are valid: a quarter of a radian of each swing.
+  /// Longest window [s] for which the derivative bounds are valid: a quarter of a radian of each
+  /// swing.
   Real longest_window() const {
     Real longest = period_;
     for (const auto& piston : given_)
@@ -83,16 +82,18 @@ class Pistons {
       }
     return longest;
   }
-  /// Bounds on the rounding errors of a displacement and its derivatives, including those of the case's
-  /// numbers. A piston stays in the vessel, so that speed t is below |distance| + extent.
+  /// Bounds on the rounding errors of a displacement and its derivatives, including those of the
+  /// case's numbers. A piston stays in the vessel, so that speed t is below |distance| + extent.
   /// @param extent  of the vessel, beyond half of which no piston goes [m]
   ErrorBounds<Real> errors(std::size_t k, const Real& u, const Real& extent) const {
     const auto& piston = given_[k];
-    ErrorBounds<Real> e{32 * extent + (piston.speed == 0 ? Real(0) : Real(16 * magnitude(piston.distance))),
-                        4 * magnitude(piston.speed), Real(0)};
+    ErrorBounds<Real> e{
+        32 * extent + (piston.speed == 0 ? Real(0) : Real(16 * magnitude(piston.distance))),
+        4 * magnitude(piston.speed), Real(0)};
     for (const auto& s : piston.swings) {
       const Real turning = 2 * numerics::pi<Real>() * magnitude(s.frequency);
-      const Real relative = 16 + 7 * (4 + 3 * magnitude<Real>(s.frequency * period_) + magnitude(s.phase));
+      const Real relative =
+          16 + 7 * (4 + 3 * magnitude<Real>(s.frequency * period_) + magnitude(s.phase));
       const Real of_value = magnitude(s.amplitude) * relative;
       e.value += of_value;
       e.rate += of_value * turning;
@@ -100,7 +101,6 @@ class Pistons {
     }
     return {u * e.value, u * e.rate, u * e.second};
   }
-
  private:
   std::vector<Piston<Real>> given_;
   Real period_;
@@ -108,8 +108,7 @@ class Pistons {
 };
 
 /// The pistons of a vessel; null if it cannot have any.
-template <class V>
-const Pistons<typename V::Scalar>* pistons_of(const V& vessel) {
+template <class V> const Pistons<typename V::Scalar>* pistons_of(const V& vessel) {
   if constexpr (requires { vessel.pistons(); })
     return vessel.pistons();
   else

@@ -13,15 +13,12 @@
 namespace edmill::model {
 
 /// Each wall is a plane with its unit normal n outwards. The gap is the length d - n.p [m].
-template <class Real>
-class PolyhedronVessel {
+template <class Real> class PolyhedronVessel {
  public:
   using Scalar = Real;
   static constexpr std::size_t most_walls = 32;
-  template <class Value>
-  using PerWall = boost::container::static_vector<Value, most_walls>;
-  template <class Value>
-  using PerKind = PerWall<Value>;
+  template <class Value> using PerWall = boost::container::static_vector<Value, most_walls>;
+  template <class Value> using PerKind = PerWall<Value>;
   struct Plane {
     Vec3<Real> normal;  ///< outwards; made a unit vector
     Real distance;      ///< d > 0, of the plane from the origin [m]
@@ -32,7 +29,8 @@ class PolyhedronVessel {
     std::string found, expected;
   };
 
-  /// @throws InputError when the planes do not close a vessel about the origin, or one is not a wall of it
+  /// @throws InputError when the planes do not close a vessel about the origin, or one is not a
+  /// wall of it
   explicit PolyhedronVessel(const std::vector<Plane>& planes) {
     if (const auto problem = fill(planes))
       throw InputError("vessel: found " + problem->found + ", expected " + problem->expected);
@@ -40,8 +38,7 @@ class PolyhedronVessel {
   static std::optional<Problem> problem_of(const std::vector<Plane>& planes) {
     return PolyhedronVessel().fill(planes);
   }
-  template <class To>
-  PolyhedronVessel<To> cast() const {
+  template <class To> PolyhedronVessel<To> cast() const {
     PolyhedronVessel<To> other;
     for (const auto& p : planes_)
       other.planes_.push_back({vector_cast<To>(p.normal), static_cast<To>(p.distance)});
@@ -71,11 +68,12 @@ class PolyhedronVessel {
     for (auto& plane : smaller.planes_) plane.distance -= by;
     return smaller;
   }
-  /// True if there are no corners: a closed, non-empty vessel has some. Testing the origin would not suffice,
-  /// since it may be outside after an inset.
+  /// True if there are no corners: a closed, non-empty vessel has some. Testing the origin would
+  /// not suffice, since it may be outside after an inset.
   bool is_empty() const {
     const auto faces = make_faces();
-    return std::all_of(faces.begin(), faces.end(), [](const Polygon& face) { return face.empty(); });
+    return std::all_of(
+        faces.begin(), faces.end(), [](const Polygon& face) { return face.empty(); });
   }
   bool contains(const Vec3<Real>& p) const {
     bool inside = true;
@@ -115,19 +113,19 @@ class PolyhedronVessel {
     return bounds;
   }
   static bool is_flat(int) { return false; }
-  /// Errors of the three coordinates, a rounding for each product and sum, and that of the unit normal.
-  ErrorBounds<Real> curved_errors(int wall, const ErrorBounds<Real>& y, const Real& u, const Real& v,
-                                  const Real& a, const Real& beyond) const {
+  /// Errors of the three coordinates, a rounding for each product and sum, and that of the unit
+  /// normal.
+  ErrorBounds<Real> curved_errors(int wall, const ErrorBounds<Real>& y, const Real& u,
+      const Real& v, const Real& a, const Real& beyond) const {
     const Real n = planes_[wall].normal.cwiseAbs().sum();
-    return {n * y.value + 16 * u * (reach_ + beyond), n * y.rate + 16 * u * v, n * y.second + 16 * u * a};
+    return {n * y.value + 16 * u * (reach_ + beyond), n * y.rate + 16 * u * v,
+        n * y.second + 16 * u * a};
   }
 
   Vec3<Real> normal(int wall, const Vec3<Real>&) const { return -planes_[wall].normal; }
   Real overlap(int wall, const Vec3<Real>& p) const { return -gap(wall, p); }
-
  private:
-  template <class>
-  friend class PolyhedronVessel;
+  template <class> friend class PolyhedronVessel;
   PolyhedronVessel() = default;
 
   using Polygon = std::vector<Vec3<Real>>;
@@ -139,7 +137,7 @@ class PolyhedronVessel {
       const Real size = norm<Real>(plane.normal);
       if (!(size > 0) || !(plane.distance > 0))
         return Problem{"a plane without a normal, or with the origin outside",
-                       "a normal, and the origin inside"};
+            "a normal, and the origin inside"};
       planes_.push_back({plane.normal / size, plane.distance});
     }
     for (std::size_t i = 0; i < planes_.size(); ++i)
@@ -153,7 +151,8 @@ class PolyhedronVessel {
     Real reach(0);
     for (std::size_t wall = 0; wall < faces.size(); ++wall) {
       if (faces[wall].size() < 3)
-        return Problem{"a plane " + std::to_string(wall) + " that forms no wall", "planes that form walls"};
+        return Problem{
+            "a plane " + std::to_string(wall) + " that forms no wall", "planes that form walls"};
       for (const auto& corner : faces[wall]) {
         const Real size = norm<Real>(corner);
         reach = size > reach ? size : reach;
@@ -214,7 +213,8 @@ class PolyhedronVessel {
       const Vec3<Real> d = p - middle;
       return turns<Real>(dot<Real>(d, x), dot<Real>(d, y));
     };
-    std::sort(face.begin(), face.end(), [&](const auto& p, const auto& q) { return angle(p) < angle(q); });
+    std::sort(face.begin(), face.end(),
+        [&](const auto& p, const auto& q) { return angle(p) < angle(q); });
   }
   static Real area_of(const Polygon& face) {
     Vec3<Real> sum = Vec3<Real>::Zero();
@@ -222,14 +222,16 @@ class PolyhedronVessel {
       sum += cross<Real>(Vec3<Real>(face[k] - face[0]), Vec3<Real>(face[k + 1] - face[0]));
     return norm<Real>(sum) / 2;
   }
-  /// True if there is a direction that meets no plane; the directions of the edges suffice for the test.
+  /// True if there is a direction that meets no plane; the directions of the edges suffice for the
+  /// test.
   bool is_open() const {
     for (const auto& a : planes_)
       for (const auto& b : planes_) {
         const Vec3<Real> along = cross<Real>(a.normal, b.normal);
         if (!(squared_norm<Real>(along) * 1000000000000 > 1)) continue;
         bool leads_out = true;
-        for (const auto& plane : planes_) leads_out &= dot<Real>(plane.normal, along) < Real(1) / 1000000000;
+        for (const auto& plane : planes_)
+          leads_out &= dot<Real>(plane.normal, along) < Real(1) / 1000000000;
         if (leads_out) return true;
       }
     return false;
@@ -241,15 +243,13 @@ class PolyhedronVessel {
 };
 
 /// A plane by its outward normal, of any length, a point of it and how far it is moved outwards.
-template <class Number>
-struct Face {
+template <class Number> struct Face {
   std::array<Number, 3> normal{}, point{};
   Number distance{};
 };
 
 /// [vessel] type = "polyhedron": convex, by planes or by the hull of its vertices.
-template <class Number>
-struct Polyhedron {
+template <class Number> struct Polyhedron {
   static constexpr const char* name = "polyhedron";
   std::vector<Face<Number>> faces;
 

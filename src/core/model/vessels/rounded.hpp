@@ -10,21 +10,18 @@
 
 namespace edmill::model {
 
-/// All points within `rounding` of a core: a cylinder about y of radius a and half height b, or a segment if
-/// a is zero. The surface is smooth, but each gap function belongs to one wall, and is valid in the region of
-/// the points whose nearest point of the core is on the corresponding part. A search considers the walls and
-/// the borders of the ball's region. A border is a little beyond the plane or cylinder between two regions,
-/// where the two gap functions differ by less than their rounding: a ball that crosses it is well inside the
-/// next region. theory.md, section 2
-template <class Real>
-class RoundedVessel {
+/// All points within `rounding` of a core: a cylinder about y of radius a and half height b, or a
+/// segment if a is zero. The surface is smooth, but each gap function belongs to one wall, and is
+/// valid in the region of the points whose nearest point of the core is on the corresponding part.
+/// A search considers the walls and the borders of the ball's region. A border is a little beyond
+/// the plane or cylinder between two regions, where the two gap functions differ by less than their
+/// rounding: a ball that crosses it is well inside the next region. theory.md, section 2
+template <class Real> class RoundedVessel {
  public:
   using Scalar = Real;
   static constexpr std::size_t most_functions = 11;
-  template <class Value>
-  using PerWall = boost::container::static_vector<Value, most_functions>;
-  template <class Value>
-  using PerKind = PerWall<Value>;
+  template <class Value> using PerWall = boost::container::static_vector<Value, most_functions>;
+  template <class Value> using PerKind = PerWall<Value>;
 
   RoundedVessel() = default;
   /// @param core_radius  a [m], 0 for a capsule
@@ -36,8 +33,7 @@ class RoundedVessel {
     // The square of the slack is far below the rounding of a gap.
     slack_ = sqrt(epsilon<Real>()) * (a_ + b_ + rounding_) / 64;
   }
-  template <class To>
-  RoundedVessel<To> cast() const {
+  template <class To> RoundedVessel<To> cast() const {
     RoundedVessel<To> to(static_cast<To>(a_), static_cast<To>(b_), static_cast<To>(rounding_));
     return is_sharp_ ? to.sharp(To(0)) : to;
   }
@@ -50,12 +46,10 @@ class RoundedVessel {
   int function_count() const { return a_ > 0 ? 11 : 7; }
   std::vector<WallInfo> walls() const {
     if (!(a_ > 0))
-      return {{"end -y", "the end at -y"}, {"end +y", "the end at +y"}, {"cylinder", "the cylinder"}};
-    return {{"edge -y", "the edge at -y"},
-            {"edge +y", "the edge at +y"},
-            {"cylinder", "the cylinder"},
-            {"cap -y", "the cap at -y"},
-            {"cap +y", "the cap at +y"}};
+      return {
+          {"end -y", "the end at -y"}, {"end +y", "the end at +y"}, {"cylinder", "the cylinder"}};
+    return {{"edge -y", "the edge at -y"}, {"edge +y", "the edge at +y"},
+        {"cylinder", "the cylinder"}, {"cap -y", "the cap at -y"}, {"cap +y", "the cap at +y"}};
   }
   std::vector<WallSurface<Real>> surfaces() const {
     const Vec3<Real> top{Real(0), b_, Real(0)}, end{Real(0), Real(b_ + rounding_), Real(0)};
@@ -65,9 +59,9 @@ class RoundedVessel {
     const Tube<Real> tube{{frame_at<Real>(zero)}, a_ + rounding_, b_};
     if (!(a_ > 0))
       return {Zone<Real>{{down}, rounding_, Real(0), rounding_},
-              Zone<Real>{{up}, rounding_, Real(0), rounding_}, tube};
+          Zone<Real>{{up}, rounding_, Real(0), rounding_}, tube};
     return {Edge<Real>{{down}, a_, rounding_}, Edge<Real>{{up}, a_, rounding_}, tube,
-            Disc<Real>{{frame_at<Real>(-end)}, a_}, Disc<Real>{{frame_at<Real>(end)}, a_}};
+        Disc<Real>{{frame_at<Real>(-end)}, a_}, Disc<Real>{{frame_at<Real>(end)}, a_}};
   }
 
   Real reach() const {
@@ -76,17 +70,17 @@ class RoundedVessel {
   }
   Real extent() const { return a_ + b_ + rounding_; }
   Vec3<Real> half_sizes() const { return {a_ + rounding_, b_ + rounding_, a_ + rounding_}; }
-  /// The volumes of the core, of the layers on its caps and around it, and of the quarter of a torus on each
-  /// edge. (Steiner)
+  /// The volumes of the core, of the layers on its caps and around it, and of the quarter of a
+  /// torus on each edge. (Steiner)
   Real volume() const {
     const Real pi = numerics::pi<Real>(), r = rounding_;
     return 2 * pi * (a_ + r) * (a_ + r) * b_ + 2 * pi * a_ * a_ * r + pi * pi * a_ * r * r +
-           4 * pi * r * r * r / 3;
+        4 * pi * r * r * r / 3;
   }
   Real widest_ball() const { return 2 * (a_ < b_ ? Real(a_ + rounding_) : Real(b_ + rounding_)); }
 
-  /// A ball no smaller than the rounding touches the caps and the cylinder only: the region of its centre is
-  /// a cylinder with sharp edges.
+  /// A ball no smaller than the rounding touches the caps and the cylinder only: the region of its
+  /// centre is a cylinder with sharp edges.
   RoundedVessel inset(const Real& by) const {
     if (is_sharp_ || !(by < rounding_)) return sharp(by);
     RoundedVessel smaller(*this);
@@ -133,7 +127,8 @@ class RoundedVessel {
       on[2] = on[3] = on[4] = true;
       return on;
     }
-    const bool above = p[1] > b_, below = p[1] < -b_, outer = !(a_ > 0) || squared_across(p) > a_ * a_;
+    const bool above = p[1] > b_, below = p[1] < -b_,
+               outer = !(a_ > 0) || squared_across(p) > a_ * a_;
     const int region = above ? (outer ? 1 : 4) : below ? (outer ? 0 : 3) : outer ? 2 : in_core;
     if (region != in_core) on[region] = true;
     for (int f = wall_count(); f < function_count(); ++f) on[f] = bounds_region(f, region);
@@ -173,10 +168,10 @@ class RoundedVessel {
   }
   bool is_flat(int f) const { return f >= 2 && along_y(f) != 0; }
   ErrorBounds<Real> curved_errors(int f, const ErrorBounds<Real>& coordinate, const Real& u,
-                                  const Real& frame_speed, const Real& acceleration,
-                                  const Real& beyond) const {
+      const Real& frame_speed, const Real& acceleration, const Real& beyond) const {
     const auto& y = coordinate;
-    const Real &v = frame_speed, &a = acceleration, R = a_ + rounding_ + beyond, slack = 4 * slack_ * slack_;
+    const Real &v = frame_speed, &a = acceleration, R = a_ + rounding_ + beyond,
+               slack = 4 * slack_ * slack_;
     if (f >= 2) {  // a squared distance from the axis
       auto errors = squared_distance_errors(y, u, v, a, R);
       errors.value += slack;
@@ -185,18 +180,20 @@ class RoundedVessel {
     // The distance r from the axis, which is at least a/2, and its derivatives.
     const Real inverse = a_ > 0 ? Real(2 / a_) : Real(0), bend = a + v * v * inverse;
     const auto [r0, r1, r2] = distance_errors(y, u, v, a, R, inverse);
-    const Real far = rounding_ + beyond + a_ / 2, turned = far * (r2 + y.second) + bend * r0 + a * y.value;
+    const Real far = rounding_ + beyond + a_ / 2,
+               turned = far * (r2 + y.second) + bend * r0 + a * y.value;
     return {4 * far * (r0 + y.value) + 8 * u * far * far + slack,
-            3 * (far * (r1 + y.rate) + v * (r0 + y.value)) + 12 * u * far * v,
-            6 * v * (r1 + y.rate) + 3 * turned + 24 * u * (v * v + far * bend)};
+        3 * (far * (r1 + y.rate) + v * (r0 + y.value)) + 12 * u * far * v,
+        6 * v * (r1 + y.rate) + 3 * turned + 24 * u * (v * v + far * bend)};
   }
 
-  /// Computed from the true distance, so that the normal does not depend on the gap function that found the
-  /// contact.
+  /// Computed from the true distance, so that the normal does not depend on the gap function that
+  /// found the contact.
   Vec3<Real> normal(int wall, const Vec3<Real>& p) const {
     if (is_sharp_ && is_cap(wall)) return {Real(0), Real(wall == 3 ? 1 : -1), Real(0)};
     Vec3<Real> d = is_sharp_ ? Vec3<Real>(p[0], Real(0), p[2]) : from_core(p);
-    if (!(squared_norm<Real>(d) > 0)) d = {Real(0), Real(p[1] < 0 ? -1 : 1), Real(0)};  // in the core
+    if (!(squared_norm<Real>(d) > 0))
+      d = {Real(0), Real(p[1] < 0 ? -1 : 1), Real(0)};  // in the core
     return d * Real(-1 / norm<Real>(d));
   }
   Real overlap(int wall, const Vec3<Real>& p) const {
@@ -204,10 +201,8 @@ class RoundedVessel {
     if (is_cap(wall)) return (wall == 3 ? Real(-p[1]) : p[1]) - b_;
     return across(p) - a_;
   }
-
  private:
-  template <class>
-  friend class RoundedVessel;
+  template <class> friend class RoundedVessel;
 
   /// @param square  x^2 + z^2
   /// @param around  r - a, of the edges
@@ -225,11 +220,13 @@ class RoundedVessel {
                        : Real(square - (a_ - slack_) * (a_ - slack_));
   }
   /// @param along, across  derivatives of y and of (x^2 + z^2) / 2
-  /// @param of_edge        half of that of the gap of an edge, less the sign, from its side and y beyond it
-  PerWall<Real> derivatives(const Vec3<Real>& p, const Real& along, const Real& across,
-                            const auto& of_edge) const {
+  /// @param of_edge        half of that of the gap of an edge, less the sign, from its side and y
+  /// beyond it
+  PerWall<Real> derivatives(
+      const Vec3<Real>& p, const Real& along, const Real& across, const auto& of_edge) const {
     PerWall<Real> all;
-    for (const Real& side : {Real(-1), Real(1)}) all.push_back(-2 * of_edge(side, Real(side * p[1] - b_)));
+    for (const Real& side : {Real(-1), Real(1)})
+      all.push_back(-2 * of_edge(side, Real(side * p[1] - b_)));
     for (int f = 2; f < function_count(); ++f)
       all.push_back(along_y(f) != 0 ? Real(along_y(f) * along) : Real(across_y(f) * 2 * across));
     return all;
@@ -243,8 +240,8 @@ class RoundedVessel {
     return smaller;
   }
   bool is_cap(int f) const { return a_ > 0 && (f == 3 || f == 4); }
-  /// Sign of the derivative of a function of y alone, otherwise 0; `across_y` is the sign of a function of
-  /// the distance from the axis.
+  /// Sign of the derivative of a function of y alone, otherwise 0; `across_y` is the sign of a
+  /// function of the distance from the axis.
   int along_y(int f) const {
     if (is_cap(f)) return f == 3 ? 1 : -1;
     constexpr std::array signs{-1, 1, 1, -1, 0, 0};
@@ -254,7 +251,7 @@ class RoundedVessel {
   /// True if a border bounds the region of a wall, or that in the core.
   bool bounds_region(int border, int region) const {
     constexpr int of[6][6] = {{0, 0, 0, 1, 0, 1}, {0, 0, 1, 0, 0, 1}, {1, 1, 0, 0, 0, 1},
-                              {0, 0, 0, 1, 1, 0}, {0, 0, 1, 0, 1, 0}, {1, 1, 0, 0, 1, 0}};
+        {0, 0, 0, 1, 1, 0}, {0, 0, 1, 0, 1, 0}, {1, 1, 0, 0, 1, 0}};
     return of[region][border - wall_count()] != 0;
   }
   Real radial(const Vec3<Real>& p) const { return a_ > 0 ? across(p) : Real(0); }
@@ -267,8 +264,8 @@ class RoundedVessel {
     const Real rest = 1 - a_ / r;
     return {p[0] * rest, y, p[2] * rest};
   }
-  /// Bound on the k-th derivative of r^2 - 2 a r + a^2 + (y - b)^2, where r >= a/2. The derivatives of r
-  /// follow from those of its square.
+  /// Bound on the k-th derivative of r^2 - 2 a r + a^2 + (y - b)^2, where r >= a/2. The derivatives
+  /// of r follow from those of its square.
   Real edge_bound(const CoordinateBounds<Real>& c, int k) const {
     Majorant<Real> y = c.y;
     y[0] = rounding_ + (c.y[0] - (b_ + rounding_));
@@ -286,8 +283,7 @@ class RoundedVessel {
 
 /// [vessel] type = "capsule": a cylinder with hemispherical ends; the height is over all.
 /// Source of the shape: Takacs and McHenry, J. Mater. Sci. 41 (2006) 5246.
-template <class Number>
-struct Capsule {
+template <class Number> struct Capsule {
   static constexpr const char* name = "capsule";
   Number diameter, height;
 
@@ -301,8 +297,7 @@ struct Capsule {
 };
 
 /// [vessel] type = "rounded_cylinder": a cylinder whose edges are a quarter of a torus.
-template <class Number>
-struct RoundedCylinder {
+template <class Number> struct RoundedCylinder {
   static constexpr const char* name = "rounded_cylinder";
   Number diameter, height, edge;
 

@@ -1,4 +1,5 @@
-// Vessels whose gaps are smooth everywhere, about the origin of the vessel frame: cylinder, box, sphere.
+// Vessels whose gaps are smooth everywhere, about the origin of the vessel frame: cylinder, box,
+// sphere.
 #pragma once
 
 #include <optional>
@@ -9,22 +10,19 @@
 
 namespace edmill::model {
 
-/// A closed cylinder about the y axis. The gaps to its caps are lengths [m]; that to the cylinder is q =
-/// (R_v-R)^2 - x^2 - z^2 [m^2], which is smooth on the axis and has the sign of the gap. (2.19'), (2.21'),
-/// (2.22'). Walls as in the thesis: 0 is the cap at y = -h/2, 1 that at y = +h/2, 2 the cylinder.
-template <class Real>
-struct CylinderVessel {
+/// A closed cylinder about the y axis. The gaps to its caps are lengths [m]; that to the cylinder
+/// is q = (R_v-R)^2 - x^2 - z^2 [m^2], which is smooth on the axis and has the sign of the gap.
+/// (2.19'), (2.21'), (2.22'). Walls as in the thesis: 0 is the cap at y = -h/2, 1 that at y = +h/2,
+/// 2 the cylinder.
+template <class Real> struct CylinderVessel {
   using Scalar = Real;
-  template <class Value>
-  using PerWall = std::array<Value, 3>;
-  template <class Value>
-  using PerKind = std::array<Value, 2>;
+  template <class Value> using PerWall = std::array<Value, 3>;
+  template <class Value> using PerKind = std::array<Value, 2>;
 
   Real radius{0};       ///< inner radius R_v [m]
   Real half_height{0};  ///< h/2 [m]
 
-  template <class To>
-  CylinderVessel<To> cast() const {
+  template <class To> CylinderVessel<To> cast() const {
     return {static_cast<To>(radius), static_cast<To>(half_height)};
   }
 
@@ -36,7 +34,7 @@ struct CylinderVessel {
   std::vector<WallSurface<Real>> surfaces() const {
     const Vec3<Real> top{Real(0), half_height, Real(0)};
     return {Disc<Real>{{frame_at<Real>(-top)}, radius}, Disc<Real>{{frame_at<Real>(top)}, radius},
-            Tube<Real>{{frame_at<Real>(Vec3<Real>::Zero())}, radius, half_height}};
+        Tube<Real>{{frame_at<Real>(Vec3<Real>::Zero())}, radius, half_height}};
   }
 
   Real reach() const {
@@ -84,7 +82,7 @@ struct CylinderVessel {
 
   static constexpr bool is_flat(int wall) { return kind_of(wall) == 0; }
   ErrorBounds<Real> curved_errors(int, const ErrorBounds<Real>& y, const Real& u, const Real& v,
-                                  const Real& a, const Real& beyond) const {
+      const Real& a, const Real& beyond) const {
     return squared_distance_errors(y, u, v, a, Real(radius + beyond));
   }
 
@@ -100,8 +98,7 @@ struct CylinderVessel {
 };
 
 /// [vessel] type = "cylinder".
-template <class Number>
-struct Cylinder {
+template <class Number> struct Cylinder {
   static constexpr const char* name = "cylinder";
   Number diameter, height;
 
@@ -113,25 +110,20 @@ struct Cylinder {
 };
 
 /// Walls 0 to 5 are at x = -a, x = +a, y = -b, y = +b, z = -c, z = +c; all gaps are lengths [m].
-template <class Real>
-struct BoxVessel {
+template <class Real> struct BoxVessel {
   using Scalar = Real;
-  template <class Value>
-  using PerWall = std::array<Value, 6>;
-  template <class Value>
-  using PerKind = std::array<Value, 3>;
+  template <class Value> using PerWall = std::array<Value, 6>;
+  template <class Value> using PerKind = std::array<Value, 3>;
 
   Vec3<Real> half{Real(0), Real(0), Real(0)};  ///< a, b, c: half of the edges [m]
 
-  template <class To>
-  BoxVessel<To> cast() const {
-    return {vector_cast<To>(half)};
-  }
+  template <class To> BoxVessel<To> cast() const { return {vector_cast<To>(half)}; }
 
   static constexpr int wall_count() { return 6; }
   static std::vector<WallInfo> walls() {
-    return {{"wall -x", "the wall at -x"}, {"wall +x", "the wall at +x"}, {"wall -y", "the wall at -y"},
-            {"wall +y", "the wall at +y"}, {"wall -z", "the wall at -z"}, {"wall +z", "the wall at +z"}};
+    return {{"wall -x", "the wall at -x"}, {"wall +x", "the wall at +x"},
+        {"wall -y", "the wall at -y"}, {"wall +y", "the wall at +y"}, {"wall -z", "the wall at -z"},
+        {"wall +z", "the wall at +z"}};
   }
 
   std::vector<WallSurface<Real>> surfaces() const { return box_surfaces<Real>(half); }
@@ -151,7 +143,8 @@ struct BoxVessel {
   }
 
   PerWall<Real> gaps(const Vec3<Real>& p) const {
-    return {half[0] + p[0], half[0] - p[0], half[1] + p[1], half[1] - p[1], half[2] + p[2], half[2] - p[2]};
+    return {half[0] + p[0], half[0] - p[0], half[1] + p[1], half[1] - p[1], half[2] + p[2],
+        half[2] - p[2]};
   }
   Real gap(int wall, const Vec3<Real>& p) const {
     const int axis = kind_of(wall);
@@ -174,8 +167,8 @@ struct BoxVessel {
     return {c.x[k], c.y[k], c.z[k]};
   }
   static constexpr bool is_flat(int) { return true; }
-  static ErrorBounds<Real> curved_errors(int, const ErrorBounds<Real>& coordinate, const Real&, const Real&,
-                                         const Real&, const Real&) {
+  static ErrorBounds<Real> curved_errors(int, const ErrorBounds<Real>& coordinate, const Real&,
+      const Real&, const Real&, const Real&) {
     return coordinate;
   }
 
@@ -188,8 +181,7 @@ struct BoxVessel {
 };
 
 /// [vessel] type = "box".
-template <class Number>
-struct Box {
+template <class Number> struct Box {
   static constexpr const char* name = "box";
   std::array<Number, 3> size;
 
@@ -200,20 +192,14 @@ struct Box {
 };
 
 /// One wall, whose gap is q = (R_v-R)^2 - x^2 - y^2 - z^2 [m^2], smooth in the centre.
-template <class Real>
-struct SphereVessel {
+template <class Real> struct SphereVessel {
   using Scalar = Real;
-  template <class Value>
-  using PerWall = std::array<Value, 1>;
-  template <class Value>
-  using PerKind = std::array<Value, 1>;
+  template <class Value> using PerWall = std::array<Value, 1>;
+  template <class Value> using PerKind = std::array<Value, 1>;
 
   Real radius{0};  ///< R_v [m]
 
-  template <class To>
-  SphereVessel<To> cast() const {
-    return {static_cast<To>(radius)};
-  }
+  template <class To> SphereVessel<To> cast() const { return {static_cast<To>(radius)}; }
 
   static constexpr int wall_count() { return 1; }
   static std::vector<WallInfo> walls() { return {{"sphere", "the sphere"}}; }
@@ -229,7 +215,9 @@ struct SphereVessel {
 
   SphereVessel inset(const Real& by) const { return {radius - by}; }
   bool is_empty() const { return !(radius > 0); }
-  bool contains(const Vec3<Real>& p) const { return !is_empty() && squared_norm<Real>(p) <= radius * radius; }
+  bool contains(const Vec3<Real>& p) const {
+    return !is_empty() && squared_norm<Real>(p) <= radius * radius;
+  }
   std::optional<Vec3<Real>> place(const Vec3<Real>& drawn) const {
     if (squared_norm<Real>(drawn) > 1) return std::nullopt;
     return Vec3<Real>(drawn * radius);
@@ -237,7 +225,9 @@ struct SphereVessel {
 
   PerWall<Real> gaps(const Vec3<Real>& p) const { return {gap(0, p)}; }
   Real gap(int, const Vec3<Real>& p) const { return radius * radius - squared_norm<Real>(p); }
-  static PerWall<Real> rates(const Vec3<Real>& p, const Vec3<Real>& u) { return {-2 * dot<Real>(p, u)}; }
+  static PerWall<Real> rates(const Vec3<Real>& p, const Vec3<Real>& u) {
+    return {-2 * dot<Real>(p, u)};
+  }
   static PerWall<Real> curvatures(const Vec3<Real>& p, const Vec3<Real>& u, const Vec3<Real>& a) {
     return {-2 * (squared_norm<Real>(u) + dot<Real>(p, a))};
   }
@@ -248,15 +238,16 @@ struct SphereVessel {
 
   static constexpr int kind_of(int) { return 0; }
   static PerKind<Real> derivative_bounds(const CoordinateBounds<Real>& c, int k) {
-    return {product_bound(c.x, 0, c.x, k) + product_bound(c.y, 0, c.y, k) + product_bound(c.z, 0, c.z, k)};
+    return {product_bound(c.x, 0, c.x, k) + product_bound(c.y, 0, c.y, k) +
+        product_bound(c.z, 0, c.z, k)};
   }
   static constexpr bool is_flat(int) { return false; }
   /// A sum of three squares; by Cauchy's inequality its terms are together at most sqrt(3) R.
   ErrorBounds<Real> curved_errors(int, const ErrorBounds<Real>& y, const Real& u, const Real& v,
-                                  const Real& a, const Real& beyond) const {
+      const Real& a, const Real& beyond) const {
     const Real R = radius + beyond;
     return {4 * R * y.value + 5 * u * R * R, 4 * R * y.rate + 4 * v * y.value + 8 * u * R * v,
-            8 * v * y.rate + 5 * R * y.second + 5 * a * y.value + 14 * u * (v * v + R * a)};
+        8 * v * y.rate + 5 * R * y.second + 5 * a * y.value + 14 * u * (v * v + R * a)};
   }
 
   Vec3<Real> normal(int, const Vec3<Real>& p) const { return p * Real(-1 / norm<Real>(p)); }
@@ -264,8 +255,7 @@ struct SphereVessel {
 };
 
 /// [vessel] type = "sphere".
-template <class Number>
-struct Sphere {
+template <class Number> struct Sphere {
   static constexpr const char* name = "sphere";
   Number diameter;
 

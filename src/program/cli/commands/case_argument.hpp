@@ -16,11 +16,12 @@
 namespace edmill::cli {
 
 /// Adds an option whose value keeps to a rule.
-CLI::Option* add_checked(CLI::App& command, const std::string& name, auto& target, const CLI::Validator& rule,
-                         const std::string& what) {
+CLI::Option* add_checked(CLI::App& command, const std::string& name, auto& target,
+    const CLI::Validator& rule, const std::string& what) {
   return command.add_option(name, target, what)->check(rule);
 }
-CLI::Option* add_required(CLI::App& command, const std::string& name, auto& target, const std::string& what) {
+CLI::Option* add_required(
+    CLI::App& command, const std::string& name, auto& target, const std::string& what) {
   return command.add_option(name, target, what)->required();
 }
 /// Adds an option that can be repeated, with one value each time.
@@ -34,7 +35,8 @@ struct CaseArgument {
 
   void add_to(CLI::App& command, const std::string& name = "case") {
     add_required(command, name, file, "case file (TOML)");
-    add_list(command, "--set", overrides, "section.key=value that overrides the case file; can be repeated");
+    add_list(command, "--set", overrides,
+        "section.key=value that overrides the case file; can be repeated");
   }
   casefile::CaseSpec read() const { return casefile::read_case(file, overrides); }
 };
@@ -49,7 +51,7 @@ inline double part_of_one(const std::string& option, const std::string& text) {
   const double part = value ? value->to<double>() / (percent ? 100 : 1) : 0;
   if (!(part > 0 && part < 1))
     throw InputError(option + ": found \"" + text +
-                     "\", expected a part of the dose rate above 0 and below 1: \"1%\" or 0.01");
+        "\", expected a part of the dose rate above 0 and below 1: \"1%\" or 0.01");
   return part;
 }
 
@@ -59,8 +61,7 @@ inline std::string name_of(const std::string& case_file) {
 }
 
 /// A command on a case, with the values of its options.
-template <class Options>
-class CaseCommand {
+template <class Options> class CaseCommand {
  protected:
   /// Unless a name is given, the output file is beside other outputs of the case.
   void name_file(const std::string& ending) {
@@ -79,8 +80,8 @@ int interruptible(auto& options, const auto& work) {
   return after_signals(work());
 }
 int interruptible(const casefile::CaseSpec& spec, auto& options, const auto& command) {
-  return interruptible(
-      options, [&] { return casefile::with_memory_for(spec, [&] { return command(spec, options); }); });
+  return interruptible(options,
+      [&] { return casefile::with_memory_for(spec, [&] { return command(spec, options); }); });
 }
 
 }  // namespace edmill::cli

@@ -24,45 +24,43 @@ struct Machines {
     io::print("{}", markdown_ ? machines::markdown() : machines::table());
     return ok;
   }
-
  private:
   bool markdown_ = false;
 };
 
 struct New {
   static constexpr const char* name = "new";
-  static constexpr const char* what = "write a commented case file for a mill, its balls and its powder";
+  static constexpr const char* what =
+      "write a commented case file for a mill, its balls and its powder";
 
   void add_options(CLI::App& command) {
-    command.add_option(
-        "--mill", wanted_.machine,
+    command.add_option("--mill", wanted_.machine,
         "mill, one of those that edmill machines lists: \"pm100\" or \"Retsch PM 100\" (default: "
         "spex8000)");
-    command.add_option(
-        "--jar", wanted_.jar,
+    command.add_option("--jar", wanted_.jar,
         "volume of the jar, \"250ml\", or its inner diameter and height, \"75x57mm\" (default: the "
         "usual jar of the mill)");
     add_list(command, "--balls", wanted_.balls,
-             "number, diameter and optional material of balls, \"10x12.7mm\" or \"10x12.7mm:zirconia\"; "
-             "with --fill or --bpr the diameter alone; can be repeated (default: \"10x10mm:steel\")");
+        "number, diameter and optional material of balls, \"10x12.7mm\" or \"10x12.7mm:zirconia\"; "
+        "with --fill or --bpr the diameter alone; can be repeated (default: \"10x10mm:steel\")");
     command.add_option("--fill", wanted_.fill,
-                       "share of the jar that the balls fill, including the gaps between them, \"30%\": "
-                       "determines the number of balls");
+        "share of the jar that the balls fill, including the gaps between them, \"30%\": "
+        "determines the number of balls");
     command.add_option("--powder", wanted_.powder, "mass of the powder, \"5g\" (default: none)");
-    command.add_option(
-        "--bpr", wanted_.ratio,
+    command.add_option("--bpr", wanted_.ratio,
         "ratio of the mass of the balls to that of the powder, 10: determines the number of balls, "
         "or the mass of the powder");
     command.add_option("--target-dose", wanted_.target_dose,
-                       "target dose of the powder, \"10 kJ/g\" (default: none)");
-    command.add_option("--speed", wanted_.speed, "speed of the drive (default: the usual speed of the mill)");
+        "target dose of the powder, \"10 kJ/g\" (default: none)");
+    command.add_option(
+        "--speed", wanted_.speed, "speed of the drive (default: the usual speed of the mill)");
     command.add_option("--restitution", wanted_.restitution,
-                       "coefficient of restitution of all contacts (default: chosen by powder and balls)");
-    command.add_option("--friction", wanted_.friction,
-                       "coefficient of friction of all contacts (default: 0.4)");
+        "coefficient of restitution of all contacts (default: chosen by powder and balls)");
+    command.add_option(
+        "--friction", wanted_.friction, "coefficient of friction of all contacts (default: 0.4)");
     command.add_option("--time", wanted_.time, "simulated time (default: \"10 s\")");
     command.add_option("--out", file_,
-                       "file for the case, written completely or not at all (default: standard output)");
+        "file for the case, written completely or not at all (default: standard output)");
     command.add_flag("--force", force_, "replace an existing file that has other contents");
   }
   int run() {
@@ -71,13 +69,12 @@ struct New {
     if (file_.empty() || file_ == "-")
       io::print("{}", text);
     else if (!force_ && std::filesystem::is_regular_file(file_) && io::content_of(file_) != text)
-      throw InputError(
-          fmt::format("--out: \"{}\" exists with other contents: give another name, or --force", file_));
+      throw InputError(fmt::format(
+          "--out: \"{}\" exists with other contents: give another name, or --force", file_));
     else
       io::NamedFile(file_).write(text);
     return ok;
   }
-
  private:
   machines::Wanted wanted_;
   std::string file_;
@@ -102,7 +99,6 @@ struct Check {
     if (!drawing_.empty()) app::draw_mill(spec, drawing_);
     return ok;
   }
-
  private:
   int check_log() const {
     io::NamedFile file(json_);
@@ -122,13 +118,15 @@ inline std::string list_variables() {
   std::string text;
   const auto add = [&](const char* title, const auto& variables, const auto& belongs) {
     text += fmt::format("{}## {}\n\n| name | thesis | unit | meaning |\n|---|---|---|---|\n",
-                        text.empty() ? "" : "\n", title);
+        text.empty() ? "" : "\n", title);
     for (const auto& v : variables)
       if (belongs(v))
         text += fmt::format("| `{}` | {} | {} | {} |\n", v.name,
-                            v.thesis.empty() ? "" : fmt::format("`{}`", v.thesis), v.unit, v.meaning);
+            v.thesis.empty() ? "" : fmt::format("`{}`", v.thesis), v.unit, v.meaning);
   };
-  const auto is = [](VariableKind kind) { return [kind](const auto& v) { return v.kind == kind; }; };
+  const auto is = [](VariableKind kind) {
+    return [kind](const auto& v) { return v.kind == kind; };
+  };
   add("Flags of an impact (table D.3)", model::impact_variables, is(VariableKind::flag));
   add("Counts of an impact (table D.4)", model::impact_variables, is(VariableKind::count));
   add("Numbers of an impact (table D.5)", model::impact_variables, is(VariableKind::number));
@@ -138,7 +136,8 @@ inline std::string list_variables() {
 
 struct Variables {
   static constexpr const char* name = "variables";
-  static constexpr const char* what = "list the variables that outputs can contain, as Markdown tables";
+  static constexpr const char* what =
+      "list the variables that outputs can contain, as Markdown tables";
 
   void add_options(CLI::App&) {}
   int run() {

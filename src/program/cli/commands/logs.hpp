@@ -19,7 +19,9 @@ namespace edmill::cli {
 
 inline int code_of(compare::Verdict verdict) {
   using compare::Verdict;
-  return verdict == Verdict::differ ? outputs_differ : verdict == Verdict::too_few ? too_few_data : ok;
+  return verdict == Verdict::differ ? outputs_differ
+      : verdict == Verdict::too_few ? too_few_data
+                                    : ok;
 }
 
 /// Options of a command that judges, its output files and its exit code.
@@ -41,7 +43,6 @@ class Judgement {
   }
 
   bool quiet = false;
-
  private:
   std::string json_, junit_;
 };
@@ -53,27 +54,26 @@ struct Compare {
   void add_options(CLI::App& command) {
     add_required(command, "A", options_.a, "reference: folder of a run, or a collision log (CSV)");
     add_required(command, "B", options_.b,
-                 "log to compare with it: folder of a run, or a collision log (CSV)");
+        "log to compare with it: folder of a run, or a collision log (CSV)");
     add_checked(command, "--tolerance", options_.tolerance, CLI::Range(0.0, 1.0),
-                "relative tolerance for single events (default: 1e-9)");
-    command.add_option("--events", options_.events,
-                       "number of events that must agree one by one (default: none)");
+        "relative tolerance for single events (default: 1e-9)");
+    command.add_option(
+        "--events", options_.events, "number of events that must agree one by one (default: none)");
     command.add_option("--from", options_.limits.from,
-                       "start of the statistics, in s (default: where those of both runs begin)");
+        "start of the statistics, in s (default: where those of both runs begin)");
     command.add_option("--until", options_.limits.until,
-                       "end of the statistics, in s (default: the end of the shorter log)");
+        "end of the statistics, in s (default: the end of the shorter log)");
     command.add_option("--within", within_,
-                       "largest relative difference of dose rates that agree, for contacts that last: \"5%\" "
-                       "or 0.05 (default: by their 95 % intervals)");
+        "largest relative difference of dose rates that agree, for contacts that last: \"5%\" "
+        "or 0.05 (default: by their 95 % intervals)");
     add_checked(command, "--batch", options_.batch, CLI::PositiveNumber,
-                "length of a batch in s (default: a twentieth of the common time)");
+        "length of a batch in s (default: a twentieth of the common time)");
     judgement_.add_to(command, "print no table");
   }
   int run() {
     if (!within_.empty()) options_.within = part_of_one("--within", within_);
     return judgement_.of([this] { return app::compare(options_); });
   }
-
  private:
   compare::ComparisonOptions options_;
   std::string within_;
@@ -82,48 +82,50 @@ struct Compare {
 
 struct Audit {
   static constexpr const char* name = "audit";
-  static constexpr const char* what = "check another code's collision log against the physics of a case";
+  static constexpr const char* what =
+      "check another code's collision log against the physics of a case";
 
   void add_options(CLI::App& command) {
     given_.add_to(command);
     add_required(command, "log", options_.log, "collision log (CSV), or folder of a run");
     add_list(command, "--column", options_.columns,
-             "ours=theirs [unit]: edmill's name of a column, and its name in the log; can be repeated");
+        "ours=theirs [unit]: edmill's name of a column, and its name in the log; can be repeated");
     add_checked(command, "--first-ball", options_.first_ball, CLI::Range(0, 1000000000),
-                "number of the log's first ball (default: 0)");
+        "number of the log's first ball (default: 0)");
     command.add_option("--walls", options_.walls,
-                       "the log's numbers of the walls, in the order of edmill's ids: \"1, 2, 3\" for the "
-                       "caps at -y and +y and the cylinder (default: those of edmill)");
+        "the log's numbers of the walls, in the order of edmill's ids: \"1, 2, 3\" for the "
+        "caps at -y and +y and the cylinder (default: those of edmill)");
     add_checked(command, "--tolerance", options_.tolerance, CLI::Range(1e-15, 0.5),
-                "relative tolerance (default: 1e-9)");
+        "relative tolerance (default: 1e-9)");
     add_checked(command, "--gap-tolerance", options_.gap_tolerance, CLI::PositiveNumber,
-                "largest gap or overlap of bodies in contact, in m (default: by rounding)");
+        "largest gap or overlap of bodies in contact, in m (default: by rounding)");
     command.add_flag("--from-start", options_.from_start,
-                     "treat the log as one that begins at the initial state of the case");
-    command.add_flag(
-        "--identify", options_.identify,
+        "treat the log as one that begins at the initial state of the case");
+    command.add_flag("--identify", options_.identify,
         "also search for causes in parts of the log, and for combinations of two and three causes");
     add_checked(command, "--examples", options_.examples, CLI::Range(0, 1000),
-                "number of examples of each kind of violation (default: 3)");
+        "number of examples of each kind of violation (default: 3)");
     judgement_.add_to(command, "print no progress line and no table");
   }
   int run() {
-    return interruptible(given_.read(), options_, [this](const casefile::CaseSpec& spec, auto& options) {
-      return judgement_.of([&] {
-        io::ProgressLine line(judgement_.quiet);
-        if (line) {
-          std::optional<double> end;
-          if (spec.end_time) end = spec.end_time->to<double>();
-          options.progress = [&line, end](double time, std::uint64_t events) {
-            line.show(time, end, events);
-          };
-          options.searching = [&line](const std::string& stage) { line.show("searching: " + stage); };
-        }
-        return app::audit(spec, options);
-      });
-    });
+    return interruptible(
+        given_.read(), options_, [this](const casefile::CaseSpec& spec, auto& options) {
+          return judgement_.of([&] {
+            io::ProgressLine line(judgement_.quiet);
+            if (line) {
+              std::optional<double> end;
+              if (spec.end_time) end = spec.end_time->to<double>();
+              options.progress = [&line, end](double time, std::uint64_t events) {
+                line.show(time, end, events);
+              };
+              options.searching = [&line](const std::string& stage) {
+                line.show("searching: " + stage);
+              };
+            }
+            return app::audit(spec, options);
+          });
+        });
   }
-
  private:
   CaseArgument given_;
   app::AuditOptions options_;
@@ -131,23 +133,24 @@ struct Audit {
 };
 
 /// The value of an option that is a quantity with a unit, "50 us", in SI.
-inline double quantity_from(const std::string& name, const std::string& text, casefile::Dimension dimension) {
+inline double quantity_from(
+    const std::string& name, const std::string& text, casefile::Dimension dimension) {
   const auto read = casefile::parse_quantity(text, dimension);
   if (const auto* problem = std::get_if<casefile::QuantityProblem>(&read))
-    throw CLI::ValidationError(name,
-                               "found " + problem->found + ", expected " + casefile::describe(dimension));
+    throw CLI::ValidationError(
+        name, "found " + problem->found + ", expected " + casefile::describe(dimension));
   return std::get<casefile::Quantity>(read).to<double>();
 }
 
 CLI::Option* add_quantity(CLI::App& command, const std::string& name, auto& target,
-                          casefile::Dimension dimension, const std::string& what) {
+    casefile::Dimension dimension, const std::string& what) {
   return command.add_option_function<std::string>(
       name,
       [&target, name, dimension](const std::string& text) {
         target = quantity_from(name, text, dimension);
         if (!(target > 0))
-          throw CLI::ValidationError(name,
-                                     "found " + text + ", expected a positive " + casefile::noun(dimension));
+          throw CLI::ValidationError(
+              name, "found " + text + ", expected a positive " + casefile::noun(dimension));
       },
       what);
 }
@@ -161,23 +164,24 @@ struct Export : CaseCommand<decks::DeckOptions> {
     given_.add_to(command);
     command.add_option("--to", options_.code, "DEM code: lammps, liggghts or yade")
         ->required()
-        ->check(CLI::IsMember(std::vector<std::string>(decks::deck_codes.begin(), decks::deck_codes.end())));
+        ->check(CLI::IsMember(
+            std::vector<std::string>(decks::deck_codes.begin(), decks::deck_codes.end())));
     command.add_option("--out", folder_, "folder for the deck (default: the working directory)");
     command.add_option("--name", options_.name, "base name of the files (default: deck)")
         ->check(problem_of_name);
     add_quantity(command, "--contact-time", options_.contact_time, Dimension::time,
-                 "duration of the largest ball's contact with a wall (default: \"50 us\")");
+        "duration of the largest ball's contact with a wall (default: \"50 us\")");
     add_quantity(command, "--contact-speed", options_.speed, Dimension::speed,
-                 "approach speed at which a contact takes that time (default: \"1 m/s\")");
+        "approach speed at which a contact takes that time (default: \"1 m/s\")");
     add_quantity(command, "--duration", options_.duration, Dimension::time,
-                 "simulated time (default: until the end of the case)");
+        "simulated time (default: until the end of the case)");
     add_quantity(command, "--frames", options_.frame_interval, Dimension::time,
-                 "time between frames of the dump (default: a fifth of the contact time)");
+        "time between frames of the dump (default: a fifth of the contact time)");
     add_checked(command, "--steps", options_.steps, CLI::Range(10, 10000),
-                "number of time steps in a contact (default: 50)");
+        "number of time steps in a contact (default: 50)");
     add_checked(command, "--facets", options_.facets, CLI::Range(8, 4096),
-                "number of facets of a cylinder, for codes that have only triangles (default: 128 in "
-                "LIGGGHTS and 24 in YADE)");
+        "number of facets of a cylinder, for codes that have only triangles (default: 128 in "
+        "LIGGGHTS and 24 in YADE)");
     command.add_flag("--quiet", quiet_, "print nothing");
   }
   int run() {
@@ -194,7 +198,6 @@ struct Export : CaseCommand<decks::DeckOptions> {
         deck.command, options_.name, spec.file, deck.files.front().name, options_.name);
     return ok;
   }
-
  private:
   static std::string problem_of_name(const std::string& text) {
     const bool plain = text.find_first_of("/ \t'\"") == std::string::npos && !text.empty();
@@ -210,27 +213,29 @@ struct Import : CaseCommand<dem::ImportOptions> {
 
   void add_options(CLI::App& command) {
     add_required(command, "dump", options_.dump,
-                 "dump with frames: `dump custom` of LAMMPS (text or binary) or LIGGGHTS, or a table; may "
-                 "be compressed; - is standard input");
+        "dump with frames: `dump custom` of LAMMPS (text or binary) or LIGGGHTS, or a table; may "
+        "be compressed; - is standard input");
     given_.add_to(command, "--case");
-    command.add_option("--out", options_.log, "file for the log of contacts (CSV; default: contacts.csv)");
+    command.add_option(
+        "--out", options_.log, "file for the log of contacts (CSV; default: contacts.csv)");
     command.add_option("--deck", options_.deck,
-                       "input file of the DEM code, from which time step, units and frame are read");
+        "input file of the DEM code, from which time step, units and frame are read");
     add_quantity(command, "--timestep", options_.time_step, casefile::Dimension::time,
-                 "time step of a dump without times (default: that of the deck)");
-    add_checked(
-        command, "--units", options_.units, CLI::IsMember({"si", "cgs", "mm", "micro", "nano"}),
-        "units of the dump; mm means mm, s, kg (default: those that the dump or the deck names, or si)");
+        "time step of a dump without times (default: that of the deck)");
+    add_checked(command, "--units", options_.units,
+        CLI::IsMember({"si", "cgs", "mm", "micro", "nano"}),
+        "units of the dump; mm means mm, s, kg (default: those that the dump or the deck names, or "
+        "si)");
     command.add_option("--axes", axes_,
-                       "axes X, Y and Z of the case in those of the dump: \"x z -y\" if its y is the case's "
-                       "-Z (default: \"x y z\")");
+        "axes X, Y and Z of the case in those of the dump: \"x z -y\" if its y is the case's "
+        "-Z (default: \"x y z\")");
     command
-        .add_option(
-            "--shift", shift_,
-            "position of the dump's origin in the case: \"0 mm\" \"0 mm\" \"10 mm\" (default: the origin)")
+        .add_option("--shift", shift_,
+            "position of the dump's origin in the case: \"0 mm\" \"0 mm\" \"10 mm\" (default: the "
+            "origin)")
         ->expected(3);
     add_checked(command, "--frame", frame_, CLI::IsMember({"laboratory", "vessel"}),
-                "frame of the dump: laboratory or vessel (default: that of the deck, or laboratory)");
+        "frame of the dump: laboratory or vessel (default: that of the deck, or laboratory)");
     command.add_flag("--quiet", quiet_, "print no progress line and no table");
   }
   int run() {
@@ -252,7 +257,6 @@ struct Import : CaseCommand<dem::ImportOptions> {
       return ok;
     });
   }
-
  private:
   std::string frame_, axes_;
   std::vector<std::string> shift_;
@@ -265,14 +269,15 @@ struct Limit {
 
   void add_options(CLI::App& command) {
     add_required(command, "logs", logs_,
-                 "logs of contacts from decks of one case with different contact times")
+        "logs of contacts from decks of one case with different contact times")
         ->expected(2, 100);
-    command.add_option("--edmill", run_, "folder of a run, or its collision log, to compare the limit with");
+    command.add_option(
+        "--edmill", run_, "folder of a run, or its collision log, to compare the limit with");
     add_quantity(command, "--from", from_, casefile::Dimension::time,
-                 "time at which the statistics begin (default: the start of each log)");
+        "time at which the statistics begin (default: the start of each log)");
     command.add_option("--within", within_,
-                       "largest relative difference of the limit from edmill: \"5%\" or 0.05 (default: by "
-                       "their 95 % intervals)");
+        "largest relative difference of the limit from edmill: \"5%\" or 0.05 (default: by "
+        "their 95 % intervals)");
     command.add_option("--json", json_, "file for the result as JSON");
     command.add_option("--draw", svg_, "file for a drawing (SVG)");
     command.add_flag("--quiet", quiet_, "print no table");
@@ -286,7 +291,6 @@ struct Limit {
     if (!quiet_) io::print("{}", dem::table(limit));
     return code_of(limit.to_edmill ? limit.to_edmill->verdict : compare::Verdict::not_compared);
   }
-
  private:
   std::vector<std::string> logs_;
   std::string run_, json_, svg_, within_;

@@ -24,8 +24,8 @@
 
 namespace edmill::cli {
 
-/// Reserves the folder of a run before its number of digits is searched, so that errors of the folder come
-/// first. Removes folders that it has made and that are still empty.
+/// Reserves the folder of a run before its number of digits is searched, so that errors of the
+/// folder come first. Removes folders that it has made and that are still empty.
 class ReservedFolder {
  public:
   ReservedFolder(const std::string& folder, bool saves, const casefile::CaseSpec& spec) {
@@ -42,7 +42,6 @@ class ReservedFolder {
   }
   ReservedFolder(const ReservedFolder&) = delete;
   ReservedFolder& operator=(const ReservedFolder&) = delete;
-
  private:
   std::vector<std::filesystem::path> made_;  ///< the innermost first
   std::optional<run::RunFolder> folder_;
@@ -66,7 +65,8 @@ class RunCommand {
       const ReservedFolder reserved(folder_, !checkpoint_.empty(), spec);
       if (const int code = choose_digits(spec, scalar); code != ok) return code;
     }
-    if (!checkpoint_.empty()) options.checkpoint = app::first_checkpoint(spec, scalar, report_, checkpoint_);
+    if (!checkpoint_.empty())
+      options.checkpoint = app::first_checkpoint(spec, scalar, report_, checkpoint_);
     const int code = with_progress(options, [&] { return app::run(scalar, spec, options); });
     if (code != ok || shadow_.empty()) return code;
     const auto result = app::shadow(spec, scalar, shadow_, options.interrupt);
@@ -119,7 +119,6 @@ class RunCommand {
     if (!result.report.empty() && !quiet_) io::print("The report is {}\n", result.report);
     return plus_signal(code_of(result.end_reason));
   }
-
  private:
   /// Does trial runs, which write nothing, with a progress line. @return the result of `work`
   auto after_trials(const casefile::CaseSpec& spec, const auto& work) const {
@@ -135,8 +134,8 @@ class RunCommand {
 
   /// Prints the cost of the run. @param scalar  empty where the case asks for digits
   int print_estimate(const casefile::CaseSpec& spec, const std::string& scalar) const {
-    const auto found =
-        after_trials(spec, [&](const auto& options) { return app::estimate_run(spec, scalar, options); });
+    const auto found = after_trials(
+        spec, [&](const auto& options) { return app::estimate_run(spec, scalar, options); });
     if (found.interrupted) return after_signals(interrupted);
     io::print("{}", found.text());
     return after_signals(scalar.empty() && !found.undecided.empty() ? undecided : ok);
@@ -167,13 +166,14 @@ inline int end_of_study(const std::optional<app::StudyResult>& result, bool quie
   }
   const auto& c = result->counts;
   if (!quiet)
-    io::print("{}{}: {} reused, {} run now, {} failed{}\nTables and their page are in {}\n", result->optimum,
-              counted(c.total, "run"), c.kept, c.ran, c.failed, result->interrupted ? ", interrupted" : "",
-              result->folder);
+    io::print("{}{}: {} reused, {} run now, {} failed{}\nTables and their page are in {}\n",
+        result->optimum, counted(c.total, "run"), c.kept, c.ran, c.failed,
+        result->interrupted ? ", interrupted" : "", result->folder);
   return c.failed > 0 ? some_runs_failed : ok;
 }
 
-inline const std::string every = "how often to save the run's state, \"10 min\" or \"2 s simulated\"";
+inline const std::string every =
+    "how often to save the run's state, \"10 min\" or \"2 s simulated\"";
 inline constexpr const char* quiet_run = "print no progress line and no result table";
 
 struct Run : RunCommand {
@@ -189,37 +189,36 @@ struct Run : RunCommand {
         "");
     command.add_option("--out", folder_, "folder for the results (default: out/<case name>)");
     add_checked(command, "--precision", precision_, precisions,
-                "scalar of the run, one that edmill --version lists (default: that of the case)");
+        "scalar of the run, one that edmill --version lists (default: that of the case)");
     add_checked(command, "--shadow", shadow_, precisions,
-                "also run in this wider scalar and report when the two runs diverge");
+        "also run in this wider scalar and report when the two runs diverge");
     add_checked(command, "--digits", digits_, CLI::Range(1, 100000),
-                "number of correct digits in every event and number; edmill chooses the precision and "
-                "verifies it")
+        "number of correct digits in every event and number; edmill chooses the precision and "
+        "verifies it")
         ->excludes("--precision");
     command.add_flag("--estimate", estimate_,
-                     "estimate events, digits, time and memory of the run without running it");
-    auto* check = command.add_flag(
-        "--check", check_,
+        "estimate events, digits, time and memory of the run without running it");
+    auto* check = command.add_flag("--check", check_,
         "also find out what the dose rate depends on, by six more runs with another seed, half of "
         "the least separation speed, and other restitution and friction (default with --report if "
         "the run has fewer than a million impacts)");
-    command.add_option("--checkpoint", checkpoint_, every + " (default: never)")->excludes("--shadow");
+    command.add_option("--checkpoint", checkpoint_, every + " (default: never)")
+        ->excludes("--shadow");
     command.add_flag("--report", report_, "also write report.html and the tables that it shows");
     check->excludes("--checkpoint");
     add_checked(command, "--uncertainty", uncertainty_, CLI::Range(0.001, 1.0),
-                "uncertainty of restitution and friction for --check (default: 0.1)");
-    auto* seeds =
-        add_checked(command, "--seeds", seeds_, CLI::Range(2, 100000),
-                    "number of runs on all cores, with the seed of the case and the following ones: reports "
-                    "their common result and the steady states in which they settle");
+        "uncertainty of restitution and friction for --check (default: 0.1)");
+    auto* seeds = add_checked(command, "--seeds", seeds_, CLI::Range(2, 100000),
+        "number of runs on all cores, with the seed of the case and the following ones: reports "
+        "their common result and the steady states in which they settle");
     seeds->excludes("--shadow", "--checkpoint", "--report", "--check", "--digits");
     command.add_flag("--quiet", quiet_, quiet_run);
     command.add_option("--until-precision", until_precision_,
-                       "run until the 95 % interval of the dose rate is this fraction of the rate, \"1%\" or "
-                       "0.01, for up to 100 times the end time of the case, or to a run.end_time given with "
-                       "--set");
+        "run until the 95 % interval of the dose rate is this fraction of the rate, \"1%\" or "
+        "0.01, for up to 100 times the end time of the case, or to a run.end_time given with "
+        "--set");
     command.add_option("--target-dose", target_,
-                       "target dose of the powder, \"10 kJ/g\": also report the milling time");
+        "target dose of the powder, \"10 kJ/g\": also report the milling time");
   }
   int run() {
     auto spec = given_.read();
@@ -230,24 +229,23 @@ struct Run : RunCommand {
     if (settings != given_.overrides) spec = casefile::parse_case(spec.text, spec.file, settings);
     return seeds_ > 0 ? run_seeds(settings) : run_case(spec);
   }
-
  private:
   /// Adds the settings of --until-precision: the stop rule, and a distant end time if none is set.
-  void run_until_precision(const casefile::CaseSpec& spec, std::vector<std::string>& settings) const {
+  void run_until_precision(
+      const casefile::CaseSpec& spec, std::vector<std::string>& settings) const {
     const double part = part_of_one("--until-precision", until_precision_);
     settings.push_back(fmt::format("run.dose_rate_precision={}", part));
     const bool limited = std::any_of(settings.begin(), settings.end(),
-                                     [](const auto& s) { return s.starts_with("run.end_time="); });
+        [](const auto& s) { return s.starts_with("run.end_time="); });
     if (!limited && spec.end_time)
       settings.push_back(fmt::format("run.end_time=\"{} s\"", 100 * spec.end_time->to<double>()));
   }
 
   int run_seeds(const std::vector<std::string>& settings) {
     const auto folder = folder_.empty() ? "out/" + name_of(given_.file) : folder_;
-    app::SeedsOptions options{{.file = given_.file, .folder = folder, .quiet = quiet_, .estimate = estimate_},
-                              settings,
-                              precision_,
-                              seeds_};
+    app::SeedsOptions options{
+        {.file = given_.file, .folder = folder, .quiet = quiet_, .estimate = estimate_}, settings,
+        precision_, seeds_};
     return interruptible(options, [&] { return end_of_study(app::seeds(options), quiet_); });
   }
 
@@ -259,7 +257,8 @@ struct Run : RunCommand {
 
 struct Demo : RunCommand {
   static constexpr const char* name = "demo";
-  static constexpr const char* what = "simulate an example, 28 balls in a SPEX 8000, and write its report";
+  static constexpr const char* what =
+      "simulate an example, 28 balls in a SPEX 8000, and write its report";
 
   void add_options(CLI::App& command) {
     command.add_option("--out", folder_, "folder for the results (default: out/demo)");
@@ -292,9 +291,10 @@ struct Report {
       "make the HTML page of a run from its files, or a page that compares several runs";
 
   void add_options(CLI::App& command) {
-    add_required(command, "folder", folders_, "folder of a run, or folders of several runs to compare");
-    command.add_option("--out", file_,
-                       "file for the page that compares several runs (default: comparison.html)");
+    add_required(
+        command, "folder", folders_, "folder of a run, or folders of several runs to compare");
+    command.add_option(
+        "--out", file_, "file for the page that compares several runs (default: comparison.html)");
     command.add_flag("--quiet", quiet_, "do not print the path of the page");
   }
   int run() {
@@ -309,7 +309,6 @@ struct Report {
     if (!quiet_) io::print("The report is {}\n", page.string());
     return ok;
   }
-
  private:
   std::vector<std::string> folders_;
   std::string file_;

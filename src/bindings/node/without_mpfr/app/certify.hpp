@@ -1,5 +1,5 @@
-// The declarations of app/certify.hpp that the commands need, for builds without MPFR and Arb. The functions
-// report what is missing, so that all options and all results are of one kind.
+// The declarations of app/certify.hpp that the commands need, for builds without MPFR and Arb. The
+// functions report what is missing, so that all options and all results are of one kind.
 #pragma once
 
 #include <atomic>
@@ -48,12 +48,15 @@ using ProveOptions = Options;
 
 Evidence certify(const casefile::CaseSpec& spec, const Options& options);
 void require_wider(const std::string& precision, const std::string& wider, const std::string& what);
-Evidence shadow(const casefile::CaseSpec& spec, const std::string& precision, const std::string& wider,
-                const std::atomic<bool>* interrupt);
+Evidence shadow(const casefile::CaseSpec& spec, const std::string& precision,
+    const std::string& wider, const std::atomic<bool>* interrupt);
 Evidence find_digits(const casefile::CaseSpec& spec, const Options& options);
-Evidence estimate_run(const casefile::CaseSpec& spec, const std::string& precision, const Options& options);
+Evidence estimate_run(
+    const casefile::CaseSpec& spec, const std::string& precision, const Options& options);
 Proof prove(const casefile::CaseSpec& spec, const Options& options);
-std::size_t right_events(const std::string& precision, const casefile::CaseSpec& spec, const Proof& proof);
-std::vector<std::string> check_certificate(const casefile::CaseSpec& spec, const std::string& certificate);
+std::size_t right_events(
+    const std::string& precision, const casefile::CaseSpec& spec, const Proof& proof);
+std::vector<std::string> check_certificate(
+    const casefile::CaseSpec& spec, const std::string& certificate);
 
 }  // namespace edmill::app
