@@ -8,7 +8,6 @@
 #include <sstream>
 
 #include "base/clean_text.hpp"
-#include "plot/ticks.hpp"
 
 namespace edmill::plot {
 

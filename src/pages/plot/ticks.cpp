@@ -1,9 +1,9 @@
-#include "plot/ticks.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "plot/chart.hpp"
 
 namespace edmill::plot {
 

@@ -18,7 +18,6 @@ using model::ChainMotion;
 using plot::add;
 using plot::pixel;
 using Points = std::vector<Vec3<double>>;
-
 using Flat = plot::Points::value_type;
 
 /// Which axes point to the right and up.

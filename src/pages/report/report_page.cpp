@@ -50,8 +50,8 @@ std::string ball_text(const casefile::CaseSpec& spec, const casefile::BallSpec& 
       in_file(".density").value_or(brief(ball.density.to<double>()) + " kg/m\u00b3"));
 }
 
-/// Adds a few words to the card of a dose rate or of a milling time for each warning that makes it
-/// doubtful, with a link to the warning.
+/// Says on the card of a dose rate or milling time what makes it doubtful, with links to the
+/// warnings.
 void add_doubts(pugi::xml_node card, const io::Facts& f) {
   for (const auto& [kind, text] : {std::pair{"several_states", "other seeds may settle elsewhere"},
            std::pair{"transient", "not steady yet"},
@@ -67,9 +67,8 @@ void add_headline(pugi::xml_node main, const RunFolder& run) {
   const auto& f = run.facts;
   auto section = add_section(main, "results", "Results");
   add(section, "p", {},
-      fmt::format(
-          "{} collisions between {} s and {} s of simulated time, {} of them contacts at rest, "
-          "which give {} of the dose.",
+      fmt::format("{} collisions between {} s and {} s of simulated time, {} of them contacts at "
+                  "rest, which give {} of the dose.",
           brief(f.number("collisions/total"), 12), brief(f.number("start_time"), 12),
           brief(f.number("end_time"), 12),
           percent(f.find("least_separation/impact_share").value_or(0)),

@@ -24,8 +24,7 @@ void add_report_outputs(casefile::CaseSpec& spec);
 
 /// Writes report.html into the folder of a run.
 /// @return its place
-/// @throws InputError when the folder has no complete run, a table is wrong, or another process
-/// writes there
+/// @throws InputError when the folder has no complete run or is in use, or a table is wrong
 std::filesystem::path write_report(const std::filesystem::path& folder);
 /// Writes the page as `write_report` does. @pre the caller holds the folder's lock
 std::filesystem::path put_report(const std::filesystem::path& folder);
@@ -44,8 +43,8 @@ std::string study_page(
 std::string result_table(const io::Facts& summary, const model::Partners& partners);
 
 /// An SVG with three views of a mill's motion, along z, x and y: the vessel at time 0 and at three
-/// later quarters of a period of the clock, the paths of its centre and of one of its points, and
-/// the joints of a chain at time 0, numbered from the ground: axes of rotations dashed, arms of
+/// later quarters of a period of the clock, the paths of its centre and of one of its points, and a
+/// chain's joints at time 0, by number from the ground: dashed axes of rotations, arms of
 /// translations.
 std::string mill_drawing(const model::Mill<double>& mill);
 

@@ -1,5 +1,3 @@
-#include "report/run_folder.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,6 +15,7 @@
 #include "model/variables.hpp"
 #include "report/embedded.hpp"
 #include "report/report_page.hpp"
+#include "report/sections.hpp"
 
 namespace edmill::report {
 
@@ -50,8 +49,7 @@ double largest_energy(const casefile::CaseSpec& spec) {
   return std::log10(heaviest * square);
 }
 
-/// Spectra of energy: from 1e-9 to 1 J, or nine decades below the most of very small or large
-/// mills.
+/// Spectra of energy from 1e-9 to 1 J, or nine decades below the most in very small or large mills.
 std::string energy_spectra(const casefile::CaseSpec& spec) {
   const double most = largest_energy(spec);
   const int top =

@@ -6,7 +6,6 @@
 
 #include "base/scalar_list.hpp"
 #include "output/table_output.hpp"
-#include "output/tallies.hpp"
 
 namespace edmill::output {
 
@@ -81,9 +80,7 @@ template <class Real> class WallCells {
     std::size_t first;  ///< of its cells
     int id, part;       ///< of the wall, and the number of its part if it is a body
 
-    std::size_t cell(std::size_t column, std::size_t row) const {
-      return first + row * columns + column;
-    }
+    auto cell(std::size_t column, std::size_t row) const { return first + row * columns + column; }
     bool has(model::Coordinate c) const {
       const auto own = surface.coordinates();
       return surface.has_coordinates() && std::find(own.begin(), own.end(), c) != own.end();
@@ -134,8 +131,8 @@ template <class Real> class WallCells {
     const auto place = wall.surface.map(point);
     return wall.cell(part(place.u, wall.columns), part(place.v, wall.rows));
   }
-  /// The one of `count` equal parts of [0, 1] with a value; one outside, by rounding, is in the
-  /// first or last.
+  /// The one of `count` equal parts of [0, 1] that has a value; the nearest if rounding moved it
+  /// out.
   static std::size_t part(const Real& value, std::size_t count) {
     if (!(value > 0)) return 0;
     const Real place = value * Real(count);

@@ -37,8 +37,8 @@ Real path_length(const Vec3<Real>& velocity, const Vec3<Real>& gravity, const Re
   using std::sqrt;
   const Real strength = norm<Real>(gravity);
   if (strength == 0) return norm<Real>(velocity) * time;
-  // u: speed along gravity, w: across. L = [u sqrt(u^2 + w^2) + w^2 asinh(u / w)] / 2g between the
-  // ends.
+  // u: speed along gravity, w: across. L = [u sqrt(u^2 + w^2) + w^2 asinh(u / w)] / 2g, end less
+  // start.
   const Vec3<Real> down = gravity * (1 / strength);
   const Real last = dot<Real>(velocity, down), first = last - strength * time;
   const Real across2 = squared_norm<Real>(velocity - down * last);
@@ -64,8 +64,8 @@ Real path_length(const Vec3<Real>& velocity, const Vec3<Real>& gravity, const Re
   return arc / (2 * strength);
 }
 
-/// One impact, for outputs and for the formulas of model/impact_variables.def. Before and after
-/// mean just before and just after the impact.
+/// One impact, for outputs and for the formulas of model/impact_variables.def; just before and
+/// after it.
 template <class Real> struct ImpactFacts {
   const engine::Impact<Real>& impact;
   const engine::Simulation<Real>& simulation;  ///< just after the impact

@@ -97,8 +97,8 @@ template <class Real> class SnapshotOutput : public SceneOutput<Real> {
     pages_.emplace_back(f.impact.index, x3d_text(s));
   }
  private:
-  /// The vessel frames at `time` and throughout a drive period, so that all pictures of a periodic
-  /// motion have the same viewpoint.
+  /// The vessel frames at `time` and throughout a drive period: pictures of one motion share a
+  /// view.
   static std::vector<Frame<double>> frames_around(
       const model::AnyMotion<Real>& motion, double time) {
     constexpr int parts = 64;
@@ -113,8 +113,7 @@ template <class Real> class SnapshotOutput : public SceneOutput<Real> {
   std::vector<std::pair<std::uint64_t, std::string>> pages_;
 };
 
-/// A file with a frame at the start of the record, after each interval, and at the end of the
-/// record.
+/// A file with a frame at the start of the record, after each interval, and at its end.
 template <class Real>
 class FramesOutput : public OneFileOutput<Real, io::AtomicFile, SceneOutput<Real>> {
  public:
@@ -218,24 +217,23 @@ template <class Real> class AnimationOutput : public FramesOutput<Real> {
     to_fractions(paths_.contact);
     const auto& motion = simulation.mill().motion;
     const auto& vessel = simulation.mill().vessel;
-    // The vessel has a key for each frame at least, and enough to show each turn of the drive or a
-    // piston.
+    // The vessel has a key for each frame at least, and 64 for each turn of the drive or a piston.
+    const auto& bodies = simulation.mill().bodies;
     double frequency = 1 / static_cast<double>(motion.period());
+    const auto see = [&](const Real& f) {
+      frequency = std::max(frequency, std::abs(static_cast<double>(f)));
+    };
     if (const auto* pistons = vessel.pistons())
       for (const auto& piston : pistons->given())
-        for (const auto& swing : piston.swings)
-          frequency = std::max(frequency, std::abs(static_cast<double>(swing.frequency)));
-    for (const auto& body : simulation.mill().bodies)
+        for (const auto& swing : piston.swings) see(swing.frequency);
+    for (const auto& body : bodies)
       for (const auto& joint : body.motion.joints().list) {
-        if (joint.rotates)
-          frequency = std::max(frequency, std::abs(static_cast<double>(joint.speed)));
-        for (const auto& swing : joint.swings)
-          frequency = std::max(frequency, std::abs(static_cast<double>(swing.frequency)));
+        if (joint.rotates) see(joint.speed);
+        for (const auto& swing : joint.swings) see(swing.frequency);
       }
     const double turns = length * frequency;
     const auto keys = std::max({this->spec.animation.min_frames, frames_ - 1,
         static_cast<std::uint64_t>(std::ceil(64 * turns))});
-    const auto& bodies = simulation.mill().bodies;
     paths_.bodies.resize(bodies.size());
     std::vector<Vec3<double>> at_first;  // the pistons
     for (std::uint64_t k = 0; k <= keys; ++k) {

@@ -104,11 +104,17 @@ void add_wall(pugi::xml_node parent, const model::Mesh& wall, const casefile::Co
 
 std::string name_of_wall(std::size_t wall) { return fmt::format("wall_{}", wall); }
 
+/// A Transform at the place of a frame.
+pugi::xml_node add_frame(
+    pugi::xml_node parent, const std::string& name, const Frame<double>& frame) {
+  const auto turn = rotation(frame);
+  return add(parent, "Transform",
+      {{"DEF", name}, {"translation", triple(frame.origin)}, {"rotation", turn}});
+}
+
 /// A wall that moves in the vessel has a Transform of its own.
 void add_vessel(pugi::xml_node parent, const SceneVessel& vessel, const SceneMotion* motion) {
-  auto place = add(parent, "Transform",
-      {{"DEF", "vessel"}, {"translation", triple(vessel.frame.origin)},
-          {"rotation", rotation(vessel.frame)}});
+  auto place = add_frame(parent, "vessel", vessel.frame);
   for (std::size_t id = 0; id < vessel.walls.size(); ++id) {
     const bool moves = motion &&
         std::any_of(motion->pistons.begin(), motion->pistons.end(),
@@ -119,13 +125,6 @@ void add_vessel(pugi::xml_node parent, const SceneVessel& vessel, const SceneMot
 }
 
 std::string name_of_body(std::size_t body) { return fmt::format("body_{}", body); }
-
-void add_body(pugi::xml_node parent, const SceneVessel& body, const std::string& name) {
-  auto place = add(parent, "Transform",
-      {{"DEF", name}, {"translation", triple(body.frame.origin)},
-          {"rotation", rotation(body.frame)}});
-  add_wall(place, body.walls[0], body.colour, 0);
-}
 
 /// Drives one field of the node `target` by texts of the values at keys.
 void add_interpolator(pugi::xml_node scene, const char* type, const std::string& name,
@@ -184,7 +183,8 @@ std::string x3d_text(const Scene& s, const SceneMotion* motion) {
       {{"description", "mill"}, {"position", triple(s.eye)},
           {"centerOfRotation", triple(s.target)}});
   add_vessel(scene, s.vessel, motion);
-  for (std::size_t k = 0; k < s.bodies.size(); ++k) add_body(scene, s.bodies[k], name_of_body(k));
+  for (std::size_t k = 0; const auto& body : s.bodies)
+    add_wall(add_frame(scene, name_of_body(k++), body.frame), body.walls[0], body.colour, 0);
   for (std::size_t i = 0; i < s.balls.size(); ++i)
     add_ball(scene, s.balls[i], fmt::format("ball_{}", i));
   if (s.contact) add_ball(scene, *s.contact, "contact_point");
@@ -245,20 +245,18 @@ std::string vtp_balls(const Scene& s) {
   auto piece = add_piece(file, s.time, s.balls.size(), s.balls.size(), 0);
   std::vector<std::vector<int>> cells;
   for (int i = 0; i < static_cast<int>(s.balls.size()); ++i) cells.push_back({i});
-  const auto of_each = [&](auto&& text_of) { return list_of(s.balls, text_of); };
+  const auto add_each = [&](pugi::xml_node parent, const char* name, int components,
+                            auto&& text_of) {
+    add_array(parent, name, "Float64", components, list_of(s.balls, text_of));
+  };
   auto data = piece.append_child("PointData");
-  add_array(data, "diameter [m]", "Float64", 1,
-      of_each([](auto& ball) { return numbers({2 * ball.radius}); }));
-  add_array(data, "velocity [m/s]", "Float64", 3,
-      of_each([](auto& ball) { return triple(ball.velocity); }));
-  add_array(
-      data, "spin [rad/s]", "Float64", 3, of_each([](auto& ball) { return triple(ball.spin); }));
-  add_array(data, "milling_dose [J]", "Float64", 1,
-      of_each([](auto& ball) { return numbers({ball.milling_dose}); }));
+  add_each(data, "diameter [m]", 1, [](auto& ball) { return numbers({2 * ball.radius}); });
+  add_each(data, "velocity [m/s]", 3, [](auto& ball) { return triple(ball.velocity); });
+  add_each(data, "spin [rad/s]", 3, [](auto& ball) { return triple(ball.spin); });
+  add_each(data, "milling_dose [J]", 1, [](auto& ball) { return numbers({ball.milling_dose}); });
   add_array(
       data, "ball", "Int32", 1, list_of(cells, [](auto& cell) { return std::to_string(cell[0]); }));
-  add_array(piece.append_child("Points"), "", "Float64", 3,
-      of_each([](auto& ball) { return triple(ball.position); }));
+  add_each(piece.append_child("Points"), "", 3, [](auto& ball) { return triple(ball.position); });
   add_cells(piece, "Verts", cells);
   return text_of(file.document);
 }

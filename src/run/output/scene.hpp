@@ -1,5 +1,4 @@
-// Pictures of the mill as X3D (ISO/IEC 19775-1) and as VTK XML, in double: nothing follows from
-// them.
+// Pictures of the mill as X3D (ISO/IEC 19775-1) and as VTK XML, in double: no result needs them.
 #pragma once
 
 #include <optional>

@@ -7,7 +7,6 @@
 
 #include "base/scalar_list.hpp"
 #include "output/table_output.hpp"
-#include "output/tallies.hpp"
 
 namespace edmill::output {
 
@@ -63,8 +62,7 @@ struct SpectraKeys {
 template <class Real> std::vector<Real> edges_of(const SpectraKeys& keys) {
   using Fine = std::conditional_t<std::is_void_v<Wider<Real>>, Real, Wider<Real>>;
   const Fine first = keys.low.to<Fine>(), last = keys.high.to<Fine>();
-  const Fine short_of_last =
-      last * (1 - Fine(1) / 1000000000);  // no bin that exists only by rounding
+  const Fine short_of_last = last * (1 - Fine(1) / 1000000000);  // no bin by rounding alone
   std::vector<Real> edges{keys.low.to<Real>()};
   for (std::uint64_t k = 1;; ++k) {
     using std::pow;
@@ -121,22 +119,18 @@ template <class Real> class SpectraOutput : public TableOutput<Real> {
         this->put_bin(edges_, bin);
         const auto put = [&](const auto& value) { this->put(value); };
         const auto& tallies = spectra_[s][bin];
-        put_partners(tallies, put, [](const Tally<Real>& t) { return t.impacts; });
-        put_partners(tallies, put, [](const Tally<Real>& t) { return t.energy.value(); });
+        put_partners(tallies, put, [](const auto& t) { return t.impacts; });
+        put_partners(tallies, put, [](const auto& t) { return t.energy.value(); });
       }
   }
  private:
-  using Spectrum =
-      std::vector<PartnerTally<Real>>;  ///< below the first edge, the bins, above the last
+  using Spectrum = std::vector<PartnerTally<Real>>;  ///< below all bins, the bins, above all
 
-  void add(
-      const ImpactFacts<Real>& f, std::size_t spectrum, const Real& value, const Real& energy) {
-    of_partner(f, spectra_[spectrum][bin_of<Real>(edges_, value)]).add(energy);
+  void add(const ImpactFacts<Real>& f, std::size_t place, const Real& value, const Real& energy) {
+    of_partner(f, spectra_[place][bin_of<Real>(edges_, value)]).add(energy);
   }
 
-  const std::vector<std::string>& names() const {
-    return spectra_by[static_cast<std::size_t>(by_)];
-  }
+  const auto& names() const { return spectra_by[static_cast<std::size_t>(by_)]; }
 
   BinnedBy by_;
   std::vector<Real> edges_;
@@ -204,10 +198,8 @@ template <class Real> class RatesAboveOutput : public TableOutput<Real> {
         for (int p = 0; p < partners.count(); ++p) above[p].add(from_[bin][p]);
       this->put(cutoffs_[k]);
       const auto put = [&](const Real& value) { this->put(value); };
-      put_partners(
-          above, put, [&](const Tally<Real>& t) { return Real(Real(t.impacts) / duration); });
-      put_partners(
-          above, put, [&](const Tally<Real>& t) { return Real(t.energy.value() / duration); });
+      put_partners(above, put, [&](const auto& t) { return Real(Real(t.impacts) / duration); });
+      put_partners(above, put, [&](const auto& t) { return Real(t.energy.value() / duration); });
     }
   }
  private:

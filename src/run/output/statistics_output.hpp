@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "output/table_output.hpp"
-#include "output/tallies.hpp"
 
 namespace edmill::output {
 
@@ -69,11 +68,10 @@ struct FrequencyKeys {
   static void keys(auto& output, auto&& row) {
     auto& f = output.frequency;
     row(Parameter{"variable", "a number"}.as("name").usually("required"), f.name);
-    const auto variable = model::find_variable(f.name);
-    const bool known =
-        variable && model::impact_variables[*variable].kind == model::VariableKind::number;
-    const auto dimension =
-        known ? casefile::dimension_of(model::impact_variables[*variable].unit) : Dimension::none;
+    const auto place = model::find_variable(f.name);
+    const auto* variable = place ? &model::impact_variables[*place] : nullptr;
+    const bool known = variable && variable->kind == model::VariableKind::number;
+    const auto dimension = known ? casefile::dimension_of(variable->unit) : Dimension::none;
     const auto bound = [&](const char* key, const char* meaning, Quantity& value) {
       const auto p = Parameter{key, dimension, meaning}.as("as the variable");
       if (known)

@@ -5,7 +5,6 @@
 #include "base/trigonometry.hpp"
 #include "model/variables.hpp"
 #include "output/table_output.hpp"
-#include "output/tallies.hpp"
 
 namespace edmill::output {
 

@@ -1,9 +1,9 @@
-#include "plot/ticks.hpp"
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+
+#include "plot/chart.hpp"
 
 namespace {
 

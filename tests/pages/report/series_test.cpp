@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "model/variables.hpp"
-#include "report/run_folder.hpp"
+#include "report/sections.hpp"
 
 namespace {
 

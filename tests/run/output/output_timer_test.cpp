@@ -1,12 +1,11 @@
 // When outputs record, and where their intervals end.
-#include "output/output_timer.hpp"
-
 #include <gtest/gtest.h>
 
 #include <vector>
 
 #include "core.hpp"
-#include "output/tallies.hpp"
+#include "output/output.hpp"
+#include "output/table_output.hpp"
 
 namespace edmill::output {
 namespace {
