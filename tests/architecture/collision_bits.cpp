@@ -1,5 +1,7 @@
 // The collision log of a case in double, and on standard error its summary: extending_test builds
-// it with changed sources. usage: collision_bits CASE.toml COLLISIONS [SETTING...]
+// it with changed sources.
+//
+// usage: collision_bits CASE.toml COLLISIONS [SETTING...]
 #include <cstdlib>
 #include <iostream>
 

@@ -1,7 +1,10 @@
 // Compares the collision log of any code with a case of the suite: `c++ -std=c++17 compare.cpp`.
-// CC0 1.0. usage: compare EVENTS.csv LOG.csv COUNT TOLERANCE     (the numbers that suite.json of
-// the case has) Numbers are compared relative to the largest of a column. Exit code: 0 they agree,
-// 1 differ, 2 bad file.
+// CC0 1.0.
+//
+// usage: compare EVENTS.csv LOG.csv COUNT TOLERANCE    (COUNT, TOLERANCE: suite.json of the case)
+//
+// Numbers are compared relative to the largest of a column. Exit code: 0 they agree, 1 they differ,
+// 2 a file cannot be read.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

@@ -1,8 +1,10 @@
-// Compares statistics that any code found with a case of the suite: `c++ -std=c++17
-// compare_statistics.cpp`. CC0 1.0. usage: compare_statistics STATISTICS.csv FOUND.csv [FACTOR]
+// Compares the statistics of any code with a case: `c++ -std=c++17 compare_statistics.cpp`. CC0 1.0.
+//
+// usage: compare_statistics STATISTICS.csv FOUND.csv [FACTOR]
+//
 // FOUND has the header name,value[,uncertainty]; uncertainties are standard ones, of the mean. A
-// value agrees if it differs by no more than the case's tolerance and FACTOR (3 unless given)
-// combined standard uncertainties. Exit code: 0 all agree, 1 one differs, 2 a file cannot be read.
+// value agrees if it differs by no more than the tolerance of the case and FACTOR (default: 3)
+// combined standard uncertainties. Exit code: 0 all agree, 1 one differs, 2 bad file.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

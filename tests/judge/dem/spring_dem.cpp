@@ -1,6 +1,7 @@
 // A DEM code of springs and dashpots, linear ones or Hertz's, in a vibrated box, with mistakes by
-// name: frames to standard output, as LAMMPS writes them. Shares no code with edmill. usage:
-// spring_dem [NAME=VALUE...]   a name that it does not have is an error
+// name: frames to standard output, as LAMMPS writes them. Shares no code with edmill.
+//
+// usage: spring_dem [NAME=VALUE...]   a name that it does not have is an error
 #include <array>
 #include <cmath>
 #include <cstdio>
