@@ -1,4 +1,4 @@
-// Compares the statistics of any code with a case: `c++ -std=c++17 compare_statistics.cpp`. CC0 1.0.
+// Compares the statistics of any code with a case: `c++ -std=c++17 compare_statistics.cpp`. (CC0)
 //
 // usage: compare_statistics STATISTICS.csv FOUND.csv [FACTOR]
 //
