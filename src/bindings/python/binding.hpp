@@ -115,7 +115,7 @@ auto with_interrupt(const auto& work) {
   }
   return result;
 }
-/// The same for work(arguments..., options) with a flag among the options.
+/// Calls work(arguments..., options) in the same way, with the flag among the options.
 auto with_interrupt(auto options, const auto& work, const auto&... arguments) {
   return with_interrupt([&](std::atomic<bool>* flag) {
     options.interrupt = flag;

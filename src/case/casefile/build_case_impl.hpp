@@ -167,7 +167,7 @@ class Crowd {
     return apart;
   }
   double skin() const { return slimmest_ / 2; }
-  /// Of the centre [m].
+  /// Least distance of the centre from the walls [m].
   double distance_from_walls(const CrowdBall& ball) const {
     return ball.radius * (1 + tolerated) + share_ * ball.gap_wall;
   }

@@ -45,7 +45,10 @@ class Archive {
   /// @throws InputError when there are too few bytes to load
   template <class... T> void operator()(T&... values) { (one(values), ...); }
   void raw(void* data, std::size_t size) {
-    if (!loading_) return void(bytes_.append(static_cast<const char*>(data), size));
+    if (!loading_) {
+      bytes_.append(static_cast<const char*>(data), size);
+      return;
+    }
     need(size);
     rest_.copy(static_cast<char*>(data), size);
     rest_.remove_prefix(size);

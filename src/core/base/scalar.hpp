@@ -1,4 +1,4 @@
-// What the core requires of a scalar type; base/scalar_list.hpp lists the scalars themselves.
+// Requirements on a scalar type; base/scalar_list.hpp lists the scalars.
 #pragma once
 
 #include <cmath>

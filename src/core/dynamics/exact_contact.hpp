@@ -105,7 +105,7 @@ template <class Real> model::Joints<Real> joints_of(const model::AnyMotion<Real>
 /// The shape of a wall, by the vessel coordinates that its gap depends on.
 template <class Real> struct Shape {
   enum Kind { other, plane, round } kind = other;
-  /// Of a plane its inward normal; of a round wall, one for each coordinate in its radius squared.
+  /// The inward normal of a plane; for a round wall, 1 for each coordinate in its squared radius.
   Vec3<Real> axes{Real(0), Real(0), Real(0)};
   Real distance{0};  ///< of the wall from the centre [m]
 };

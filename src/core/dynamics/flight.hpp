@@ -99,7 +99,7 @@ template <class Real> struct WallQuery {
   Real length;          ///< [s], at most WallSearch::longest_window()
 };
 
-/// What a search in double proves for a wider flight and mill, rounded to double. Times are offsets
+/// Statements proven in double for a wider flight and mill, rounded to double. Times are offsets
 /// [s] in the drive period in which the window begins.
 struct RoughAnswer {
   Verdict verdict = Verdict::undecided;

@@ -395,7 +395,7 @@ auto WallSearch<M, V>::isolate_resting(const Curve& curve, const Point& right) c
 }
 
 /// Follows a ball that certainly overlaps the wall at the start, by rounding, and moves away: the
-/// gap opens, and the search goes on from outside, or the ball turns back: this is the contact.
+/// gap opens, and the search continues from outside, or the ball turns back: this is the contact.
 template <Motion M, Vessel V>
 auto WallSearch<M, V>::follow_overlap(
     const Curve& curve, const Point& start, const Point& right) const -> Bracket {
@@ -513,7 +513,7 @@ auto WallSearch<M, V>::close_in(const Functions& functions, int wall, const Real
     const double flatness = static_cast<double>(slope);
     if (!(flatness < 0)) return std::nullopt;
     const Real newton = -sample.gap[wall] / slope;
-    // What the curvature contributes to the step, and whether another step would change the time.
+    // The contribution of the curvature to the step; true if another step would change the time.
     const auto bent = [&](const auto& size) -> std::pair<Real, bool> {
       using Size = std::decay_t<decltype(size)>;
       const Size square = size * size, length = size < 0 ? -size : size;

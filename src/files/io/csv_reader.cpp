@@ -156,7 +156,7 @@ std::optional<int> CsvReader::whole(
   return bad_field(column, expected);
 }
 
-/// Splits the row that begins in line_ into fields. A line that ends within quotes goes on.
+/// Splits the row that begins in line_ into fields. A row whose line ends within quotes continues.
 bool CsvReader::read_row() {
   constexpr std::size_t longest = 1 << 20;
   for (std::string more; !split(); ++further_lines_) {

@@ -22,7 +22,10 @@ Facts::Texts parts_of(const std::string& path) {
 
 void Facts::set(const std::string& path, Value value) {
   for (auto& [known, old] : values_)
-    if (known == path) return void(old = std::move(value));
+    if (known == path) {
+      old = std::move(value);
+      return;
+    }
   values_.emplace_back(path, std::move(value));
 }
 

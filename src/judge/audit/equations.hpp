@@ -202,7 +202,7 @@ struct Tolerances {
     return relative * speed + 2 * rounding_of(t) * gravity;
   }
 
-  /// What the wall's uncertainty contributes to a difference of relative velocities [m/s].
+  /// Contribution of the wall's uncertainty to a difference of relative velocities [m/s].
   /// @param scale  bound of the velocities; relative ones are at most three times as large
   /// @param bend   rotation of the normal per displacement of the ball in the vessel [1/m]
   double of_wall(double t, double scale, double bend, double radius) const {

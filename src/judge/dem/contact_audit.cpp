@@ -191,12 +191,12 @@ struct Value {
 
 const Value restitution{"restitution", "(2.23')", 0.003, 0.1, 0, 0, &Measured::restitution, 0,
     &Measured::law_restitution};
-/// Of contacts that slide throughout. Loading the tangential spring counts by the inverse of the
-/// slip.
+/// Measured on contacts that slide throughout. Loading the tangential spring counts by the inverse
+/// of the slip.
 const Value friction{"friction", "(2.24')", 0.01, 0, 0.1, 0, &Measured::friction, 0,
     &Measured::law_friction, &Measured::wound};
-/// Of contacts whose slip friction stops. Tangential springs reverse it, with up to twice the
-/// impulse.
+/// Measured on contacts whose slip friction stops. Tangential springs reverse the slip, with up to
+/// twice the impulse.
 const Value sticking{"stopping friction", "(2.24')", 1, 0, 0, 0, &Measured::stopping_friction, 1.5};
 /// In some codes the arm of the torque is shorter by the overlap.
 const Value spin_change{

@@ -37,7 +37,7 @@ bool has_number_of_case(const Hypothesis& tried) {
   });
 }
 
-/// What may differ in a part of the log: terms, and numbers of the contact laws, each law once.
+/// Assumptions that may differ in a part of the log: terms, and the numbers of each contact law.
 Assumptions of_parts(const Assumptions& numbers) {
   std::set<std::string> common;
   const auto last = [](const std::string& key) { return key.substr(key.rfind('.') + 1); };

@@ -47,7 +47,7 @@ double seconds_since(Clock::time_point begin) {
 /// Digits of the wider run that verifies a run with `digits`.
 unsigned wider_than(unsigned digits) { return digits + std::max(20u, digits / 20); }
 
-/// Estimates the number of events to the end of the case by a run in double; tells those so far.
+/// Estimates the number of events to the end of the case by a run in double; reports those so far.
 double count_events(
     const casefile::CaseSpec& spec, const std::atomic<bool>* interrupt, const auto& progress) {
   constexpr double longest = 5;  // [s] of processor time

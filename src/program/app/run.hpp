@@ -47,7 +47,8 @@ struct RunResult {
 /// @throws InterruptedError when the interrupt comes before the first event
 RunResult run(const std::string& precision, casefile::CaseSpec spec, const RunOptions& options);
 
-/// What checkpoints have from the start. @throws InputError for a case that cannot be read again
+/// The part of a checkpoint that does not change during a run. @throws InputError for a case that
+/// cannot be read again
 io::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::string& precision,
     bool report, const std::string& interval);
 

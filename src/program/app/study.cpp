@@ -113,11 +113,13 @@ std::vector<std::string> sections_with(const casefile::CaseSpec& spec, const std
   std::vector<std::string> candidates{"contact", "contact.ball_ball", "contact.ball_wall"}, found;
   for (std::size_t k = 0; k < spec.pairs.size(); ++k)
     candidates.push_back(fmt::format("contact.pair.{}", k));
-  for (const auto& section : candidates) try {
+  for (const auto& section : candidates) {
+    try {
       casefile::value_of_key(spec, section + "." + number);
       found.push_back(section);
     } catch (const InputError&) {  // the case does not give it there
     }
+  }
   return found;
 }
 

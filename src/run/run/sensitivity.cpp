@@ -264,15 +264,17 @@ class Differentiator : private engine::Observer<mpfr> {
   Perturbation with_parameter(
       const std::string& key, const Built& base, const mpfr& step, unsigned step_digits) const {
     const auto value = casefile::value_of_key(spec_, key);
-    for (const int sign : {1, -1}) try {
+    for (const int sign : {1, -1}) {
+      try {
         const auto built = casefile::build_case<mpfr>(casefile::with_value(
             spec_, key, value.plus(sign, step_digits), casefile::SizeLimit::none));
         auto changed = without_change(built);
         changed.step = step * sign;
         changed.initial = change_of_start(base, built, changed.step);
         return changed;
-      } catch (const InputError&) {
+      } catch (const InputError&) {  // tried in the other direction
       }
+    }
     throw InputError(
         fmt::format("--by: found \"{}\", whose value {} can be neither a little larger nor a "
                     "little smaller, expected a parameter that varies continuously",

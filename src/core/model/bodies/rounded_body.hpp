@@ -82,7 +82,7 @@ template <class Real> class RoundedBody {
   static int wall_count() { return 1; }
   static int function_count() { return static_cast<int>(functions); }
   static std::vector<WallInfo> walls() { return {{"body", "the body"}}; }
-  /// Of a box the faces x-, x+, y-, y+, z-, z+ and all of its rounded edges; of a cylinder the
+  /// A box has the faces x-, x+, y-, y+, z-, z+ and all of its rounded edges; a cylinder has the
   /// lower and the upper edge, the side, the lower and the upper end. Parts may have no area.
   std::vector<WallSurface<Real>> surfaces() const {
     const Real &a = half_[0], &b = half_[1], &c = half_[2], &r = rounding_;
@@ -280,7 +280,7 @@ template <class Real> class RoundedBody {
     return outside_[i] < 0 ? Real(-v[i]) : v[i];
   }
 
-  /// Of the gap, as twice the given one, and of the borders.
+  /// Derivatives of the gap, twice the given one, and of the borders.
   /// @param across, along  of (x^2 + z^2) / 2 and of the coordinates
   PerWall<Real> derivatives(
       const Real& half_of_gap, const Real& across, const Vec3<Real>& along) const {

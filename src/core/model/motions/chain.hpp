@@ -199,7 +199,7 @@ SweptBox<Real> swept_box(const Joints<Real>& joints, const Vec3<Real>& sizes) {
 /// Position, orientation and motion of the vessel frame, in inertial coordinates.
 template <class Real> struct ChainPose {
   Vec3<Real> x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};  ///< axes of the vessel frame
-  /// Of its origin [m], [m/s], [m/s^2].
+  /// Position [m], velocity [m/s] and acceleration [m/s^2] of its origin.
   Vec3<Real> centre{0, 0, 0}, velocity{0, 0, 0}, acceleration{0, 0, 0};
   Vec3<Real> omega{0, 0, 0},
       omega_rate{0, 0, 0};  ///< angular velocity and its rate [rad/s], [rad/s^2]
