@@ -39,7 +39,7 @@ install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT doc)
 # The manual, once docs/sphinx/make.sh has made it.
 install(DIRECTORY ${CMAKE_BINARY_DIR}/manual/html DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc OPTIONAL
-        PATTERN .doctrees EXCLUDE PATTERN _sources EXCLUDE)
+        PATTERN _sources EXCLUDE)
 # The mill in a browser, once it has been built (docs/portability.md).
 install(FILES ${CMAKE_SOURCE_DIR}/build/page/edmill.html DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc OPTIONAL)
 include(cmake/Packages.cmake)

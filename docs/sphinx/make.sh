@@ -29,7 +29,8 @@ if [ -s "$folder/doxygen.log" ]; then
   cat "$folder/doxygen.log" >&2
   exit 1
 fi
-EDMILL_DOXYGEN_XML=$folder/doxygen/xml sphinx-build -q -W --keep-going -c "$root/docs/sphinx" "$root/docs" "$folder/html"
+EDMILL_DOXYGEN_XML=$folder/doxygen/xml \
+  sphinx-build -q -W --keep-going -d "$folder/doctrees" -c "$root/docs/sphinx" "$root/docs" "$folder/html"
 # The mill in a browser, where it has been built (docs/portability.md).
 [ ! -f "$root/build/page/edmill.html" ] || cp "$root/build/page/edmill.html" "$folder/html/mill.html"
 echo "the manual is $folder/html/index.html"
