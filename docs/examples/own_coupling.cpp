@@ -1,5 +1,5 @@
 // A coupling: the dose that the powder has taken changes the restitution of the next run, which
-// goes on from the balls' final states. The fall of the restitution with the dose is an example,
+// continues from the balls' final states. The fall of the restitution with the dose is an example,
 // not a measurement.
 #include <cmath>
 #include <cstdio>

@@ -1,6 +1,6 @@
 'use strict';
-// Engines, each in a worker of its own: the mill goes on while a log is judged. Answers come in the
-// order of the questions.
+// Engines, each in a worker of its own: the mill continues while a log is judged. Answers come in
+// the order of the questions.
 
 const $ = id => document.getElementById(id);
 const read = id => JSON.parse($(id).textContent);
